@@ -15,7 +15,9 @@ from studio.protocol.documents import Arguments, ArgumentView
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from studio.documents.document import Document
+    from studio.documents.runs import LastRun
+    from studio.documents.sites import SiteTable
+    from studio.documents.workspace import Workspace
     from studio.packages.workspace import Location
 
 _NAMES_READ: Final = 1000
@@ -63,17 +65,19 @@ class RoomWorld:
         return tuple(sorted(found))
 
 
-async def form_of(document: Document, request: int) -> Arguments:
+async def form_of(
+    workspace: Workspace, last_run: LastRun, sites: SiteTable, request: int
+) -> Arguments:
     """What an open document is launched with, and could be."""
-    sources = document.sources
-    world = RoomWorld(document.location, sources.overlay())
-    passed, files = sources.arguments, document.files_read
-    found = await asyncio.to_thread(launch_arguments, document.path, passed, world, files)
-    sites = document.board.book.sites.values()
-    values = {one.name: one.value for one in sites if one.kind is SiteKind.ARG and one.value}
+    path, sources = workspace.path, workspace.sources
+    world = RoomWorld(workspace.location, sources.overlay())
+    passed, files = sources.arguments, last_run.files
+    found = await asyncio.to_thread(launch_arguments, path, passed, world, files)
+    of_sites = sites.sites.values()
+    values = {one.name: one.value for one in of_sites if one.kind is SiteKind.ARG and one.value}
     views = tuple(_view(one, passed, values) for one in found)
-    missing = () if document.expansion else _missing(found, passed)
-    return Arguments(request=request, path=document.path, arguments=views, missing=missing)
+    missing = () if last_run.expansion else _missing(found, passed)
+    return Arguments(request=request, path=path, arguments=views, missing=missing)
 
 
 async def form_at(location: Location, request: int) -> Arguments:

@@ -191,8 +191,8 @@ class _Run:
             document.start()
             await document.opened()
             await asyncio.gather(document.checks.settled(), document.robot_checks.settled())
-            self.files_read.update(map(Path, document.files_read))
-            return CheckedFile(document.entry, tuple(map(_as_checked, document.board.found)))
+            self.files_read.update(map(Path, document.last_run.files))
+            return CheckedFile(document.entry, tuple(map(_as_checked, document.findings.all())))
         finally:
             await document.close()
 

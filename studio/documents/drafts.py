@@ -6,22 +6,23 @@ import asyncio
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.description.editing.undo import Change
 from studio.documents.draft_files import Draft, draft_file
-from studio.documents.saving import save_cut
 from studio.errors import DraftError, PackageError
 from studio.problems import Place, Problem, Severity
 from studio.protocol.saving import Restored
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Generator, Iterable
-    from pathlib import Path
+    from collections.abc import Collection, Generator, Iterable, Sequence
 
     from studio.description.editing.undo import KeptSources
-    from studio.documents.document import Document
+    from studio.documents.disk_sync import DiskSync
     from studio.documents.draft_files import DraftFile
+    from studio.documents.findings import Findings
+    from studio.documents.workspace import Workspace
+    from studio.protocol.listeners import Audience
 
 
 _WRITE_AFTER_S: Final = 0.3
@@ -35,11 +36,27 @@ _STEPS_KEPT: Final = 300
 
 
 class Drafts:
-    """Keeps the draft of one document, off the way of its edits."""
+    """Keeps the draft of one document, off the way of its edits.
 
-    def __init__(self, document: Document, data_folder: Path) -> None:
-        self._document, self._data_folder = document, data_folder
-        self._opened_with = document.sources.arguments
+    Args:
+        workspace: The texts that are kept.
+        disk: Reads the files of a restored draft, and all of them when it is discarded.
+        findings: Gets why a draft is not kept, and which save was cut off.
+        audience: Is told what was restored.
+        data_folder: Where drafts are.
+    """
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        disk: DiskSync,
+        findings: Findings,
+        audience: Audience,
+        data_folder: Path,
+    ) -> None:
+        self._workspace, self._sources, self._disk = workspace, workspace.sources, disk
+        self._findings, self._audience, self._data_folder = findings, audience, data_folder
+        self._opened_with = self._sources.arguments
         self._file: DraftFile | None = None
         self._written: KeptSources | None = None
         self._restored = Restored(at="", files=())
@@ -57,13 +74,13 @@ class Drafts:
     def restore(self) -> None:
         """Before the first run: take up what an earlier run of the studio left unsaved."""
         try:
-            self._file = draft_file(self._data_folder, self._document.entry)
+            self._file = draft_file(self._data_folder, self._workspace.entry)
             draft = self._file.read()
         except DraftError as error:
             self._complain(error)
             return
-        self._tell_cut_save(self._file)
-        if draft is not None and draft.entry == self._document.path:
+        self._report_cut_save(self._file)
+        if draft is not None and draft.entry == self._workspace.path:
             self._take(draft)
 
     def note(self, *, shown: bool = True) -> None:
@@ -89,7 +106,7 @@ class Drafts:
     @contextmanager
     def saving(self, files: Collection[str] | None) -> Generator[None]:
         """Write these changed files, or all, inside: a kill meanwhile is told at the next run."""
-        sources = self._document.sources
+        sources = self._sources
         chosen = [one for one in sources.unsaved_files if files is None or one in files]
         if self._file is None:
             yield
@@ -101,7 +118,7 @@ class Drafts:
             yield
         finally:
             journal.end()
-        self._document.board.find("saving", ())
+        self._findings.replace("saving", ())
 
     def forget(self) -> None:
         """The document is closed for good: nothing of it is to come back."""
@@ -123,38 +140,32 @@ class Drafts:
 
     async def discard(self) -> None:
         """Give up what was restored: the files as the disk has them, which undo takes back."""
-        document, sources = self._document, self._document.sources
         self._restored = Restored(at="", files=())
-        document.board.audience.tell(self._restored)
-        opened = self._opened_with
-        values = {one: opened.get(one) for one in sources.arguments.keys() | opened.keys()}
-        if sources.arguments != opened:
-            sources.set_arguments(values, "Discard the restored arguments")
-            await document.follow(Change("", arguments=sources.arguments))
-        await document.saving.reload()
+        self._audience.tell(self._restored)
+        await self._disk.discard(self._opened_with)
 
     def _take(self, draft: Draft) -> None:
-        document, served = self._document, self._document.location.served
-        kept, sources = draft.kept, document.sources
+        served = self._workspace.served
+        kept, sources = draft.kept, self._sources
         texts = tuple(one for one in kept.texts if served.serves(one.file))
         if texts != kept.texts:  # other folders are open than were then
             kept = replace(kept, texts=texts, done=(), undone=())
         if draft.opened_with != self._opened_with:  # whoever names arguments wants these
             kept = replace(kept, arguments=self._opened_with)
         sources.put(kept)
-        document.disk.look([one.file for one in texts])
+        self._disk.refresh([one.file for one in texts])
         if sources.unsaved_files or sources.arguments != self._opened_with:
             self._restored = Restored(at=draft.at, files=sources.unsaved_files)
-            document.board.audience.tell(self._restored)
+            self._audience.tell(self._restored)
 
     def _end_notice(self) -> None:
         """What was saved or taken back needs no word any more."""
         if not self._restored.at:
             return
-        sources = self._document.sources
+        sources = self._sources
         if not (sources.unsaved_files or sources.arguments != self._opened_with):
             self._restored = Restored(at="", files=())
-            self._document.board.audience.tell(self._restored)
+            self._audience.tell(self._restored)
 
     async def _write_while_noted(self) -> None:
         while self._is_noted and self._not_shown is None:
@@ -167,36 +178,36 @@ class Drafts:
 
     async def _write(self) -> None:
         self._is_noted = False
-        kept = _bounded(self._document.sources.kept())
+        kept = _bounded(self._sources.kept())
         if kept == self._written or self._file is None:
             return
         at = datetime.now(UTC).isoformat(timespec="seconds")
-        draft = Draft(self._document.path, at, self._opened_with, kept)
+        draft = Draft(self._workspace.path, at, self._opened_with, kept)
         try:
             await asyncio.to_thread(_write_or_remove, self._file, draft)
         except DraftError as error:
             self._complain(error)
             return
         self._written = kept
-        self._document.board.find("drafts", ())
+        self._findings.replace("drafts", ())
 
-    def _tell_cut_save(self, file: DraftFile) -> None:
+    def _report_cut_save(self, file: DraftFile) -> None:
         written, missed = file.journal.cut(self._on_disk)
         if not missed:
             file.journal.end()
             return
-        self._document.board.find("saving", [save_cut(written, missed)])
+        self._findings.replace("saving", [save_cut(written, missed)])
 
     def _on_disk(self, file: str) -> bytes:
         try:
-            return self._document.location.served.read(file)
+            return self._workspace.served.read(file)
         except PackageError:
             return b""
 
     def _complain(self, error: DraftError) -> None:
-        place = Place(self._document.path)
+        place = Place(self._workspace.path)
         problem = Problem(Severity.WARNING, "draft-not-kept", str(error), place)
-        self._document.board.find("drafts", [problem])
+        self._findings.replace("drafts", [problem])
 
 
 def _bounded(kept: KeptSources) -> KeptSources:
@@ -218,3 +229,16 @@ def _write_or_remove(file: DraftFile, draft: Draft) -> None:
         file.write(draft)
     else:
         file.remove()
+
+
+def save_cut(written: Sequence[str], missed: Sequence[str]) -> Problem:
+    """The studio was ended in the middle of a save: some files are new, others are not."""
+    sentence = (
+        f"The studio was ended while it saved: {_names(written)} was written, {_names(missed)} was "
+        "not, so the files may not fit each other. The edits are here: save them again."
+    )
+    return Problem(Severity.WARNING, "save-cut-off", sentence, Place(missed[0]))
+
+
+def _names(files: Sequence[str]) -> str:
+    return ", ".join(Path(one).name for one in files)

@@ -16,7 +16,7 @@ from studio.documents.document import Document
 from studio.documents.left_work import LeftDrafts
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
-from studio.documents.links import found_again, link_to, read_link
+from studio.documents.links import found_again, link_to, place_edits, read_link
 from studio.documents.services import Services
 from studio.documents.uploads import Uploads
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
@@ -83,7 +83,7 @@ class Engine:
         self.wire_robots = WireRobotDesk(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
-        self.left_work = LeftDrafts(self, settings.data_folder)
+        self.left_work = LeftDrafts(lambda: self.served, settings.data_folder)
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""
@@ -115,7 +115,7 @@ class Engine:
         self._services.wire.detach(listener)
         self.ros.detach(listener)
         if document := self._watching.pop(listener, None):
-            document.board.audience.remove(listener)
+            document.audience.remove(listener)
 
     def document(self, name: str) -> Document:
         """The open document of that id.
@@ -197,7 +197,8 @@ class Engine:
     async def launch_form(self, command: GetArguments) -> Arguments:
         """The form of an open document, or of a file below the served folders."""
         if not command.path:
-            return await form_of(self.document(command.document), command.request)
+            one = self.document(command.document)
+            return await form_of(one.workspace, one.last_run, one.sites, command.request)
         path = self.served.resolve(Path(command.path))
         return await form_at(await self._locate(path, within=self.served), command.request)
 
@@ -208,7 +209,10 @@ class Engine:
         path = found_again(shared.entry, self.served, locations)
         opening = OpenPath(path=str(path), arguments=shared.arguments)
         name = await self._open_served(opening)
-        left_out = await self.document(name).take_shared(shared.files)
+        document = self.document(name)
+        edits, left_out = place_edits(document.sources, document.location, shared.files)
+        if edits:
+            await document.edits.run(edits)
         return LinkOpened(request=command.request, document=name, left_out=left_out)
 
     async def _locate(
@@ -228,7 +232,7 @@ class Engine:
         self.documents[document.id] = document
         self.default_document = self.default_document or document.id
         document.start()
-        document.learn_types()
+        document.begin_background_work()
         self.library.note(document)
         self._tell_list()
         return document.id
@@ -243,9 +247,9 @@ class Engine:
     def watch(self, document: Document, listener: Listener) -> None:
         """Let somebody hear one document, and no other."""
         if before := self._watching.pop(listener, None):
-            before.board.audience.remove(listener)
+            before.audience.remove(listener)
         self._watching[listener] = document
-        document.board.attach(listener)
+        document.attach(listener)
 
     async def close_document(self, document: Document, *, discard: bool) -> None:
         """Close one document.
@@ -258,7 +262,7 @@ class Engine:
         del self.documents[document.id]
         if self.default_document == document.id:
             self.default_document = next(iter(self.documents), None)
-        document.board.audience.tell(Gone(document=document.id))
+        document.audience.tell(Gone(document=document.id))
         document.drafts.forget()
         self._watching = {who: one for who, one in self._watching.items() if one is not document}
         await document.close()
@@ -288,7 +292,7 @@ class Engine:
 
     def _tell_list(self) -> None:
         self._lobby.tell(self._list())
-        self.left_work.doubt()
+        self.left_work.trigger()
 
 
 def _link_to(engine: Engine, command: GetLink) -> Link:

@@ -15,11 +15,14 @@ from studio.packages.uris import resolve_uri
 from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Awaitable, Callable, Iterable, Iterator, Mapping
 
-    from studio.documents.document import Document
+    from studio.documents.runs import LastRun
+    from studio.documents.urdf import UrdfText
+    from studio.documents.workspace import Workspace
     from studio.packages.roots import ServedRoots
     from studio.packages.workspace import Location
+    from studio.scene import DocumentScene
 
 
 _NAMES_FILE: Final = ("mesh", "texture")
@@ -105,10 +108,28 @@ class Download:
 
 
 class Exports:
-    """Makes downloads of a document as it is now, with its unsaved edits."""
+    """Makes downloads of a document as it is now, with its unsaved edits.
 
-    def __init__(self, document: Document) -> None:
-        self._document = document
+    Args:
+        workspace: The files, and their texts as they are edited.
+        last_run: Which files it read.
+        urdf: The expanded URDF.
+        scene: The 3D view.
+        opened: Waits until its meshes are loaded.
+        packages_used: The package of each file in use: its name, and its folder.
+    """
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        last_run: LastRun,
+        urdf: UrdfText,
+        scene: DocumentScene,
+        opened: Callable[[], Awaitable[None]],
+        packages_used: Callable[[], Mapping[str, str]],
+    ) -> None:
+        self._workspace, self._last_run, self._urdf = workspace, last_run, urdf
+        self._scene, self._opened, self._packages_used = scene, opened, packages_used
 
     async def urdf(self, meshes: MeshNames) -> Download:
         """The expanded URDF; with `copied` a zip that holds its meshes, too.
@@ -117,8 +138,8 @@ class Exports:
             CommandError: There was no good run yet.
             ExportError: It comes to too much.
         """
-        location, name = self._document.location, self._name
-        text = await self._document.urdf()
+        location, name = self._workspace.location, self._name
+        text = await self._urdf.text()
         if meshes == "copied":
             return await asyncio.to_thread(self._with_meshes, text)
         if meshes == "absolute":
@@ -133,8 +154,7 @@ class Exports:
         """
         files = await asyncio.to_thread(self._packages, self._edited(), all_used=all_used)
         name = files[0].name.partition("/")[0] if files else self._name
-        served = self._document.location.served
-        return Download(f"{name}.zip", _ZIP, zip_chunks(files, served))
+        return Download(f"{name}.zip", _ZIP, zip_chunks(files, self._workspace.served))
 
     async def page(self, *, dark: bool) -> Download:
         """The 3D view as one page that opens from the disk, with the robot as it stands.
@@ -142,23 +162,23 @@ class Exports:
         Raises:
             CommandError: There is no robot to show.
         """
-        document = self._document
-        if document.expansion is None:
-            raise CommandError(f"{document.title} has no robot to show yet: mend its problems.")
-        await document.opened()
-        make = document.scene.standalone_page(title=self._name, dark=dark)
+        if self._last_run.expansion is None:
+            title = self._workspace.title
+            raise CommandError(f"{title} has no robot to show yet: mend its problems.")
+        await self._opened()
+        make = self._scene.standalone_page(title=self._name, dark=dark)
         page = await asyncio.to_thread(make)
         return Download(f"{self._name}.html", "text/html; charset=utf-8", (page,))
 
     @property
     def _name(self) -> str:
-        name = self._document.title
+        name = self._workspace.title
         for ending in _ENDINGS:
             name = name.removesuffix(ending)
         return name or "robot"
 
     def _with_meshes(self, text: str) -> Download:
-        name, location = self._name, self._document.location
+        name, location = self._name, self._workspace.location
         urdf, copies = with_copied_meshes(text, location)
         own = PackedFile(f"{name}/{name}.urdf", urdf.encode())
         files = [own, *(PackedFile(f"{name}/{one.name}", one.source) for one in copies)]
@@ -166,23 +186,22 @@ class Exports:
         return Download(f"{name}.zip", _ZIP, zip_chunks(files, location.served))
 
     def _edited(self) -> dict[Path, bytes]:
-        sources = self._document.sources
+        sources = self._workspace.sources
         return {Path(file): sources.text(file) for file in sources.unsaved_files}
 
     def _packages(self, edited: dict[Path, bytes], *, all_used: bool) -> list[PackedFile]:
-        document = self._document
-        served = document.location.served
-        own = package_folder_of(document.entry)
+        workspace, served = self._workspace, self._workspace.served
+        own = package_folder_of(workspace.entry)
         folders = [own] if own else []
         if all_used:
-            used = map(Path, document.packages_used().values())
+            used = map(Path, self._packages_used().values())
             folders += [one for one in used if one != own]
         files = list(_files_of(folders, served))
         if own is None:
             files += self._loose_files()
-        check_size(files, document.title)
+        check_size(files, workspace.title)
         if not files:
-            raise ExportError(document.title, "it lies in no package")
+            raise ExportError(workspace.title, "it lies in no package")
         return [
             PackedFile(one.name, edited.get(one.source, one.source))
             if isinstance(one.source, Path)
@@ -192,8 +211,8 @@ class Exports:
 
     def _loose_files(self) -> list[PackedFile]:
         """Of an entry file in no package: what the run read below its folder."""
-        folder = self._document.entry.parent
-        read = (Path(file) for file in self._document.files_read)
+        folder = self._workspace.entry.parent
+        read = (Path(file) for file in self._last_run.files)
         return [
             PackedFile(f"{self._name}/{file.relative_to(folder).as_posix()}", file)
             for file in read

@@ -6,7 +6,6 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import PackageError, RobotError, WorkerError
-from studio.packages.uris import resolve_uri
 from studio.protocol.robot import Frames, LinkMassView, Masses, VolumeView
 from studio.robot.masses import link_mass
 from studio.robot.measures import mesh_volume, shapes_volume
@@ -15,7 +14,8 @@ from studio.robot.values import Mesh
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.documents.document import Document
+    from studio.documents.model import Model
+    from studio.documents.workspace import Workspace
     from studio.protocol.robot import GetFrames, GetMasses
     from studio.robot.masses import LinkMass
     from studio.robot.measures import MeshVolumes, Volume
@@ -28,16 +28,16 @@ _KEPT: Final = 2_000
 
 
 class Inspection:
-    """Answers from the robot of a document; meshes are loaded only for their volume."""
+    """Answers from the robot; meshes are loaded only for their volume."""
 
-    def __init__(self, document: Document, meshes: MeshLibrary) -> None:
-        self._document, self._meshes = document, meshes
+    def __init__(self, model: Model, workspace: Workspace, meshes: MeshLibrary) -> None:
+        self._model, self._workspace, self._meshes = model, workspace, meshes
         self._volumes: dict[str, Volume] = {}
         """By digest of the mesh."""
 
     def frames(self, command: GetFrames) -> Frames:
         """Where the joints stand."""
-        model = self._document.model
+        model = self._model
         return Frames.model_construct(
             request=command.request,
             revision=model.revision,
@@ -49,7 +49,7 @@ class Inspection:
 
     async def masses(self, command: GetMasses) -> Masses:
         """What the links weigh."""
-        robot = self._document.model.robot
+        robot = self._model.robot
         weighed = [link for link in robot.links.values() if link.inertial]
         volumes = await self._volumes_of(_mesh_uris(weighed))
         # a large robot takes a while, and nobody else shall wait for it
@@ -62,10 +62,9 @@ class Inspection:
         return {uri: one for uri, one in zip(asked, found, strict=True) if one is not None}
 
     async def _volume(self, uri: str) -> Volume | None:
-        location = self._document.location
         try:
-            path = resolve_uri(uri, self._document.entry, location.index, location.served)
-            mesh = await self._meshes.load(path, location.served.all)
+            path = self._workspace.resolve_uri(uri)
+            mesh = await self._meshes.load(path, self._workspace.served.all)
         except (PackageError, RobotError, WorkerError):
             return None
         known = self._volumes.get(mesh.digest)

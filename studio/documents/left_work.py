@@ -14,33 +14,39 @@ from studio.protocol.roles import Role
 from studio.protocol.saving import LeftWork, LeftWorkEntry
 
 if TYPE_CHECKING:
-    from studio.documents.engine import Engine
+    from collections.abc import Callable
+
     from studio.packages.roots import ServedRoots
     from studio.protocol.listeners import Listener
 
 
 class LeftDrafts:
-    """Looks for drafts of served files that nobody holds, and tells the presenters of them."""
+    """Finds drafts of served files that nobody holds, and tells the presenters of them.
 
-    def __init__(self, engine: Engine, data_folder: Path) -> None:
-        self._engine, self._data_folder = engine, data_folder
+    Args:
+        served: The folders that are served now.
+        data_folder: Where drafts are.
+    """
+
+    def __init__(self, served: Callable[[], ServedRoots], data_folder: Path) -> None:
+        self._served, self._data_folder = served, data_folder
         self._presenters: set[Listener] = set()
-        self._told: LeftWork | None = None
-        self._throttle = Throttle(self._look)
+        self._latest: LeftWork | None = None
+        self._throttle = Throttle(self._refresh)
 
     def attach(self, listener: Listener) -> None:
-        """Let a presenter hear of it, now and whenever it changes."""
+        """Tell a presenter of them, now and whenever they change."""
         if listener.role is Role.PRESENTER:
             self._presenters.add(listener)
-            if self._told is not None:
-                tell(listener, self._told)
+            if self._latest is not None:
+                tell(listener, self._latest)
 
     def detach(self, listener: Listener) -> None:
         """Forget it; it need not be there."""
         self._presenters.discard(listener)
 
-    def doubt(self) -> None:
-        """Documents were opened or closed: look again, beside."""
+    def trigger(self) -> None:
+        """Look again soon: documents were opened or closed."""
         self._throttle.trigger()
 
     async def forget(self, path: str) -> None:
@@ -49,20 +55,20 @@ class LeftDrafts:
         Raises:
             PackageError: The file is not served.
         """
-        file = self._engine.served.resolve(Path(path))
+        file = self._served().resolve(Path(path))
         await asyncio.to_thread(forget_drafts, self._data_folder, [file])
-        await self._look()
+        await self._refresh()
 
     async def close(self) -> None:
         """End what runs for it."""
         await self._throttle.close()
 
-    async def _look(self) -> None:
-        told = await asyncio.to_thread(_left_work, self._data_folder, self._engine.served)
-        if told != (self._told or LeftWork(entries=())):
-            self._told = told
+    async def _refresh(self) -> None:
+        left = await asyncio.to_thread(_left_work, self._data_folder, self._served())
+        if left != (self._latest or LeftWork(entries=())):
+            self._latest = left
             for listener in tuple(self._presenters):
-                tell(listener, told)
+                tell(listener, left)
 
 
 def _left_work(data_folder: Path, served: ServedRoots) -> LeftWork:

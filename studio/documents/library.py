@@ -162,7 +162,7 @@ class Library:
 
     async def _save_as(self, command: SaveAs) -> str:
         document = self._opener.document(command.document)
-        if len(document.files_read) > 1:
+        if len(document.last_run.files) > 1:
             raise CommandError(
                 f"{document.title} reads other files, which would stay behind: "
                 "save it where it is, and copy its folder."

@@ -19,7 +19,7 @@ from pydantic import Field, ValidationError
 
 from studio.description.editing.merging import hunks_between
 from studio.description.values import Edit
-from studio.documents.texts import TEXT_LIMIT_BYTES
+from studio.documents.edits import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError
 from studio.packages.roots import package_folder_of
 from studio.protocol.documents import Link

@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from studio.errors import PackageError, PackageNotFoundError, RobotError, WorkerError
-from studio.packages.uris import resolve_uri
 from studio.problems import Fix, Problem, Severity
+from studio.protocol.documents import Progress
 from studio.robot.meshes.textured import split_textured
 
 if TYPE_CHECKING:
@@ -16,8 +16,11 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.description.values import Part
-    from studio.documents.document import Document
+    from studio.documents.findings import Findings
+    from studio.documents.model import Model
+    from studio.documents.workspace import Workspace
     from studio.errors import StudioError
+    from studio.protocol.listeners import Audience
     from studio.robot.meshes.library import MeshLibrary
     from studio.robot.meshes.loaded_mesh import LoadedMesh
 
@@ -29,7 +32,7 @@ class MeshLoading:
         library: Loads a file once, whatever the number of askers.
         resolve: From a URI to a file and the folders that may be read; raises PackageError.
         arrived: Told of each mesh as it comes.
-        progress: Told (done, total) of the batch under way.
+        progress: Called with (done, total) of the batch under way.
     """
 
     def __init__(
@@ -52,7 +55,7 @@ class MeshLoading:
             if uri not in self._tasks:
                 self._total += 1
                 self._tasks[uri] = asyncio.create_task(self._load(uri))
-        self._tell_progress()
+        self._report_progress()
 
     def forget(self, used: Iterable[str]) -> None:
         """Drop the problems and files of meshes that the robot no longer names."""
@@ -86,9 +89,9 @@ class MeshLoading:
             self._tasks.pop(uri, None)
             self._done += 1
         self._arrived(uri, mesh)
-        self._tell_progress()
+        self._report_progress()
 
-    def _tell_progress(self) -> None:
+    def _report_progress(self) -> None:
         if self._total:
             self._progress(self._done, self._total)
         if self._done == self._total:
@@ -112,21 +115,31 @@ def _fix_of(error: Exception) -> Fix | None:
 
 
 class Meshes:
-    """Keeps what is loaded in step with what the document's scene needs.
+    """Keeps what is loaded in step with what the scene needs.
 
     Args:
-        document: Whose model names the meshes and whose scene draws them.
+        workspace: Where the meshes lie.
+        model: Names the meshes, and its scene draws them.
         library: Loads a file once, whatever the number of askers.
+        findings: Gets what is wrong with them.
+        audience: Is told how many are loaded.
         arrived: Called when a mesh came, or failed to.
     """
 
     def __init__(
-        self, document: Document, library: MeshLibrary, arrived: Callable[[], None]
+        self,
+        workspace: Workspace,
+        model: Model,
+        library: MeshLibrary,
+        findings: Findings,
+        audience: Audience,
+        arrived: Callable[[], None],
     ) -> None:
-        self._document, self._told = document, arrived
+        self._workspace, self._model, self._findings = workspace, model, findings
+        self._audience, self._on_arrived = audience, arrived
         self._nearer: dict[Problem, Problem] = {}
         """Problems with what was meant, by what they are without."""
-        self._loading = MeshLoading(library, self._resolve, self._arrived, self._count)
+        self._loading = MeshLoading(library, self._resolve, self._arrived, self._progress)
 
     @property
     def files(self) -> tuple[str, ...]:
@@ -135,10 +148,10 @@ class Meshes:
 
     def want(self) -> None:
         """Load what the scene lacks, and forget what nobody names any more."""
-        scene = self._document.scene
-        self._loading.forget(self._document.model.mesh_uris() | scene.live.mesh_uris())
+        scene = self._model.scene
+        self._loading.forget(self._model.mesh_uris() | scene.live.mesh_uris())
         self._loading.want(scene.missing_meshes())
-        self._tell_problems()
+        self._report_problems()
 
     def retry(self) -> None:
         """Load those again that failed."""
@@ -152,7 +165,7 @@ class Meshes:
     @property
     def problems(self) -> dict[str, Problem]:
         """What is wrong with meshes of the robot by URI, each at the first link that names it."""
-        model, found = self._document.model, self._loading.problems
+        model, found = self._model, self._loading.problems
         if not found:
             return {}
         users = model.mesh_users()
@@ -165,10 +178,10 @@ class Meshes:
         found = self._loading.problems.get(uri)
         return found.sentence if found else f"Mesh {uri} cannot be shown."
 
-    def tell_nearer(self, nearer: Mapping[Problem, Problem]) -> None:
-        """Say from now on what was meant by names of meshes that are not there."""
+    def suggest(self, nearer: Mapping[Problem, Problem]) -> None:
+        """Report these from now on instead of the problems that they are of."""
         self._nearer = dict(nearer)
-        self._tell_problems()
+        self._report_problems()
 
     async def settled(self) -> None:
         """Wait until nothing is under way."""
@@ -179,23 +192,21 @@ class Meshes:
         await self._loading.close()
 
     def _arrived(self, uri: str, mesh: LoadedMesh | None) -> None:
-        self._document.scene.provide_mesh(uri, mesh)
-        self._document.scene.flush()
-        self._told()
-        self._tell_problems()
+        self._model.scene.provide_mesh(uri, mesh)
+        self._model.scene.flush()
+        self._on_arrived()
+        self._report_problems()
 
-    def _tell_problems(self) -> None:
+    def _report_problems(self) -> None:
         found = self.problems.values()
-        self._document.board.find("mesh", [self._nearer.get(one, one) for one in found])
+        self._findings.replace("mesh", [self._nearer.get(one, one) for one in found])
 
-    def _count(self, done: int, total: int) -> None:
-        self._document.board.progress("meshes", done, total)
+    def _progress(self, done: int, total: int) -> None:
+        self._audience.tell(Progress(task="meshes", label="Loading meshes", done=done, total=total))
 
     def _resolve(self, uri: str) -> tuple[Path, tuple[Path, ...]]:
         """Where a mesh lies, and the folders that it may draw on."""
-        location = self._document.location
-        path = resolve_uri(uri, self._document.entry, location.index, location.served)
-        return path, location.served.all
+        return self._workspace.resolve_uri(uri), self._workspace.served.all
 
 
 def _placed(problem: Problem, part: Part | None) -> Problem:

@@ -1,23 +1,99 @@
-"""The robot of a document on its way from parts to the scene: only what changed moves on."""
+"""The robot of a document: from its parts to the scene, where only what changed moves on."""
 
 from __future__ import annotations
 
+import struct
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from studio.documents.joints import JointPositions
+import numpy as np
+
 from studio.robot.assembly import Assembly, Change
 from studio.robot.kinematics import Kinematics
 from studio.robot.meshes.textured import mesh_uris
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Set
+    from collections.abc import Callable, Iterator, Mapping, Set
+
+    from numpy.typing import NDArray
 
     from studio.description.values import Expansion, Part
     from studio.problems import Problem
     from studio.robot.kinematics import Floats
     from studio.scene import DocumentScene
+
+
+_JOINTS_FRAME: Final = struct.Struct("<BxxxI")
+JOINTS_FRAME_KIND: Final = 1
+_POSITION_LIMIT: Final = 1e9
+"""rad or m that no robot is at: beyond it poses are no numbers any more."""
+
+
+class JointPositions:
+    """Positions of the movable joints, rad or m, kept by name so that they outlive the model."""
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._remembered: dict[str, float] = {}
+        self._rng = np.random.default_rng()
+        self.kinematics = kinematics
+        self.adopt(kinematics)
+
+    def adopt(self, kinematics: Kinematics) -> None:
+        """Go on with another model: joints of the same name stay where they are, in its limits."""
+        before, self.kinematics = self.kinematics, kinematics
+        if kinematics is not before and kinematics.reaches_as(before):
+            return
+        at_zero = zip(kinematics.movable, kinematics.zero_positions(), strict=True)
+        kept = {
+            name: kinematics.clamp(name, self._remembered.get(name, float(position)))
+            for name, position in at_zero
+        }
+        self._set_all(kinematics.positions_with_mimic(kept))
+
+    def set(self, positions: Mapping[str, float]) -> None:
+        """Move some joints, clamped to their limits; unknown and following joints are ignored."""
+        free = set(self.kinematics.free)
+        asked = {
+            name: self.kinematics.clamp(name, value)
+            for name, value in positions.items()
+            if name in free and np.isfinite(value)
+        }
+        self._set_all(self.kinematics.positions_with_mimic(self.by_name() | asked))
+
+    def follow(self, positions: Mapping[str, float]) -> None:
+        """Stand where a robot that runs says it does, be it beyond the limits of the model."""
+        free = set(self.kinematics.free)
+        told = {
+            name: value
+            for name, value in positions.items()
+            if name in free and abs(value) < _POSITION_LIMIT
+        }
+        self._set_all(self.kinematics.positions_with_mimic(self.by_name() | told))
+
+    def zero(self) -> None:
+        """All to zero, or to the nearest position within the limits."""
+        self._set_all(self.kinematics.zero_positions())
+
+    def randomize(self) -> None:
+        """All to random positions within the limits."""
+        self._set_all(self.kinematics.random_positions(self._rng))
+
+    def swing(self, time_s: float, start: NDArray[np.float64]) -> None:
+        """Where the joints are `time_s` into their swing, which began at `start`."""
+        self._set_all(self.kinematics.swing(time_s, start))
+
+    def by_name(self) -> dict[str, float]:
+        """Position of every movable joint of the model."""
+        return dict(zip(self.kinematics.movable, self.values.tolist(), strict=True))
+
+    def frame(self, revision: int) -> bytes:
+        """The positions as a packed frame: kind, 3 pad bytes, revision (u32), float64 each."""
+        return _JOINTS_FRAME.pack(JOINTS_FRAME_KIND, revision) + self.values.tobytes()
+
+    def _set_all(self, values: NDArray[np.float64]) -> None:
+        self.values = np.ascontiguousarray(values, dtype="<f8")
+        self._remembered |= self.by_name()
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +117,7 @@ class Model:
         self.joints = JointPositions(self.kinematics)
         self.revision = 0
         """Counts structural changes."""
-        self.posed: Callable[[tuple[str, ...], Floats], None] = lambda _links, _poses: None
+        self.posed: Callable[[tuple[str, ...], Floats], None] | None = None
         """Called with the links and their poses whenever they were moved, before that is sent."""
         self._meshes: dict[str, tuple[str, ...]] = {}
 
@@ -85,7 +161,8 @@ class Model:
         links = self.kinematics.link_names
         poses = self.kinematics.wxyz_xyz(self.joints.values)
         self.scene.set_poses(links, poses)
-        self.posed(links, poses)
+        if self.posed is not None:
+            self.posed(links, poses)
         self.scene.flush()
 
     def mesh_uris(self) -> Set[str]:

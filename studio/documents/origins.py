@@ -1,4 +1,4 @@
-"""What the page asks about where things come from, answered from the worker and the robot."""
+"""Where the parts of a robot come from, and what each text shapes, as the page asks for it."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from studio.description.origins.origin_values import (
     SiteEffects,
     SiteEffectsQuery,
 )
-from studio.protocol.origins import Effects, Origin, PartEffect
+from studio.protocol.origins import Effects, GetEffects, GetOrigin, Origin, PartEffect
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from studio.documents.document import Document
+    from studio.documents.model import Model
+    from studio.documents.runs import Runs
     from studio.protocol.listeners import Listener
-    from studio.protocol.origins import GetEffects, GetOrigin
     from studio.robot.values import Robot
 
 
@@ -27,10 +27,10 @@ _LOOKS: Final = frozenset({Aspect.SIZE, Aspect.SHAPE, Aspect.COLOR, Aspect.PRESE
 
 
 class Origins:
-    """Asks the worker of a document, and knows from the robot whom a change carries along."""
+    """Asks the worker, and finds in the robot which links a change moves along."""
 
-    def __init__(self, document: Document) -> None:
-        self._document = document
+    def __init__(self, runs: Runs, model: Model) -> None:
+        self._runs, self._model = runs, model
 
     async def origin(self, command: GetOrigin, asker: Listener) -> Origin:
         """Where a part comes from.
@@ -38,7 +38,7 @@ class Origins:
         Raises:
             CommandError: There is no such part, or nobody can tell.
         """
-        origin = await self._document.ask(PartOriginQuery(command.part), PartOrigin, asker)
+        origin = await self._runs.answer(PartOriginQuery(command.part), PartOrigin, asker)
         return Origin(request=command.request, origin=origin)
 
     async def effects(self, command: GetEffects, asker: Listener) -> Effects:
@@ -48,8 +48,8 @@ class Origins:
             CommandError: There is no such text, or nobody can tell.
         """
         query = SiteEffectsQuery(command.site)
-        found = await self._document.ask(query, SiteEffects, asker)
-        return effects_event(command.request, found, self._document.model.robot)
+        found = await self._runs.answer(query, SiteEffects, asker)
+        return effects_event(command.request, found, self._model.robot)
 
 
 def effects_event(request: int, found: SiteEffects, robot: Robot) -> Effects:

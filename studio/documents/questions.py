@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Final
 
+from studio.debounce import Debouncer
 from studio.description.language.questions import CompletionQuery, LookUpQuery
 from studio.description.origins.origin_values import PartOriginQuery
 from studio.errors import SupersededError
@@ -162,8 +163,7 @@ class Questions:
         self._runs_end, self._reply = runs_end, reply
         self._queue = QuestionQueue()
         self._answering: asyncio.Task[None] | None = None
-        self._rest: asyncio.TimerHandle | None = None
-        """Counts the quiet time while long questions are held."""
+        self._rest = Debouncer(self._release, REST_S)
         self._is_held = False
 
     async def ask(self, query: Query, asker: Listener) -> Reply:
@@ -179,26 +179,20 @@ class Questions:
     def hold(self) -> None:
         """Somebody drags or types, and a run comes of it: what takes long waits until they rest."""
         self._is_held = True
-        self._keep_waiting()
+        self._rest.cancel()
 
     def run_ended(self) -> None:
         """Count the quiet time from now on."""
         if self._is_held:
-            self._keep_waiting()
-            self._rest = asyncio.get_running_loop().call_later(REST_S, self._release)
+            self._rest.trigger()
 
     async def close(self) -> None:
         """Answer nothing any more; whoever waits is cancelled."""
-        self._keep_waiting()
+        await self._rest.close()
         self._queue.cancel()
         if self._answering is not None:
             self._answering.cancel()
             await asyncio.gather(self._answering, return_exceptions=True)
-
-    def _keep_waiting(self) -> None:
-        if self._rest is not None:
-            self._rest.cancel()
-            self._rest = None
 
     def _release(self) -> None:
         self._is_held = False

@@ -8,10 +8,10 @@ from itertools import count, islice
 from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.editor_text import EditorText
-from studio.description.editing.sources import Change
+from studio.description.editing.undo import Change
 from studio.description.language.questions import Renaming, RenamingQuery, SubjectKind, TextPlace
 from studio.description.values import Edit
-from studio.documents.texts import TEXT_LIMIT_BYTES
+from studio.documents.edits import READ_ONLY, TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError, ReadOnlyTextError, StaleTextError
 from studio.protocol.texts import (
     FindTexts,
@@ -27,7 +27,10 @@ from studio.protocol.texts import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from studio.documents.document import Document
+    from studio.documents.edits import Edits
+    from studio.documents.runs import Runs
+    from studio.documents.texts import Texts
+    from studio.documents.workspace import Workspace
     from studio.protocol.listeners import Listener
 
 
@@ -141,10 +144,18 @@ _LABEL_LENGTH: Final = 30
 
 
 class Rewriting:
-    """Tells the places first, then writes them, when they are still the same."""
+    """Tells the places first, then writes them, when they are still the same.
 
-    def __init__(self, document: Document) -> None:
-        self._document = document
+    Args:
+        workspace: The texts, and which files may be written.
+        runs: Asks the worker where a name stands, and which files belong to the robot.
+        texts: Gives the texts to whoever may see them.
+        edits: Runs what a step has changed.
+    """
+
+    def __init__(self, workspace: Workspace, runs: Runs, texts: Texts, edits: Edits) -> None:
+        self._workspace, self._sources, self._runs = workspace, workspace.sources, runs
+        self._texts, self._edits = texts, edits
         self._steps = count(1)
 
     async def renaming(self, command: GetRenaming, asker: Listener) -> RenamingAnswer:
@@ -179,7 +190,7 @@ class Rewriting:
         renaming = await self._ask(command, asker)
         if len(renaming.places) != command.count:
             raise CommandError("The texts have changed since: look at the places again.")
-        sources, name = self._document.sources, renaming.new.encode()
+        sources, name = self._sources, renaming.new.encode()
         for one in renaming.places:
             data = sources.text(one.place.file)
             if data[one.start : one.end] != renaming.old.encode():
@@ -189,7 +200,7 @@ class Rewriting:
 
     async def find(self, command: FindTexts, asker: Listener) -> TextsFound:
         """Where words stand in the files of the robot."""
-        texts = self._texts(asker)
+        texts = self._robot_texts(asker)
         found = await asyncio.to_thread(matches_in, texts, _words(command), PLACES_SHOWN)
         return _texts_found(command.request, found)
 
@@ -206,7 +217,7 @@ class Rewriting:
                 f"These are more than {REPLACED_LIMIT} places: look for longer words."
             )
         words, edits = _words(command), list[Edit]()
-        for file, data in self._texts(asker):
+        for file, data in self._robot_texts(asker):
             most = command.count - len(edits) + 1
             edits += replacements_in(file, data, words, command.replacement, most)
             if len(edits) > command.count:
@@ -216,16 +227,16 @@ class Rewriting:
         await self._write(edits, f"Replace {_short(command.text)} → {_short(command.replacement)}")
 
     async def _ask(self, command: GetRenaming | Rename, asker: Listener) -> Renaming:
-        file, text = self._document.texts.bytes_of(command.file, asker.role)
+        file, text = self._texts.bytes_of(command.file, asker.role)
         query = RenamingQuery(file, text, command.offset, command.name)
-        return await self._document.ask(query, Renaming, asker)
+        return await self._runs.answer(query, Renaming, asker)
 
-    def _texts(self, asker: Listener) -> list[tuple[str, bytes]]:
+    def _robot_texts(self, asker: Listener) -> list[tuple[str, bytes]]:
         """The files of the robot that hold text, as they are edited."""
         found: list[tuple[str, bytes]] = []
-        for file in self._document.files_read:
+        for file in self._runs.last.files:
             try:
-                found.append(self._document.texts.bytes_of(file, asker.role))
+                found.append(self._texts.bytes_of(file, asker.role))
             except (CommandError, PackageError):  # too large, or gone from the disk
                 continue
         return [(file, data) for file, data in found if b"\0" not in data]
@@ -235,23 +246,23 @@ class Rewriting:
     ) -> None:
         """Make all edits, in order, one step of undo."""
         self._check(edits)
-        sources, gesture = self._document.sources, f"rewrite {next(self._steps)}"
+        sources, gesture = self._sources, f"rewrite {next(self._steps)}"
         sources.edit_all(edits, label, gesture)
         arguments = None
         if renaming and renaming.kind is SubjectKind.ARG and renaming.old in sources.arguments:
             given = sources.arguments[renaming.old]
             sources.set_arguments({renaming.old: None, renaming.new: given}, label, gesture)
             arguments = sources.arguments
-        await self._document.follow(Change(label, tuple(edits), arguments))
+        await self._edits.follow(Change(label, tuple(edits), arguments))
 
     def _check(self, edits: Sequence[Edit]) -> None:
-        sources, served = self._document.sources, self._document.location.served
+        sources, served = self._sources, self._workspace.served
         grown: dict[str, int] = {}
         for edit in edits:
             grown[edit.file] = grown.get(edit.file, 0) + len(edit.new) - (edit.end - edit.start)
         for file, more in grown.items():
             if not served.may_write(file):
-                raise ReadOnlyTextError(file, "it lies where the studio may only read.")
+                raise ReadOnlyTextError(file, READ_ONLY)
             if len(sources.text(file)) + more > TEXT_LIMIT_BYTES:
                 raise EditError(f"{file} would grow too large: write less.")
 

@@ -1,33 +1,66 @@
-"""What the page is told of a robot and its sites: plain values made from those of the rooms."""
+"""What the page is told of the robot of a document: its tree, and where its joints stand."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING
 
-from studio.protocol.edits import SiteView
-from studio.protocol.robot import JointView, LinkView, RobotState
+from studio.protocol.robot import JointPositions, JointView, LinkView, RobotState
 from studio.robot.values import JointType, Mesh
 
 if TYPE_CHECKING:
-    from studio.description.values import Part, Site
+    from studio.description.values import Part
     from studio.documents.model import Model
+    from studio.protocol.listeners import Audience
     from studio.robot.assembly import Assembly
     from studio.robot.values import Joint, Link, Robot
 
 _LIMITED = frozenset({JointType.REVOLUTE, JointType.PRISMATIC})
 
 
-class RobotViews:
-    """Makes the state of a robot for the page; of what stayed the same it keeps the views."""
+class RobotView:
+    """Tells the audience of a robot; keeps the views of links and joints that stay the same.
 
-    def __init__(self) -> None:
+    Attributes:
+        animating: Whether the joints swing.
+    """
+
+    def __init__(self, model: Model, audience: Audience) -> None:
+        self._model, self._audience = model, audience
+        self.animating = False
         self._links: dict[str, tuple[Link, Part | None, LinkView]] = {}
         self._joints: dict[str, tuple[Joint, Part | None, JointView]] = {}
+        self._robot_told: RobotState | None = None
+        self._joints_told: JointPositions | None = None
 
-    def state(self, model: Model) -> RobotState:
+    def tell(self) -> bool:
+        """Tell the robot's tree and where its joints stand, as far as that is news.
+
+        Returns:
+            Whether the tree is another one.
+        """
+        robot, joints = self.robot_event(), self.joints_event()
+        is_new = robot != self._robot_told
+        if is_new:
+            self._robot_told, self._joints_told = robot, None
+            self._audience.tell(robot)
+        if joints != self._joints_told:
+            self._audience.tell(joints)
+        self._joints_told = joints
+        return is_new
+
+    def tell_joints(self) -> None:
+        """Tell where the joints stand, by name."""
+        self._audience.tell(self.joints_event())
+
+    def send_joints(self) -> None:
+        """Send the positions packed; a slow page gets the newest only."""
+        frame = self._model.joints.frame(self._model.revision)
+        self._audience.post(frame, binary=True, key="joints")
+
+    def robot_event(self) -> RobotState:
         """The robot's tree with the place where each part was written."""
-        robot = model.robot
+        model, robot = self._model, self._model.robot
         return RobotState.model_construct(
             revision=model.revision,
             name=robot.name,
@@ -35,6 +68,10 @@ class RobotViews:
             links=self._link_views(robot, model.assembly),
             joints=self._joint_views(robot, model),
         )
+
+    def joints_event(self) -> JointPositions:
+        """Where the joints stand, by name."""
+        return JointPositions(positions=self._model.joints.by_name(), animating=self.animating)
 
     def _link_views(self, robot: Robot, assembly: Assembly) -> tuple[LinkView, ...]:
         before, self._links = self._links, {}
@@ -55,27 +92,6 @@ class RobotViews:
                 known = joint, part, _joint_view(joint, model.kinematics.axis_of(name), part)
             self._joints[name] = known
         return tuple(view for _, _, view in self._joints.values())
-
-
-def site_view(site: Site, saved_text: str | None, argument: str | None) -> SiteView:
-    """One site as its row shows it."""
-    return SiteView(
-        id=site.id,
-        kind=site.kind,
-        name=site.name,
-        file=site.place.file,
-        line=site.place.line,
-        text=site.text,
-        saved_text=saved_text,
-        value=site.value,
-        number=site.number,
-        values=site.values,
-        reads=site.reads,
-        widget=site.widget,
-        group=site.group,
-        owner=site.owner,
-        argument=argument,
-    )
 
 
 def _link_view(link: Link, part: Part | None) -> LinkView:

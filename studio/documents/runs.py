@@ -1,13 +1,15 @@
-"""Feeds the xacro worker: while one run is under way, everything new waits for the next one."""
+"""The runs of a document: its worker expands the newest texts, one run at a time."""
 
 from __future__ import annotations
 
 import asyncio
 import gc
 import logging
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final, TypeAlias
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias, TypeVar
 
+from studio.debounce import Debouncer
 from studio.description.values import (
     ArgumentsRequest,
     Edit,
@@ -16,11 +18,10 @@ from studio.description.values import (
     Failure,
     NoReply,
     OpenRequest,
-    ReadPolicy,
     ReloadRequest,
 )
 from studio.documents.questions import Questions
-from studio.errors import WorkerDiedError
+from studio.errors import CommandError, WorkerDiedError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from studio.description.client import DescriptionWorker
     from studio.description.editing.sources import Sources
     from studio.description.requests import Query, Reply
+    from studio.description.values import ReadPolicy
     from studio.protocol.listeners import Listener
 
 
@@ -42,41 +44,86 @@ _log = logging.getLogger(__name__)
 Outcome: TypeAlias = Expansion | Failure
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
-    """What is run: the entry file, and what it may read."""
+_AnyReply = TypeVar("_AnyReply")
 
-    entry: str
-    policy: ReadPolicy
+
+class RunTarget(Protocol):
+    """What is run, as that is now."""
+
+    @property
+    def path(self) -> str:
+        """The entry file."""
+        ...
+
+    @property
+    def policy(self) -> ReadPolicy:
+        """What it may read."""
+        ...
+
+
+class LastRun:
+    """What the last run came to, and the last good one.
+
+    Attributes:
+        expansion: The last good run; None before the first.
+        failed: Whether the last run failed, so that the texts are newer than the robot.
+        failure: What the last run that failed said, a sentence.
+        files: What the last run read, whether or not it came to an end.
+    """
+
+    def __init__(self, path: str) -> None:
+        self.expansion: Expansion | None = None
+        self.failed, self.failure = False, ""
+        self.files: tuple[str, ...] = (path,)
+
+    @property
+    def phase(self) -> Literal["opening", "ready", "failed"]:
+        """Whether there is a robot to look at."""
+        if self.expansion:
+            return "ready"
+        return "failed" if self.failed else "opening"
+
+    def take(self, outcome: Outcome) -> None:
+        """A run ended."""
+        match outcome:
+            case Failure():
+                self.failed, self.failure = True, outcome.problem.sentence
+                self.files = tuple(dict.fromkeys((*self.files, *outcome.files)))
+            case Expansion():
+                self.expansion, self.failed, self.files = outcome, False, outcome.files
 
 
 class Runs:
-    """One run at a time over the newest texts; a burst of edits costs as many runs as fit.
+    """One run at a time over the newest texts; what comes meanwhile waits for the next one.
 
-    `take` gets every outcome and the version of the sources' spans that it holds for, on the loop,
-    before those who waited for it go on.
+    Attributes:
+        last: What the last run came to.
+
+    Args:
+        worker: The document's own.
+        sources: The texts and arguments.
+        target: What is run.
+        take: Gets every outcome and the version of the sources' spans that it holds for, on the
+            loop, before those who waited for it go on. `last` has it already.
     """
 
     def __init__(
         self,
         worker: DescriptionWorker,
         sources: Sources,
-        target: Target,
+        target: RunTarget,
         take: Callable[[Outcome, int], None],
     ) -> None:
-        self.target = target
-        self._worker, self._sources, self._take = worker, sources, take
+        self._worker, self._sources, self._target, self._take = worker, sources, target, take
+        self.last = LastRun(target.path)
         self._opened_with = sources.arguments
         self._edits: list[Edit] = []
         self._reload: set[str] = set()
         self._open = True
-        self._has_robot = False
-        """A run has given one."""
         self._arguments_changed = False
         self._waiters: list[asyncio.Future[None]] = []
         self._turns: asyncio.Task[None] | None = None
-        self._check: asyncio.TimerHandle | None = None
-        """Counts the quiet time after a patch."""
+        self._check = Debouncer(self._begin_check, CHECK_AFTER_S)
         self._questions = Questions(self._runs_end, self._reply)
         self._is_closed = False
 
@@ -105,9 +152,8 @@ class Runs:
         self._arguments_changed = True
         await self._next_run()
 
-    async def reopen(self, target: Target | None = None) -> None:
+    async def reopen(self) -> None:
         """Run from scratch, for instance after the packages changed."""
-        self.target = target or self.target
         self._open = True
         await self._next_run()
 
@@ -121,10 +167,24 @@ class Runs:
         """
         return await self._questions.ask(query, asker)
 
+    async def answer(self, query: Query, reply: type[_AnyReply], asker: Listener) -> _AnyReply:
+        """Ask as `ask` does, for a reply of one kind.
+
+        Raises:
+            CommandError: It has no answer; the sentence says why.
+        """
+        answer = await self.ask(query, asker)
+        if isinstance(answer, reply):
+            return answer
+        name = Path(self._target.path).name
+        raise CommandError(
+            answer.sentence if isinstance(answer, NoReply) else f"{name} gave no answer."
+        )
+
     async def close(self) -> None:
         """End the worker; those who wait, and who come later, are cancelled."""
         self._is_closed = True
-        self._keep_quiet()
+        await self._check.close()
         await self._questions.close()
         for waiter in self._waiters:
             waiter.cancel()
@@ -158,7 +218,7 @@ class Runs:
             raise asyncio.CancelledError
         waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._waiters.append(waiter)
-        self._keep_quiet()
+        self._check.cancel()
         if self._turns is None or self._turns.done():
             self._turns = asyncio.create_task(self._take_turns())
         await waiter
@@ -178,17 +238,11 @@ class Runs:
                 _settle(waiters, None)
             self._questions.run_ended()
 
-    def _keep_quiet(self) -> None:
-        if self._check is not None:
-            self._check.cancel()
-            self._check = None
-
     def _check_later(self, outcome: Outcome) -> None:
         """When it is quiet for a while, have a full run look at what edits have patched."""
-        self._keep_quiet()
+        self._check.cancel()
         if isinstance(outcome, Expansion) and outcome.is_patch:
-            loop = asyncio.get_running_loop()
-            self._check = loop.call_later(CHECK_AFTER_S, self._begin_check)
+            self._check.trigger()
 
     def _begin_check(self) -> None:
         if self._turns is None or self._turns.done():
@@ -210,7 +264,7 @@ class Runs:
         if self._worker.needs_reopen:
             await self._run()
         elif isinstance(outcome, Failure) or not outcome.is_patch:
-            self._take(outcome, version)
+            self._take_outcome(outcome, version)
 
     async def _run(self) -> Outcome:
         """Run with what changed since the last run, and have it taken.
@@ -224,11 +278,14 @@ class Runs:
             version = self._sources.spans.version
             self._forget_changes()
             outcome = await self._worker.open(self._whole())
-        if isinstance(outcome, Failure) and not self._has_robot:
+        if isinstance(outcome, Failure) and self.last.expansion is None:
             await self._run_saved()
-        self._has_robot = self._has_robot or isinstance(outcome, Expansion)
-        self._take(outcome, version)
+        self._take_outcome(outcome, version)
         return outcome
+
+    def _take_outcome(self, outcome: Outcome, version: int) -> None:
+        self.last.take(outcome)
+        self._take(outcome, version)
 
     async def _run_saved(self) -> None:
         """Have the files taken as they are saved: unsaved work of an earlier run gives no robot.
@@ -245,8 +302,7 @@ class Runs:
             outcome = await self._worker.open(replace(self._whole(), arguments=choice, overlay={}))
             self._open = True  # the worker does not hold the unsaved work
             if isinstance(outcome, Expansion):
-                self._has_robot = True
-                self._take(outcome, version)
+                self._take_outcome(outcome, version)
                 return
 
     async def _run_changes(self) -> Outcome:
@@ -272,9 +328,9 @@ class Runs:
 
     def _whole(self) -> OpenRequest:
         return OpenRequest(
-            entry=self.target.entry,
+            entry=self._target.path,
             arguments=self._sources.arguments,
-            policy=self.target.policy,
+            policy=self._target.policy,
             overlay=self._sources.overlay(),
             known=self._sources.spans.numbers,
         )

@@ -1,47 +1,68 @@
-"""The files of a document on disk: saved, copied, reloaded, merged with what others write."""
+"""The files of a document as it saves them: what would be written, all or some, and copies."""
 
 from __future__ import annotations
 
 import asyncio
-import hashlib
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from studio.description.editing.line_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
-from studio.description.editing.sources import FileChange
-from studio.description.editing.undo import Change
-from studio.errors import CommandError, EditError, NotSavedError
+from studio.errors import CommandError, NotSavedError
 from studio.files import sweep
-from studio.problems import Fix, Place, Problem, Severity
-from studio.protocol.saving import Changes, Collisions, CollisionView, DiskMerged, FileChanges
+from studio.protocol.saving import Changes, FileChanges, Saved
 from studio.protocol.texts import hunk_views
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Collection
 
-    from studio.description.editing.merging import Merge
-    from studio.description.editing.merging import Place as MergePlace
-    from studio.description.editing.sources import DiskNews
-    from studio.description.values import Edit
-    from studio.documents.document import Document
-    from studio.protocol.saving import GetChanges, GetCollisions, ResolveCollisions, SaveCopy
+    from studio.documents.disk_sync import DiskSync
+    from studio.documents.drafts import Drafts
+    from studio.documents.edits import Edits
+    from studio.documents.workspace import Workspace
+    from studio.protocol.listeners import Audience
+    from studio.protocol.saving import GetChanges, SaveCopy
 
 
-class SaveDesk:
-    """Answers what is unsaved; `Document.save` writes it."""
+class Saving:
+    """Writes the files of a document, and answers what would be written."""
 
-    def __init__(self, document: Document) -> None:
-        self._document = document
+    def __init__(
+        self,
+        workspace: Workspace,
+        disk: DiskSync,
+        edits: Edits,
+        drafts: Drafts,
+        audience: Audience,
+    ) -> None:
+        self._workspace, self._sources = workspace, workspace.sources
+        self._disk, self._edits, self._drafts = disk, edits, drafts
+        self._audience = audience
+
+    async def save(self, files: Collection[str] | None = None) -> None:
+        """Write these changed files, or all.
+
+        Raises:
+            NotSavedError: One may not or cannot be written.
+        """
+        await self._disk.changed(set(self._sources.unsaved_files))
+        with self._drafts.saving(files):
+            written = self._sources.save(files)
+        self._edits.disk_changed()
+        self._audience.tell(Saved(files=written))
 
     async def changes(self, command: GetChanges) -> Changes:
         """Every file with unsaved edits, and how they read."""
-        sources, served = self._document.sources, self._document.location.served
+        sources, served = self._sources, self._workspace.served
         texts = [(file, sources.saved(file), sources.text(file)) for file in sources.unsaved_files]
 
         def compared() -> tuple[FileChanges, ...]:
             found = (
-                (file, file_diff(saved, now), hindrance(file, saved, served.resolve, self._may))
+                (
+                    file,
+                    file_diff(saved, now),
+                    hindrance(file, saved, served.resolve, served.may_write),
+                )
                 for file, saved, now in texts
             )
             return tuple(
@@ -62,34 +83,14 @@ class SaveDesk:
         return Changes(request=command.request, files=files, copies=copies)
 
     async def sweep(self) -> None:
-        """Remove what a killed studio left beside the files, once it is known which these are."""
-        document = self._document
-        await document.opened()
-        served = document.location.served
-        files = (document.path, *document.sources.files)
+        """Remove what a killed studio left beside the files."""
+        served = self._workspace.served
+        files = (self._workspace.path, *self._sources.files)
 
         def sweep_folders() -> None:
             sweep({Path(one).parent for one in files if served.may_write(one)})
 
         await asyncio.to_thread(sweep_folders)
-
-    async def resolve(self, command: ResolveCollisions) -> None:
-        """Choose whose text stands where edits collide with a change on disk.
-
-        Raises:
-            EditError: They do not collide, or elsewhere than where it was looked.
-        """
-        edits = self._document.disk.resolve(command)
-        self._document.board.book.doubt_all()
-        await self._document.follow(Change("", edits))
-
-    async def reload(self) -> None:
-        """Take the disk's text of every file; undo brings unsaved edits back."""
-        sources, board = self._document.sources, self._document.board
-        edits = [edit for file in sources.files if (edit := sources.reload(file))]
-        board.find("disk", ())
-        board.book.doubt_all()
-        await self._document.follow(Change("", tuple(edits)))
 
     def save_copy(self, command: SaveCopy) -> None:
         """Write a file's text as it is edited to a path that is free.
@@ -99,7 +100,7 @@ class SaveDesk:
             PackageError: It leads out of the opened folders.
             NotSavedError: It may not or cannot be written.
         """
-        served, sources = self._document.location.served, self._document.sources
+        served, sources = self._workspace.served, self._sources
         if not Path(command.path).is_absolute():
             raise CommandError(f"{command.path!r} is no whole path: name it from the root on.")
         file = str(served.resolve(command.file))
@@ -111,138 +112,3 @@ class SaveDesk:
         if not served.may_write(target):
             raise NotSavedError(command.path, "its folder may only be read; name another")
         write_copy(target, sources.text(file))
-
-    def _may(self, path: Path) -> bool:
-        return self._document.location.served.may_write(path)
-
-
-def changed_on_disk(file: str) -> Problem:
-    """Somebody else wrote a file in the very places that have unsaved edits here."""
-    sentence = (
-        "This file was changed on disk where it has unsaved edits: "
-        "choose whose text stands (undo brings the other back)."
-    )
-    fix = Fix("Compare and choose", "resolve_collisions", file)
-    return Problem(Severity.WARNING, "changed-on-disk", sentence, Place(file), fix=fix)
-
-
-def file_gone(file: str) -> Problem:
-    """A file was deleted, or can no longer be read."""
-    sentence = "This file can no longer be read from disk; its last text is kept here."
-    return Problem(Severity.WARNING, "file-gone", sentence, Place(file))
-
-
-def not_watched(reason: str) -> Problem:
-    """The system has no watch left, or no file handle for one."""
-    sentence = (
-        f"The system does not watch the files of this robot ({reason.rstrip('. ')}), so what other "
-        "programs write is seen only every two seconds: close programs that watch many files, or "
-        "raise fs.inotify.max_user_instances."
-    )
-    return Problem(Severity.WARNING, "not-watched", sentence)
-
-
-def save_cut(written: Sequence[str], missed: Sequence[str]) -> Problem:
-    """The studio was ended in the middle of a save: some files are new, others are not."""
-    sentence = (
-        f"The studio was ended while it saved: {_names(written)} was written, {_names(missed)} was "
-        "not, so the files may not fit each other. The edits are here: save them again."
-    )
-    return Problem(Severity.WARNING, "save-cut-off", sentence, Place(missed[0]))
-
-
-def _names(files: Sequence[str]) -> str:
-    return ", ".join(Path(one).name for one in files)
-
-
-_SHOWN: Final = 50
-"""Collisions of one file that are shown; of more than that nobody reads every one."""
-_SHOWN_BYTES: Final = 4000
-
-
-class DiskDesk:
-    """Looks at changed files, tells what came of it, and answers where both sides collide."""
-
-    def __init__(self, document: Document) -> None:
-        self._document = document
-        self._sources, self._board = document.sources, document.board
-        self._gone: set[str] = set()
-
-    def look(self, files: Iterable[str]) -> tuple[Edit, ...]:
-        """Take over what changed on disk where it can be; the edits that did it, in order."""
-        found = {file: self._sources.refresh(file) for file in files}
-        self._gone -= found.keys()
-        self._gone |= {file for file, news in found.items() if news.what is FileChange.GONE}
-        self._tell(found)
-        return tuple(edit for news in found.values() for edit in news.edits)
-
-    def resolve(self, command: ResolveCollisions) -> tuple[Edit, ...]:
-        """Let one side win where both collide; the edits that did it, in order.
-
-        Raises:
-            EditError: They do not collide, or elsewhere than where it was looked.
-        """
-        file = self._name(command.file)
-        if command.state and command.state != _state(self._sources.collisions(file)):
-            raise EditError(f"{command.file} was changed meanwhile: compare it again.")
-        edits = self._sources.resolve(file, command.keep, command.each)
-        self.tell_problems()
-        return edits
-
-    def answer(self, command: GetCollisions) -> Collisions:
-        """Where a file's unsaved edits collide with what changed on disk.
-
-        Raises:
-            EditError: They do not.
-        """
-        file = self._name(command.file)
-        merged = self._sources.collisions(file)
-        views = tuple(_view(merged, place) for place in merged.collisions[:_SHOWN])
-        count = len(merged.collisions)
-        return Collisions(
-            request=command.request, file=file, places=views, count=count, state=_state(merged)
-        )
-
-    def tell_problems(self) -> None:
-        """Tell which files are gone, and which wait for a choice."""
-        gone = [file_gone(file) for file in sorted(self._gone)]
-        waiting = [changed_on_disk(file) for file in sorted(self._sources.conflicts)]
-        self._board.find("disk", (*gone, *waiting))
-
-    def tell_watch(self, trouble: str) -> None:
-        """Say that the system does not watch the files, and why; empty: that it does."""
-        self._board.find("watch", [not_watched(trouble)] if trouble else ())
-
-    def _tell(self, found: dict[str, DiskNews]) -> None:
-        self.tell_problems()
-        for file, news in found.items():
-            if news.what is FileChange.MERGED:
-                self._board.audience.tell(DiskMerged(file=file, kept=news.kept))
-
-    def _name(self, file: str) -> str:
-        return str(self._document.location.served.resolve(file))
-
-
-def _state(merged: Merge) -> str:
-    """Other collisions, another name."""
-    return hashlib.sha256(repr(merged.collisions).encode()).hexdigest()[:20]
-
-
-def _view(merged: Merge, place: MergePlace) -> CollisionView:
-    """A collision in whole lines, so that one sees what stands around it."""
-    base = merged.base
-    start = base.rfind(b"\n", 0, place.start) + 1
-    end = base.find(b"\n", place.end)
-    before = base[start : place.start]
-    after = base[place.end : len(base) if end < 0 else end]
-    return CollisionView(
-        line=base.count(b"\n", 0, start) + 1,
-        base=_text(before + base[place.start : place.end] + after),
-        mine=_text(before + place.mine + after),
-        theirs=_text(before + place.theirs + after),
-    )
-
-
-def _text(data: bytes) -> str:
-    shown = data[:_SHOWN_BYTES].decode("utf-8", "replace").replace("\r", "")
-    return shown if len(data) <= _SHOWN_BYTES else f"{shown} …"

@@ -3,103 +3,144 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from studio.description.values import SiteKind
-from studio.documents.robot_view import site_view
 from studio.errors import EditError
 from studio.protocol.edits import Sites, SiteView
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from typing import TypeAlias
+    from collections.abc import Iterable, Mapping
 
     from studio.description.editing.sources import Sources
     from studio.description.values import Expansion, Site
+    from studio.protocol.listeners import Audience
 
-    _MadeOf: TypeAlias = tuple[Site, str | None, str | None]
+_MadeOf: TypeAlias = "tuple[Site, str | None, str | None]"
+"""What a view is made of: the site, what the disk says there, and the argument that is passed."""
 
 
-class SiteBook:
-    """Takes what a run changed and answers what the page has not yet been told."""
+class SiteTable:
+    """Takes what a run changed, and tells the audience what it does not know yet.
 
-    def __init__(self) -> None:
+    Args:
+        sources: The texts that the sites are in.
+        audience: Is told of the sites.
+    """
+
+    def __init__(self, sources: Sources, audience: Audience) -> None:
+        self._sources, self._audience = sources, audience
         self.sites: dict[str, Site] = {}
         self._order: tuple[str, ...] = ()
-        self._told: dict[str, SiteView] = {}
-        self._told_of: dict[str, _MadeOf] = {}
+        self._sent: dict[str, SiteView] = {}
+        self._sent_of: dict[str, _MadeOf] = {}
         """What each view was made of: comparing is quick, and making thousands is not."""
-        self._unsure: set[str] = set()
-        self._order_is_news = False
+        self._changed: set[str] = set()
+        """Sites to compare with what was told."""
+        self._order_changed = False
         self._ahead: set[str] = set()
         """Sites told with a text that no good run has seen."""
 
     def take(self, expansion: Expansion) -> None:
         """Take in a good run."""
         self.sites |= {site.id: site for site in expansion.changed_sites}
-        self._unsure.update(site.id for site in expansion.changed_sites)
-        self._unsure |= self._ahead
+        self._changed.update(site.id for site in expansion.changed_sites)
+        self._changed |= self._ahead
         self._ahead.clear()
         if expansion.site_order is None or expansion.site_order == self._order:
             return
-        self._order, self._order_is_news = expansion.site_order, True
+        self._order, self._order_changed = expansion.site_order, True
         self.sites = {name: self.sites[name] for name in self._order if name in self.sites}
-        self._told = {name: view for name, view in self._told.items() if name in self.sites}
-        self._told_of = {name: self._told_of[name] for name in self._told}
+        self._sent = {name: view for name, view in self._sent.items() if name in self.sites}
+        self._sent_of = {name: self._sent_of[name] for name in self._sent}
 
-    def take_failure(self, sources: Sources) -> None:
-        """A run failed: the texts as they stand in edited files are news, the values are not."""
-        unsaved = set(sources.unsaved_files)
+    def take_failure(self) -> None:
+        """Take in a run that failed: texts in edited files are new, their values are not."""
+        unsaved = set(self._sources.unsaved_files)
         for name, site in self.sites.items():
             if name in self._ahead or (
-                site.place.file in unsaved and _text_now(site, sources) != site.text
+                site.place.file in unsaved and self._text_now(site) != site.text
             ):
                 self._ahead.add(name)
-        self._unsure |= self._ahead
+        self._changed |= self._ahead
 
-    def doubt_all(self) -> None:
-        """Compare every site at the next `news`: a save, a reload or an argument came between."""
-        self._unsure.update(self.sites)
+    def invalidate(self) -> None:
+        """Compare every site at the next `tell`: a save, a reload or an argument came between."""
+        self._changed.update(self.sites)
 
-    def news(self, sources: Sources) -> Sites | None:
-        """What differs from what was told; None when nothing does."""
-        arguments = sources.arguments
+    def tell(self) -> None:
+        """Tell the audience which sites differ from what it was told."""
+        if changed := self._take_changed():
+            self._audience.tell(changed)
+
+    def event(self) -> Sites:
+        """All sites as they were told."""
+        return Sites(order=self._order, changed=tuple(self._sent.values()))
+
+    def argument_values(self) -> dict[str, str]:
+        """What each argument came to in the last good run, passed or not."""
+        return argument_values(self.sites.values())
+
+    def _take_changed(self) -> Sites | None:
+        arguments = self._sources.arguments
         changed: list[SiteView] = []
-        for name in self._unsure & self.sites.keys():
+        for name in self._changed & self.sites.keys():
             site = self.sites[name]
             if name in self._ahead:
-                site = replace(site, text=_text_now(site, sources))
-            made_of = _made_of(site, sources, arguments)
-            if made_of == self._told_of.get(name):
+                site = replace(site, text=self._text_now(site))
+            made_of = self._made_of(site, arguments)
+            if made_of == self._sent_of.get(name):
                 continue
-            self._told_of[name], view = made_of, site_view(*made_of)
-            if view != self._told.get(name):
-                self._told[name] = view
+            self._sent_of[name], view = made_of, _site_view(*made_of)
+            if view != self._sent.get(name):
+                self._sent[name] = view
                 changed.append(view)
-        order = self._order if self._order_is_news else None
-        self._unsure.clear()
-        self._order_is_news = False
+        order = self._order if self._order_changed else None
+        self._changed.clear()
+        self._order_changed = False
         return Sites(order=order, changed=tuple(changed)) if changed or order is not None else None
 
-    def everything(self) -> Sites:
-        """All sites as they were told, for a newcomer."""
-        return Sites(order=self._order, changed=tuple(self._told.values()))
+    def _made_of(self, site: Site, arguments: Mapping[str, str]) -> _MadeOf:
+        argument = arguments.get(site.name) if site.kind == SiteKind.ARG else None
+        return site, self._saved_text(site), argument
+
+    def _saved_text(self, site: Site) -> str | None:
+        try:
+            return self._sources.saved_text(site.id)
+        except EditError:
+            return None  # typed over since the last run: the next one has the site anew
+
+    def _text_now(self, site: Site) -> str:
+        try:
+            return self._sources.current_text(site.id)
+        except EditError:
+            return site.text  # as above
 
 
-def _made_of(site: Site, sources: Sources, arguments: Mapping[str, str]) -> _MadeOf:
-    argument = arguments.get(site.name) if site.kind == SiteKind.ARG else None
-    return site, _saved_text(site, sources), argument
+def argument_values(sites: Iterable[Site]) -> dict[str, str]:
+    """What each argument came to in a run; of several declarations the first counts."""
+    found: dict[str, str] = {}
+    for site in sites:
+        if site.kind is SiteKind.ARG:
+            found.setdefault(site.name, site.value or site.text)
+    return found
 
 
-def _saved_text(site: Site, sources: Sources) -> str | None:
-    try:
-        return sources.saved_text(site.id)
-    except EditError:
-        return None  # typed over since the last run, which the next one tells
-
-
-def _text_now(site: Site, sources: Sources) -> str:
-    try:
-        return sources.current_text(site.id)
-    except EditError:
-        return site.text  # as above
+def _site_view(site: Site, saved_text: str | None, argument: str | None) -> SiteView:
+    return SiteView(
+        id=site.id,
+        kind=site.kind,
+        name=site.name,
+        file=site.place.file,
+        line=site.place.line,
+        text=site.text,
+        saved_text=saved_text,
+        value=site.value,
+        number=site.number,
+        values=site.values,
+        reads=site.reads,
+        widget=site.widget,
+        group=site.group,
+        owner=site.owner,
+        argument=argument,
+    )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from xml.etree import ElementTree
 
 from studio.description.editing.line_diff import DiffLine, LineDiff, line_diff
-from studio.description.urdf import part_element
+from studio.description.urdf import part_element, urdf_text
 from studio.description.values import Expansion, OpenRequest
 from studio.errors import CommandError
 from studio.protocol.texts import GetUrdfChanges, Urdf, UrdfChanges, hunk_views
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
     from studio.description.client import DescriptionWorker
     from studio.description.values import Part
-    from studio.documents.document import Document
+    from studio.documents.model import Model
+    from studio.documents.runs import LastRun
+    from studio.documents.workspace import Workspace
     from studio.protocol.texts import GetUrdf
 
 
@@ -141,26 +143,43 @@ class _Saved:
 
 
 class UrdfText:
-    """Compares the URDF of now with the one that the files make, opened as the document was.
+    """Writes the URDF, and compares it with the one that the files on disk make.
 
     Args:
-        document: Whose edits they are.
+        workspace: The files, and their texts as they are edited.
+        last_run: The last good run.
+        model: The robot that it made.
         take_worker: Gives an xacro worker; it is ended when the files are run.
     """
 
-    def __init__(self, document: Document, take_worker: Callable[[], DescriptionWorker]) -> None:
-        self._document, self._take_worker = document, take_worker
-        self._arguments = document.sources.arguments
+    def __init__(
+        self,
+        workspace: Workspace,
+        last_run: LastRun,
+        model: Model,
+        take_worker: Callable[[], DescriptionWorker],
+    ) -> None:
+        self._workspace, self._last_run, self._model = workspace, last_run, model
+        self._take_worker = take_worker
+        self._arguments = workspace.sources.arguments
         self._saved: _Saved | None = None
         self._turn = asyncio.Lock()
 
-    async def urdf(self, command: GetUrdf) -> Urdf:
-        """The URDF as it is now.
+    async def text(self) -> str:
+        """The expanded URDF of the last good run, written in another thread.
 
         Raises:
-            CommandError: There is none yet.
+            CommandError: There was none yet.
         """
-        return Urdf(request=command.request, text=await self._document.urdf())
+        expansion, title = self._last_run.expansion, self._workspace.title
+        if expansion is None:
+            raise CommandError(f"{title} has not been expanded yet: mend its problems first.")
+        parts, root = self._model.assembly.parts(), expansion.root_attributes
+        return await asyncio.to_thread(urdf_text, parts, root)
+
+    async def answer(self, command: GetUrdf) -> Urdf:
+        """The URDF as it is now; raises as `text` does."""
+        return Urdf(request=command.request, text=await self.text())
 
     async def changes(self, command: GetUrdfChanges) -> UrdfChanges:
         """What differs now.
@@ -168,30 +187,29 @@ class UrdfText:
         Raises:
             CommandError: The document has no URDF yet.
         """
-        document = self._document
-        expansion = document.expansion
+        expansion, sources = self._last_run.expansion, self._workspace.sources
         if expansion is None:
-            raise CommandError(f"{document.title} has not been expanded yet: mend its problems.")
-        if not document.sources.unsaved_files and document.sources.arguments == self._arguments:
-            return _told(command.request, LineDiff())
+            title = self._workspace.title
+            raise CommandError(f"{title} has not been expanded yet: mend its problems.")
+        if not sources.unsaved_files and sources.arguments == self._arguments:
+            return _changes(command.request, LineDiff())
         async with self._turn:  # who asks meanwhile finds it done
             saved = await self._run_saved()
         if saved.fault:
-            return _told(command.request, LineDiff(), saved.fault)
-        root, parts = expansion.root_attributes, tuple(document.model.assembly.parts())
+            return _changes(command.request, LineDiff(), saved.fault)
+        root, parts = expansion.root_attributes, tuple(self._model.assembly.parts())
         found = await asyncio.to_thread(_compare, saved.lines, root, parts)
-        return _told(command.request, found)
+        return _changes(command.request, found)
 
     async def _run_saved(self) -> _Saved:
-        sources = self._document.sources
+        workspace, sources = self._workspace, self._workspace.sources
         texts = {file: sources.saved(file) for file in sources.files}
         if self._saved is not None and self._saved.of == texts:
             return self._saved
-        target = self._document.target
         worker = self._take_worker()
         try:
             answer = await worker.open(
-                OpenRequest(target.entry, self._arguments, target.policy, texts)
+                OpenRequest(workspace.path, self._arguments, workspace.policy, texts)
             )
         finally:
             await worker.close()
@@ -218,7 +236,7 @@ def _compare(
     return difference(before, part_lines(root, parts))
 
 
-def _told(request: int, found: LineDiff, fault: str = "") -> UrdfChanges:
+def _changes(request: int, found: LineDiff, fault: str = "") -> UrdfChanges:
     return UrdfChanges(
         request=request,
         added=found.added,

@@ -1,24 +1,106 @@
-"""Where a document lies: what its worker may read, and which packages its files are in."""
+"""The workspace of a document: its entry file, the folders around it, and the texts in them."""
 
 from __future__ import annotations
 
+import asyncio
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.description.editing.sources import Sources
 from studio.description.values import ReadPolicy
-from studio.documents.runs import Target
+from studio.errors import CommandError
 from studio.packages.roots import package_folder_of
+from studio.packages.uris import resolve_uri
 from studio.settings import XACRO_ENVIRONMENT
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
+    from studio.packages.roots import ServedRoots
     from studio.packages.workspace import Location
 
 
-def target_of(location: Location, *, trusted: bool) -> Target:
-    """The entry file of a location that has one, and the rules its expansion runs under.
+class Workspace:
+    """Where a document lies, and its texts; a package that is chosen later changes the location.
+
+    Attributes:
+        entry: The entry file.
+        path: The same, as a text.
+        location: The folders that may be read and written, and the packages in them.
+        policy: What the document's xacro worker may read.
+        sources: The texts and arguments as they are edited.
+
+    Raises:
+        CommandError: The location has no entry file.
+    """
+
+    def __init__(
+        self, location: Location, arguments: Mapping[str, str], *, trusted: bool = False
+    ) -> None:
+        if location.entry is None:
+            raise CommandError(f"{location.root} holds no robot description: open a file.")
+        self.entry, self.path = location.entry, str(location.entry)
+        self._trusted = trusted
+        self.location, self.policy = location, read_policy(location, trusted=trusted)
+        self.sources = Sources(
+            # Asked anew each time: a package that is chosen later is served from then on.
+            lambda path: self.served.read(path),  # noqa: PLW0108
+            lambda path: self.served.resolve(path),  # noqa: PLW0108
+            lambda path: self.served.may_write(path),  # noqa: PLW0108
+            arguments,
+        )
+        self._packages_of: tuple[tuple[str, ...], Location] | None = None
+        self._packages: dict[str, str] = {}
+
+    @property
+    def title(self) -> str:
+        """The entry file's name, or which untitled text it is."""
+        return self.location.title
+
+    @property
+    def served(self) -> ServedRoots:
+        """The folders that may be read and written."""
+        return self.location.served
+
+    def resolve_uri(self, uri: str) -> Path:
+        """The file of a URI in this document; looks at the disk, may run in any thread.
+
+        Raises:
+            PackageError: It names no file that may be read.
+        """
+        return resolve_uri(uri, self.entry, self.location.index, self.location.served)
+
+    async def choose_package(self, name: str, folder: Path) -> None:
+        """Use a folder for a package from now on, read-only.
+
+        Raises:
+            PackageError: It does not hold that package.
+        """
+        self.location = await asyncio.to_thread(self.location.choose_package, name, folder)
+        self.policy = read_policy(self.location, trusted=self._trusted)
+
+    def packages_of(self, files: Iterable[str]) -> dict[str, str]:
+        """The package of each file: its name, and which copy it is.
+
+        Returns:
+            The same object while neither the files nor the location change.
+        """
+        asked = tuple(files)
+        before = self._packages_of
+        if before is None or before[0] != asked or before[1] is not self.location:
+            self._packages_of = asked, self.location
+            parents = {Path(one).parent for one in asked}
+            folders = {package_folder_of(Path(folder)) for folder in parents}
+            packages = self.location.index.packages
+            self._packages = {
+                one.name: str(one.folder) for one in packages if one.folder in folders
+            }
+        return self._packages
+
+
+def read_policy(location: Location, *, trusted: bool) -> ReadPolicy:
+    """What the xacro worker of a location that has an entry file may read.
 
     Trust shows the files the whole environment, and nothing else: expressions stay bounded, and
     what may be read is what is served. What came in an archive is never trusted.
@@ -28,33 +110,9 @@ def target_of(location: Location, *, trusted: bool) -> Target:
     environment = {
         name: value for name, value in os.environ.items() if trusted or name in XACRO_ENVIRONMENT
     }
-    policy = ReadPolicy(
+    return ReadPolicy(
         roots=tuple(map(str, location.served.all)),
         packages=location.index.mapping_for(location.entry),
         environment=environment,
         trusted=trusted,
     )
-    return Target(str(location.entry), policy)
-
-
-class PackagesUsed:
-    """Remembers what it answered last."""
-
-    def __init__(self) -> None:
-        self._asked: tuple[tuple[str, ...], Location] | None = None
-        self._answer: dict[str, str] = {}
-
-    def of(self, files: Iterable[str], location: Location) -> dict[str, str]:
-        """Package name to the copy that is used; the same object while nothing changed."""
-        asked = tuple(files)
-        before = self._asked
-        if before is None or before[0] != asked or before[1] is not location:
-            self._asked = asked, location
-            self._answer = _packages_of(asked, location)
-        return self._answer
-
-
-def _packages_of(files: tuple[str, ...], location: Location) -> dict[str, str]:
-    folders = {package_folder_of(Path(folder)) for folder in {Path(one).parent for one in files}}
-    packages = location.index.packages
-    return {one.name: str(one.folder) for one in packages if one.folder in folders}

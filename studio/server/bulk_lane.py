@@ -13,7 +13,7 @@ from __future__ import annotations
 import asyncio
 import secrets
 import struct
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 from starlette.responses import Response
 
@@ -24,10 +24,11 @@ from studio.server.backlog import Backlog
 from studio.server.http_protocol import connection_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from starlette.types import Receive, Scope, Send
 
     from studio.live.topics.frames import Chunk, Tick
-    from studio.server.data_lane import DataLane
     from studio.server.http_protocol import StudioConnection
 
 _LENGTH: Final = struct.Struct("<I")
@@ -85,10 +86,22 @@ class BulkLane:
         self._connection.write_chunk((_LENGTH.pack(sum(map(len, parts))), *parts))
 
 
+class SendsBulk(Protocol):
+    """A data lane, which hands large messages to a bulk lane."""
+
+    def open_bulk(self, bulk: BulkLane, end: Callable[[], object]) -> None:
+        """Send what is large by this one from now on; `end` ends it."""
+        ...
+
+    def close_bulk(self, bulk: BulkLane) -> None:
+        """Send by it no more."""
+        ...
+
+
 class BulkAnswer(Response):
     """The answer whose body is a bulk lane."""
 
-    def __init__(self, lane: DataLane) -> None:
+    def __init__(self, lane: SendsBulk) -> None:
         super().__init__()
         self._lane = lane
 
@@ -121,9 +134,9 @@ class BulkKeys:
     """Which data lane a key belongs to: it sends only what that one subscribed."""
 
     def __init__(self) -> None:
-        self._lanes: dict[str, DataLane] = {}
+        self._lanes: dict[str, SendsBulk] = {}
 
-    def key_of(self, lane: DataLane) -> str:
+    def key_of(self, lane: SendsBulk) -> str:
         """Its key, the same whenever it asks."""
         for key, one in self._lanes.items():
             if one is lane:
@@ -132,7 +145,7 @@ class BulkKeys:
         self._lanes[key] = lane
         return key
 
-    def lane_of(self, key: str) -> DataLane:
+    def lane_of(self, key: str) -> SendsBulk:
         """The lane whose key this is.
 
         Raises:
@@ -142,6 +155,6 @@ class BulkKeys:
             raise UnknownLaneError
         return self._lanes[key]
 
-    def forget(self, lane: DataLane) -> None:
+    def forget(self, lane: SendsBulk) -> None:
         """It was closed."""
         self._lanes = {key: one for key, one in self._lanes.items() if one is not lane}

@@ -68,7 +68,7 @@ def test_a_robot_of_awkward_names_is_drawn_moved_edited_and_saved(entry: Path, t
             wish = SetJoints(document=document.id, positions=dict.fromkeys(NAMES, 0.5))
             await made.execute(wish, ear)
             assert document.model.joints.by_name() == dict.fromkeys(NAMES, 0.5)
-            await document.edit_site(ear.site("größe")["id"], "0.3", "")
+            await document.edits.edit_site(ear.site("größe")["id"], "0.3", "")
             await made.execute(Save(document=document.id), ear)
             assert entry.read_text() == robot().replace('"0.2"', '"0.3"')
 

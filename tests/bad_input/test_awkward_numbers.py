@@ -59,12 +59,12 @@ def test_typed_into_a_property_or_a_yaml_value_it_is_told_and_undone(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site(site)["id"], text, "")
+            await document.edits.edit_site(ear.site(site)["id"], text, "")
             if (site, text) not in NUMBERS_TO_YAML:
                 assert "write" in sentences(ear), sentences(ear)
             assert_drawn(document)
             json.dumps(ear.events, allow_nan=False)  # else no browser could read them
-            await document.undo()
+            await document.edits.undo()
             assert ear.last("problems")["problems"] == []
             assert not document.has_unsaved
 

@@ -99,7 +99,7 @@ def test_a_bad_file_is_one_sentence_and_the_next_file_opens(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, bad)
-            assert document.phase == "failed"
+            assert document.last_run.phase == "failed"
             (problem,) = ear.last("problems")["problems"]
             assert problem["severity"] == "error"
             assert problem["place"]["file"].startswith(str(package))
@@ -134,11 +134,11 @@ def test_a_file_that_goes_bad_while_open_keeps_its_model(package: Path, tmp_path
             document, ear = await opened(made, file)
             length = ear.site("length")["id"]
             for text in ("${9**9**9}", "${().__class__}", "${nothing}", "${'a' * 10**11}"):
-                await document.edit_site(length, text, "")
-                assert document.failed
+                await document.edits.edit_site(length, text, "")
+                assert document.last_run.failed
                 assert ear.last("problems")["showing_last_good"]
                 assert list(document.model.robot.links) == ["l1", "base"]
-            await document.edit_site(length, "2", "")
+            await document.edits.edit_site(length, "2", "")
             assert list(document.model.robot.links) == ["l2", "base"]
 
     asyncio.run(run())

@@ -63,13 +63,13 @@ def test_a_disk_without_room_keeps_the_file_and_the_edits_and_takes_them_later(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             with no_room_for(64), pytest.raises(NotSavedError, match=r"arm\.urdf\.xacro.*large"):
                 await made.execute(Save(document=document.id), ear)
             assert arm.read_text() == ARM
             assert [one.name for one in arm.parent.iterdir()] == [arm.name]
             assert document.has_unsaved
-            await document.edit_site(ear.site("reach")["id"], "0.6", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.6", "")
             await made.execute(Save(document=document.id), ear)
             assert arm.read_text() == ARM.replace("0.4", "0.6")
 
@@ -86,10 +86,10 @@ def test_a_data_folder_without_room_for_drafts_stops_no_edit(arm: Path, tmp_path
                 return any(one["code"] == "draft-not-kept" for one in found)
 
             with no_room_for(16):
-                await document.edit_site(ear.site("reach")["id"], "0.5", "")
+                await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
                 await until(is_said)
             assert document.sources.text(str(arm)).decode() == ARM.replace("0.4", "0.5")
-            await document.edit_site(ear.site("reach")["id"], "0.6", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.6", "")
             await until(lambda: not is_said())
 
     asyncio.run(run())
@@ -103,7 +103,7 @@ def test_a_file_and_a_folder_of_somebody_else_are_left_alone_in_a_sentence(tmp_p
         async def run() -> None:
             async with engine(tmp_path / "data") as made:
                 document, ear = await opened(made, path)
-                await document.edit_site(ear.site("reach")["id"], "0.5", "")
+                await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
                 with unprivileged(), pytest.raises(NotSavedError, match="read-only"):
                     await made.execute(Save(document=document.id), ear)
                 path.chmod(0o666)
@@ -122,7 +122,7 @@ def test_a_symlinked_file_is_edited_and_saved_where_it_lies(arm: Path, tmp_path:
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, link)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             await made.execute(Save(document=document.id), ear)
             assert link.is_symlink()
             assert arm.read_text() == ARM.replace("0.4", "0.5")
@@ -142,7 +142,7 @@ def test_only_the_changed_bytes_of_a_file_with_crlf_and_a_mark_are_written(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "0.55", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.55", "")
             at = len(ARM[: ARM.index("reach")].encode("utf-16-le")) // 2
             rename = Rename(document=document.id, file=str(arm), offset=at, name="height", count=2)
             await made.execute(rename, ear)

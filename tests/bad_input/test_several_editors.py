@@ -38,7 +38,7 @@ def test_of_two_who_turn_one_property_at_once_the_last_counts_and_both_see_it(
         async with engine(tmp_path / "data") as made:
             document, one = await opened(made, arm)
             other = Ear()
-            document.board.attach(other)
+            document.attach(other)
             site = one.site("reach")["id"]
             wishes = [
                 made.execute(
@@ -52,7 +52,7 @@ def test_of_two_who_turn_one_property_at_once_the_last_counts_and_both_see_it(
             assert last == ARM.replace("0.4", "0.8")
             assert one.site("reach")["text"] == other.site("reach")["text"] == "0.8"
             while document.sources.undo_labels:
-                await document.undo()
+                await document.edits.undo()
             assert document.sources.text(str(arm)).decode() == ARM
 
     asyncio.run(run())
@@ -63,11 +63,11 @@ def test_of_two_who_turn_two_properties_at_once_none_loses_anything(arm: Path, t
         async with engine(tmp_path / "data") as made:
             document, one = await opened(made, arm)
             other = Ear()
-            document.board.attach(other)
+            document.attach(other)
             reach, width = one.site("reach")["id"], one.site("width")["id"]
             await asyncio.gather(
-                *(document.edit_site(reach, f"0.{n}", "one") for n in range(1, 9)),
-                *(document.edit_site(width, f"0.{n}", "other") for n in range(1, 9)),
+                *(document.edits.edit_site(reach, f"0.{n}", "one") for n in range(1, 9)),
+                *(document.edits.edit_site(width, f"0.{n}", "other") for n in range(1, 9)),
             )
             assert other.site("reach")["text"] == other.site("width")["text"] == "0.8"
             assert set(document.model.robot.links) == {"base"}

@@ -31,7 +31,7 @@ def test_a_file_of_50_mb_is_named_and_not_read_and_the_next_one_opens(tmp_path: 
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, large)
-            assert document.phase == "failed"
+            assert document.last_run.phase == "failed"
             (problem,) = ear.last("problems")["problems"]
             assert problem["sentence"] == f"The file {large} is larger than 20 MB and was not read."
             after, _ = await opened(made, good)
@@ -64,12 +64,12 @@ def test_ten_thousand_links_open_and_one_of_them_can_be_edited(tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, path)
-            assert document.phase == "ready"
+            assert document.last_run.phase == "ready"
             assert len(document.model.robot.links) == 10_000
             last = next(one for one in ear.sites().values() if one["text"] == "99 99 0")
-            await document.edit_site(last["id"], "0 0 2", "")
+            await document.edits.edit_site(last["id"], "0 0 2", "")
             assert document.model.robot.joints["j9999"].origin.xyz == (0, 0, 2)
-            await document.undo()
+            await document.edits.undo()
             assert not document.has_unsaved
 
     asyncio.run(run())
@@ -85,7 +85,7 @@ def test_a_thousand_includes_are_read_listed_and_edited(tmp_path: Path):
             assert len(document.sources.files) == 1_001
             await made.execute(GetOutline(document=document.id), ear)
             assert len(ear.last("outline")["outline"]["files"]) == 1_001
-            await document.edit_site(ear.site("size_999")["id"], "0.7", "")
+            await document.edits.edit_site(ear.site("size_999")["id"], "0.7", "")
             assert document.sources.unsaved_files == (str(path.parent / "parts/part_999.xacro"),)
 
     asyncio.run(run())

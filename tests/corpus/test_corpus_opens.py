@@ -48,16 +48,16 @@ def robots_of(corpus: Path) -> list[Path]:
 
 def what_is_wrong(document: Document) -> str:
     """Why the robot does not count as drawn; empty when it does."""
-    if document.phase != "ready":
-        return f"is {document.phase}"
+    if document.last_run.phase != "ready":
+        return f"is {document.last_run.phase}"
     model = document.model
     poses = model.kinematics.wxyz_xyz(model.joints.values)
     if not model.robot.links or not np.isfinite(poses).all():
         return "has no link that stands somewhere"
     if document.scene.missing_meshes():
         return f"waits for {document.scene.missing_meshes()}"
-    if document.expansion and document.expansion.evaluator != "studio":
-        return f"needs stock: {document.expansion.fallback_reason}"
+    if document.last_run.expansion and document.last_run.expansion.evaluator != "studio":
+        return f"needs stock: {document.last_run.expansion.fallback_reason}"
     return ""
 
 
@@ -97,12 +97,12 @@ def test_a_limit_and_a_length_of_ur10e_are_dragged_and_saved_byte_by_byte(
             before = document.model.kinematics.wxyz_xyz(document.model.joints.values).copy()
             limit = ear.site("elbow_joint.max_velocity")
             length = ear.site("kinematics.forearm.x")
-            await document.edit_site(limit["id"], "90.0", "")
-            await document.edit_site(length["id"], "-0.7", "drag")
-            assert not document.failed
+            await document.edits.edit_site(limit["id"], "90.0", "")
+            await document.edits.edit_site(length["id"], "-0.7", "drag")
+            assert not document.last_run.failed
             after = document.model.kinematics.wxyz_xyz(document.model.joints.values)
             assert np.abs(after - before).max() > 0.05
-            await document.save()
+            await document.saving.save()
 
     asyncio.run(run())
     differing = [

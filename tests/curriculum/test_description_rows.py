@@ -68,7 +68,7 @@ def test_d2_the_wheels_come_from_one_macro_under_either_namespace(
             assert all(wheel["line"] for wheel in wheels)
             kinds = {site["kind"] for site in ear.sites().values()}
             assert {"arg", "property"} <= kinds
-            assert (await document.urdf()).count("<link") == len(document.model.robot.links)
+            assert (await document.urdf.text()).count("<link") == len(document.model.robot.links)
 
     asyncio.run(run())
 
@@ -84,12 +84,12 @@ def test_d5_wheel_radius_redraws_within_a_second(models: Path, tmp_path: Path):
     async def run() -> float:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, entry_of(models, "xacro_robot_description"))
-            before = await document.urdf()
+            before = await document.urdf.text()
             radius = ear.site("wheel_radius")
             watch = Stopwatch()
-            await document.edit_site(radius["id"], f"{2 * radius['number']:g}", "")
+            await document.edits.edit_site(radius["id"], f"{2 * radius['number']:g}", "")
             took_s = watch.s
-            assert await document.urdf() != before
+            assert await document.urdf.text() != before
             assert radii_of(document) == {2 * radius["number"]}
             return took_s
 
@@ -115,7 +115,7 @@ def test_d6_a_package_folder_opens_without_build_or_install(models: Path, tmp_pa
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, package)
-            assert document.phase == "ready"
+            assert document.last_run.phase == "ready"
             assert ear.last("document")["packages"]["xacro_robot_description"] == str(package)
 
     asyncio.run(run())

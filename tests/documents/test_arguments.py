@@ -43,7 +43,7 @@ def test_what_is_missing_is_asked_for_and_all_is_passed_in_one_step(mast: Path, 
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
             fix = ear.last("problems")["problems"][0]["fix"]
-            assert (document.phase, fix["action"]) == ("failed", "give_arguments")
+            assert (document.last_run.phase, fix["action"]) == ("failed", "give_arguments")
             told = await form(made, document.id)
             assert told.missing == ("side",)
             assert [one.name for one in told.arguments] == ["side", "reach"]
@@ -54,9 +54,9 @@ def test_what_is_missing_is_asked_for_and_all_is_passed_in_one_step(mast: Path, 
             assert document.sources.undo_labels == ("Arguments",)
             told = await form(made, document.id)
             assert (told.missing, [one.value for one in told.arguments]) == ((), ["left", "2"])
-            await document.undo()
+            await document.edits.undo()
             assert document.sources.arguments == {}
-            assert document.failed
+            assert document.last_run.failed
 
     asyncio.run(run())
 
@@ -65,11 +65,11 @@ def test_wrong_values_are_refused_and_leave_no_step(mast: Path, tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast, side="left")
-            await document.history.pass_arguments({"reach": "2"})
-            await document.undo()
+            await document.edits.pass_arguments({"reach": "2"})
+            await document.edits.undo()
             with pytest.raises(CommandError, match=r"high.*as they were"):
-                await document.history.pass_arguments({"side": "right", "reach": "high"})
-            assert not document.failed
+                await document.edits.pass_arguments({"side": "right", "reach": "high"})
+            assert not document.last_run.failed
             assert list(document.model.robot.links) == ["left_base"]
             assert document.sources.arguments == {"side": "left"}
             assert document.sources.undo_labels == ()

@@ -60,15 +60,15 @@ def test_an_edit_moves_the_robot_and_is_undone_and_done_again(arm: Path, tmp_pat
             document, ear = await opened(made, arm)
             reach = ear.site("reach")
             assert reach["widget"]["minimum"] == 0.1
-            await document.edit_site(reach["id"], "0.5", "drag")
-            await document.edit_site(reach["id"], "0.6", "drag")
+            await document.edits.edit_site(reach["id"], "0.5", "drag")
+            await document.edits.edit_site(reach["id"], "0.6", "drag")
             assert height_of(document) == pytest.approx(0.6)
             assert ear.site("reach")["saved_text"] == "0.4"
             assert len(ear.last("history")["undo"]) == 1
-            await document.undo()
+            await document.edits.undo()
             assert height_of(document) == pytest.approx(0.4)
             assert ear.last("history")["unsaved_count"] == 0
-            await document.redo()
+            await document.edits.redo()
             assert height_of(document) == pytest.approx(0.6)
             assert arm.read_text() == ARM
 
@@ -79,8 +79,8 @@ def test_saving_writes_the_edited_bytes_and_clears_the_marks(arm: Path, tmp_path
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "0.55", "")
-            await document.save()
+            await document.edits.edit_site(ear.site("reach")["id"], "0.55", "")
+            await document.saving.save()
             assert arm.read_text() == ARM.replace('value="0.4"', 'value="0.55"')
             assert ear.site("reach")["saved_text"] is None
             assert ear.last("saved")["files"] == [str(arm)]
@@ -93,7 +93,7 @@ def test_a_failed_run_keeps_the_model_and_its_undo_mends_it(arm: Path, tmp_path:
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "${unheard_of}", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "${unheard_of}", "")
             told = ear.last("problems")
             assert told["showing_last_good"]
             (problem,) = [one for one in told["problems"] if one["severity"] == "error"]
@@ -102,9 +102,9 @@ def test_a_failed_run_keeps_the_model_and_its_undo_mends_it(arm: Path, tmp_path:
             assert problem["fix"]["action"] == "undo"
             assert height_of(document) == pytest.approx(0.4)
             newcomer = Ear()
-            document.board.attach(newcomer)
+            document.attach(newcomer)
             assert newcomer.site("reach")["text"] == "${unheard_of}"
-            await document.undo()
+            await document.edits.undo()
             assert "error" not in {one["severity"] for one in ear.last("problems")["problems"]}
             assert ear.site("reach")["text"] == "0.4"
 
@@ -117,9 +117,9 @@ def test_edits_that_come_during_a_run_all_count(arm: Path, tmp_path: Path):
             document, ear = await opened(made, arm)
             site = ear.site("reach")["id"]
             texts = [f"0.{number}" for number in range(41, 60)]
-            await asyncio.gather(*(document.edit_site(site, text, "g") for text in texts))
+            await asyncio.gather(*(document.edits.edit_site(site, text, "g") for text in texts))
             assert height_of(document) == pytest.approx(0.59)
-            await asyncio.gather(document.edit_site(site, "0.7", "h"), document.undo())
+            await asyncio.gather(document.edits.edit_site(site, "0.7", "h"), document.edits.undo())
             assert height_of(document) == pytest.approx(0.59)
 
     asyncio.run(run())
@@ -130,11 +130,11 @@ def test_an_argument_adds_links_and_keeps_the_joints(arm: Path, tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
             document.motion.set({"turn": 0.5})
-            await document.history.pass_arguments({"gripper": "true"})
+            await document.edits.pass_arguments({"gripper": "true"})
             assert [link["name"] for link in ear.last("robot")["links"]][-1] == "gripper"
             assert ear.last("joints")["positions"] == {"turn": 0.5}
             assert ear.site("gripper")["argument"] == "true"
-            await document.undo()
+            await document.edits.undo()
             assert len(ear.last("robot")["links"]) == 2
 
     asyncio.run(run())
@@ -159,7 +159,7 @@ def test_a_deleted_file_is_said_and_the_model_and_edits_stay(arm: Path, tmp_path
             await until(
                 lambda: any(one["code"] == "file-gone" for one in ear.last("problems")["problems"])
             )
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             assert height_of(document) == pytest.approx(0.5)
 
     asyncio.run(run())
@@ -169,15 +169,15 @@ def test_a_killed_worker_loses_no_edit(arm: Path, tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
-            pid = document.worker_pid
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
+            pid = document.runs.worker_pid
             assert pid is not None
             os.kill(pid, signal.SIGKILL)
-            await document.edit_site(ear.site("reach")["id"], "0.6", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.6", "")
             if (
-                document.failed
+                document.last_run.failed
             ):  # the run under way fell with the worker; the next one has a new one
-                await document.edit_site(ear.site("reach")["id"], "0.61", "")
+                await document.edits.edit_site(ear.site("reach")["id"], "0.61", "")
             assert height_of(document) > 0.59
             assert ear.site("reach")["saved_text"] == "0.4"
 
@@ -197,7 +197,7 @@ def test_a_missing_package_is_chosen_and_the_robot_opens(tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, package)
-            assert document.phase == "failed"
+            assert document.last_run.phase == "failed"
             (problem,) = ear.last("problems")["problems"]
             assert problem["fix"] == {
                 "label": "Choose its folder",
@@ -217,7 +217,7 @@ def test_a_site_that_is_gone_is_refused(arm: Path, tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, arm)
             with pytest.raises(StaleEditError):
-                await document.edit_site("nowhere#1@value", "1", "")
+                await document.edits.edit_site("nowhere#1@value", "1", "")
 
     asyncio.run(run())
 
@@ -230,7 +230,7 @@ def test_two_documents_share_nothing_but_the_files(arm: Path, tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             first, ear = await opened(made, arm)
             second, _ = await opened(made, other)
-            await first.edit_site(ear.site("reach")["id"], "0.5", "")
+            await first.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             assert (height_of(first), height_of(second)) == (0.5, 0.4)
             assert [first.id, second.id] == ["arm", "other"]
 
@@ -243,10 +243,10 @@ def test_the_expanded_urdf_can_be_had_once_there_is_one(arm: Path, tmp_path: Pat
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, arm)
-            assert '<box size="0.1 0.1 0.4"' in await document.urdf()
+            assert '<box size="0.1 0.1 0.4"' in await document.urdf.text()
             bad, _ = await opened(made, arm.with_name("bad.urdf.xacro"))
             with pytest.raises(CommandError):
-                await bad.urdf()
+                await bad.urdf.text()
 
     asyncio.run(run())
 
@@ -255,7 +255,7 @@ def test_closing_the_engine_ends_every_worker(arm: Path, tmp_path: Path):
     async def run() -> int | None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, arm)
-            return document.worker_pid
+            return document.runs.worker_pid
 
     pid = asyncio.run(run())
     assert pid is not None
@@ -272,12 +272,12 @@ def test_a_number_that_became_a_word_stays_in_reach_when_its_worker_falls(
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
             axis = next(name for name in ear.sites() if name.endswith("@xyz"))
-            await document.edit_site(axis, "upwards", "")
-            await document.save()
-            assert document.worker_pid is not None
-            os.kill(document.worker_pid, signal.SIGKILL)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
-            await document.edit_site(axis, "0 1 0", "")
+            await document.edits.edit_site(axis, "upwards", "")
+            await document.saving.save()
+            assert document.runs.worker_pid is not None
+            os.kill(document.runs.worker_pid, signal.SIGKILL)
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(axis, "0 1 0", "")
             assert b'xyz="0 1 0"' in document.sources.text(str(arm))
 
     asyncio.run(run())
@@ -332,13 +332,13 @@ def test_a_save_makes_only_those_rows_anew_that_it_changes(tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, file)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             assert ear.site("reach")["saved_text"] == "0.4"
             with calls_here() as calls:
-                await document.save()
+                await document.saving.save()
             assert ear.site("reach")["saved_text"] is None
-            assert calls["SiteBook.news"]
-            assert calls["site_view"] == 1
+            assert calls["SiteTable.tell"]
+            assert calls["_site_view"] == 1
             assert len(ear.sites()) > 1
 
     asyncio.run(run())

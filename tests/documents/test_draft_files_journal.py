@@ -61,7 +61,7 @@ def test_a_save_that_was_cut_off_is_told_until_it_is_made_up_for(mast: Path, tmp
             assert "mast.urdf.xacro was written, tools.xacro was not" in sentence
             assert document.sources.unsaved_files == (str(tools),)
             await until(lambda: not left[0].exists())
-            await document.save()
+            await document.saving.save()
             assert not told(ear)
         assert "0.2" in tools.read_text()
         async with engine(tmp_path / "data") as made:

@@ -54,10 +54,10 @@ async def work(mast: Path, data: Path) -> None:
     """Edit and end the studio without saving."""
     async with engine(data) as made:
         document, ear = await opened(made, mast)
-        await document.edit_site(ear.site("reach")["id"], "0.5", "")
-        await document.history.pass_arguments({"side": "right"})
-        await document.edit_site(ear.site("width")["id"], "0.2", "")
-        await document.undo()
+        await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
+        await document.edits.pass_arguments({"side": "right"})
+        await document.edits.edit_site(ear.site("width")["id"], "0.2", "")
+        await document.edits.undo()
 
 
 def test_edits_arguments_and_both_sides_of_the_undo_list_come_back(mast: Path, tmp_path: Path):
@@ -71,7 +71,7 @@ def test_edits_arguments_and_both_sides_of_the_undo_list_come_back(mast: Path, t
             told = ear.last("restored")
             assert (bool(told["at"]), told["files"]) == (True, [str(mast)])
             assert ear.last("history")["undo"] == ["reach 0.4 → 0.5", "side (empty) → right"]
-            await document.redo()
+            await document.edits.redo()
             assert tip_of(document) == [0.2, 0, 0.5]
             await made.execute(UndoTo(document=document.id, position=0, of=3), ear)
             assert tip_of(document) == [0.1, 0, 0.4]
@@ -104,15 +104,15 @@ def test_where_unsaved_work_gives_no_robot_the_saved_one_is_drawn_and_the_error_
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
             assert tip_of(document) == [0.1, 0, 0.4]
-            assert (document.phase, document.failed) == ("ready", True)
+            assert (document.last_run.phase, document.last_run.failed) == ("ready", True)
             assert "nonsense" in str(ear.last("problems"))
             assert document.sources.text(str(mast)) == broken
-            await document.edit_site(ear.site("width")["id"], "0.2", "")
+            await document.edits.edit_site(ear.site("width")["id"], "0.2", "")
             assert b'"width" value="0.2"' in document.sources.text(str(mast))
-            await document.undo()
-            await document.undo()
+            await document.edits.undo()
+            await document.edits.undo()
             assert tip_of(document) == [0.1, 0, 0.4]
-            assert not document.failed
+            assert not document.last_run.failed
 
     asyncio.run(run())
 
@@ -137,24 +137,24 @@ def test_where_the_arguments_of_unsaved_work_give_no_robot_the_saved_one_is_draw
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.history.pass_arguments({"tool": "long"})
-            await document.edit_site(ear.site("reach")["id"], broken, "")
+            await document.edits.pass_arguments({"tool": "long"})
+            await document.edits.edit_site(ear.site("reach")["id"], broken, "")
             edited = document.sources.text(str(arm))
         long.unlink()
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
             assert list(document.model.robot.links) == ["short"]
-            assert (document.phase, document.failed) == ("ready", True)
+            assert (document.last_run.phase, document.last_run.failed) == ("ready", True)
             assert "long.xacro" in str(ear.last("problems"))
             assert ear.last("restored")["at"] != ""
             assert document.sources.arguments == {"tool": "long"}
             assert document.sources.text(str(arm)) == edited
             long.write_text(TOOL.format("longer"))
-            await document.edit_site(ear.site("reach")["id"], "0.6", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.6", "")
             assert list(document.model.robot.links) == ["longer"]
             await made.execute(DiscardRestored(document=document.id), ear)
             assert list(document.model.robot.links) == ["short"]
-            assert (document.sources.arguments, document.failed) == ({}, False)
+            assert (document.sources.arguments, document.last_run.failed) == ({}, False)
 
     asyncio.run(run())
 
@@ -166,10 +166,10 @@ def test_what_the_disk_changed_meanwhile_is_merged(mast: Path, tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
             assert tip_of(document) == [0.3, 0, 0.5]
-            await document.save()
+            await document.saving.save()
             text = MAST.replace('value="0.1"', 'value="0.3"').replace('"0.4"', '"0.5"')
             assert mast.read_text() == text
-            await document.history.pass_arguments({"side": None})
+            await document.edits.pass_arguments({"side": None})
             assert ear.last("restored")["at"] == ""
 
     asyncio.run(run())
@@ -199,7 +199,7 @@ def test_what_was_restored_is_discarded_and_undo_brings_it_back(mast: Path, tmp_
             await made.execute(DiscardRestored(document=document.id), ear)
             assert (tip_of(document), document.has_unsaved) == ([0.1, 0, 0.4], False)
             assert (document.sources.arguments, ear.last("restored")["at"]) == ({}, "")
-            await document.undo()
+            await document.edits.undo()
             assert tip_of(document) == [0.1, 0, 0.5]
 
     asyncio.run(run())
@@ -209,7 +209,7 @@ def test_a_document_closed_by_its_user_leaves_nothing(mast: Path, tmp_path: Path
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
             await made.execute(CloseDocument(document=document.id, discard=True), ear)
             document, _ = await opened(made, mast)
@@ -222,9 +222,9 @@ def test_a_draft_is_written_soon_and_goes_when_nothing_is_left_of_it(mast: Path,
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "drag")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "drag")
             await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
-            await document.edit_site(ear.site("reach")["id"], "0.4", "drag")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.4", "drag")
             await until(lambda: not any((tmp_path / "data/drafts").glob("*.json")))
 
     asyncio.run(run())
@@ -250,7 +250,7 @@ def test_an_edit_is_shown_before_it_is_written_down(
                 return kept()
 
             monkeypatch.setattr(document.sources, "kept", note)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             await until(lambda: bool(tips))
             assert tips[0] == [0.1, 0, 0.5]
 
@@ -262,14 +262,14 @@ def test_an_edit_that_is_not_shown_for_long_is_written_down_meanwhile(mast: Path
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            assert document.worker_pid is not None
-            os.kill(document.worker_pid, signal.SIGSTOP)
-            edit = asyncio.create_task(document.edit_site(ear.site("reach")["id"], "0.5", ""))
+            assert document.runs.worker_pid is not None
+            os.kill(document.runs.worker_pid, signal.SIGSTOP)
+            edit = asyncio.create_task(document.edits.edit_site(ear.site("reach")["id"], "0.5", ""))
             try:
                 await until(lambda: any((tmp_path / "data/drafts").glob("*.json")))
                 assert tip_of(document) == [0.1, 0, 0.4]
             finally:
-                os.kill(document.worker_pid, signal.SIGCONT)
+                os.kill(document.runs.worker_pid, signal.SIGCONT)
             await edit
             assert tip_of(document) == [0.1, 0, 0.5]
 

@@ -66,9 +66,9 @@ def test_a_urdf_with_paths_and_one_with_copies_are_read_by_another_program(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             plain = await document.exports.urdf("package")
-            assert (plain.name, whole(plain)) == ("arm.urdf", (await document.urdf()).encode())
+            assert (plain.name, whole(plain)) == ("arm.urdf", (await document.urdf.text()).encode())
             copied = await document.exports.urdf("copied")
             assert unpacked(copied, tmp_path / "out") == {
                 "arm/arm.urdf",
@@ -89,7 +89,7 @@ def test_the_packages_hold_the_edits_and_open_as_the_same_robot(arm: Path, tmp_p
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, arm)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             alone = await document.exports.package(all_used=False)
             assert alone.name == "arm.zip"
             assert unpacked(alone, tmp_path / "alone") == {
@@ -105,7 +105,7 @@ def test_the_packages_hold_the_edits_and_open_as_the_same_robot(arm: Path, tmp_p
             zipped.write_bytes(whole(await document.exports.package(all_used=True)))
             again, _ = await opened(made, zipped)
             assert (again.entry.name, again.has_unsaved) == (arm.name, False)
-            assert (await again.urdf()) == (await document.urdf())
+            assert (await again.urdf.text()) == (await document.urdf.text())
 
     asyncio.run(run())
 

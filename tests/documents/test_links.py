@@ -65,17 +65,17 @@ def test_a_link_opens_the_same_robot_as_a_document_of_its_own(mast: Path, tmp_pa
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast, flag="true")
-            await document.edit_site(ear.site("reach")["id"], "0.75", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.75", "")
             link = await link_of(made, document.id)
             assert (link.arguments, link.files, link.edits) == (1, (str(mast),), 1)
             assert len(link.text) < 600
             name, left_out = await follow(made, link.text)
             other = made.document(name)
             assert (name != document.id, left_out) == (True, ())
-            assert (await other.urdf()) == (await document.urdf())
+            assert (await other.urdf.text()) == (await document.urdf.text())
             assert other.sources.unsaved_count == 1
             assert other.sources.undo_labels == ("Edits of a link",)
-            await other.undo()
+            await other.edits.undo()
             assert (other.has_unsaved, document.has_unsaved) == (False, True)
             assert mast.read_text() == MAST
 
@@ -86,9 +86,9 @@ def test_an_edit_finds_its_place_in_a_file_that_has_moved_on(mast: Path, tmp_pat
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.75", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.75", "")
             text = (await link_of(made, document.id)).text
-            await document.undo()
+            await document.edits.undo()
             mast.write_text(MAST.replace("<link", "<!-- new --><link", 1))
             name, left_out = await follow(made, text)
             assert left_out == ()

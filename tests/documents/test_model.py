@@ -62,7 +62,7 @@ def test_a_drag_shows_its_last_value_last_and_is_one_step_to_undo(box: Path, tmp
             peer = await looked_at(document)
             size = ear.site("size")["id"]
             texts = [f"{0.4 + 0.001 * number:.3f}" for number in range(1, 201)]
-            edits = [document.edit_site(size, text, "drag") for text in texts]
+            edits = [document.edits.edit_site(size, text, "drag") for text in texts]
             await asyncio.gather(*edits)
             assert heights(peer)[-1] == 0.6
             assert ear.site("size")["text"] == "0.600"
@@ -75,7 +75,7 @@ def test_edit_after_edit_leaves_no_more_behind_than_the_first(box: Path, tmp_pat
     def kept(document: Document) -> tuple[int, ...]:
         viser = document.scene.viser.scene
         buffer = viser._websock_interface.get_message_buffer()  # pyright: ignore[reportPrivateUsage]
-        book = document.board.book
+        book = document.sites
         spans, steps = document.sources.spans, document.sources.undo_labels
         return (
             len(buffer.message_from_id),
@@ -88,10 +88,10 @@ def test_edit_after_edit_leaves_no_more_behind_than_the_first(box: Path, tmp_pat
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, box)
             size = ear.site("size")["id"]
-            await document.edit_site(size, "0.401", "drag")
+            await document.edits.edit_site(size, "0.401", "drag")
             first = kept(document)
             for number in range(2, 60):
-                await document.edit_site(size, f"{0.4 + 0.001 * number:.3f}", "drag")
+                await document.edits.edit_site(size, f"{0.4 + 0.001 * number:.3f}", "drag")
             assert kept(document) == first
 
     asyncio.run(run())
@@ -104,9 +104,9 @@ def test_an_edit_tells_the_robot_only_when_the_page_would_see_a_difference(
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, box)
             told = [event["type"] for event in ear.events].count("robot")
-            await document.edit_site(ear.site("size")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("size")["id"], "0.5", "")
             assert [event["type"] for event in ear.events].count("robot") == told
-            await document.edit_site(ear.site("weight")["id"], "2.5", "")
+            await document.edits.edit_site(ear.site("weight")["id"], "2.5", "")
             assert ear.last("robot")["links"][0]["mass_kg"] == 2.5
 
     asyncio.run(run())
@@ -116,9 +116,9 @@ def test_a_newcomer_after_many_edits_is_told_of_the_robot_as_it_is(box: Path, tm
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, box)
-            await document.edit_site(ear.site("weight")["id"], "3", "")
+            await document.edits.edit_site(ear.site("weight")["id"], "3", "")
             newcomer = Ear()
-            document.board.attach(newcomer)
+            document.attach(newcomer)
             await until(lambda: bool(newcomer.events))
             assert newcomer.last("robot") == ear.last("robot")
 

@@ -92,10 +92,10 @@ def test_an_origin_holds_while_the_text_is_broken_and_follows_the_next_good_run(
                 return next(one["value"] for one in told if one["element"] == "origin")
 
             assert await height() == "0 0 0.4"
-            await document.edit_site(reach, "${", "")
-            assert document.failed
+            await document.edits.edit_site(reach, "${", "")
+            assert document.last_run.failed
             assert await height() == "0 0 0.4"
-            await document.edit_site(reach, "0.5", "")
+            await document.edits.edit_site(reach, "0.5", "")
             assert await height() == "0 0 0.5"
             with pytest.raises(CommandError, match="joint:gone"):
                 await asked(document, GetOrigin(part="joint:gone"))

@@ -96,7 +96,7 @@ def test_who_comes_to_a_robot_that_nobody_watched_hears_its_poses(tmp_path: Path
             document = made.document(await made.open_path(write_arm(tmp_path / "src"), {}))
             await document.opened()
             ear = Ear()
-            document.board.attach(ear)
+            document.attach(ear)
             await until(lambda: [one["name"] for one in ear.last("poses")["poses"]] == ["folded"])
 
     asyncio.run(run())

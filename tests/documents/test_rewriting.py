@@ -70,13 +70,13 @@ def test_a_property_is_renamed_in_two_files_as_one_step(tmp_path: Path):
         answer = await asked(document, GetRenaming(**place, name="span", request=3))
         assert (answer["type"], answer["request"]) == ("renaming", 3)
         assert (answer["count"], answer["files"], answer["kind"]) == (3, 2, "property")
-        urdf = await document.urdf()
+        urdf = await document.urdf.text()
         await asked(document, Rename(**place, name="span", count=3))
         assert text(document, mast) == MAST.replace("reach", "span")
         assert text(document, parts) == PARTS.replace("reach", "span")
-        assert (await document.urdf()) == urdf
+        assert (await document.urdf.text()) == urdf
         assert document.sources.undo_labels == ("Rename reach → span",)
-        await document.undo()
+        await document.edits.undo()
         assert (text(document, mast), text(document, parts)) == (MAST, PARTS)
         assert document.sources.unsaved_files == ()
 
@@ -85,14 +85,14 @@ def test_a_property_is_renamed_in_two_files_as_one_step(tmp_path: Path):
 
 def test_an_arg_that_was_passed_is_passed_under_its_new_name(tmp_path: Path):
     async def story(document: Document, mast: Path, _parts: Path) -> None:
-        await document.history.pass_arguments({"high": "5"})
-        urdf = await document.urdf()
+        await document.edits.pass_arguments({"high": "5"})
+        urdf = await document.urdf.text()
         place: dict[str, Any] = {"file": str(mast), "offset": MAST.index("high")}
         await asked(document, Rename(**place, name="tall", count=2))
         assert document.sources.arguments == {"tall": "5"}
-        assert (await document.urdf()) == urdf
+        assert (await document.urdf.text()) == urdf
         assert len(document.sources.undo_labels) == 2
-        await document.undo()
+        await document.edits.undo()
         assert document.sources.arguments == {"high": "5"}
         assert text(document, mast) == MAST
 
@@ -130,7 +130,7 @@ def test_words_are_replaced_as_one_step(tmp_path: Path):
         assert document.sources.undo_labels == ("Replace reach → r1",)
         with pytest.raises(CommandError, match="changed since"):
             await asked(document, command)
-        await document.undo()
+        await document.edits.undo()
         assert text(document, parts) == PARTS
 
     told(tmp_path, story)

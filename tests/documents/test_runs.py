@@ -15,10 +15,10 @@ from studio.description.client import DescriptionWorker
 from studio.description.editing.sources import Sources
 from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
 from studio.description.values import Edit, Expansion, NoReply
-from studio.documents.runs import Runs, Target
+from studio.documents.runs import Runs
 from studio.packages.roots import ServedRoots
-from tests.support.descriptions import policy_for, robot, write
-from tests.support.loop_story import AT, ORIGIN, LoopStory, NotedWorker, loop_story
+from tests.support.descriptions import robot, write
+from tests.support.loop_story import AT, ORIGIN, LoopStory, NotedWorker, loop_story, target_for
 from tests.support.open_documents import Ear, until
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ kills_processes = pytest.mark.skipif(sys.platform == "win32", reason="Windows ha
 def loop_over(file: Path, outcomes: list[Outcome], worker: DescriptionWorker | None = None) -> Runs:
     roots = ServedRoots([file.parent])
     sources = Sources(roots.read, roots.resolve, lambda _: True, {})
-    target = Target(str(file), policy_for(file.parent))
+    target = target_for(file)
     worker = worker or DescriptionWorker()
     return Runs(worker, sources, target, lambda one, _: outcomes.append(one))
 

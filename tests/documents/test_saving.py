@@ -34,8 +34,8 @@ def mast(tmp_path: Path) -> Path:
 
 
 async def edited(document: Document, ear: Ear) -> None:
-    await document.edit_site(ear.site("reach")["id"], "0.5", "")
-    await document.edit_site(ear.site("y")["id"], "3.0", "")
+    await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
+    await document.edits.edit_site(ear.site("y")["id"], "3.0", "")
 
 
 def test_the_changes_are_counted_and_only_the_chosen_file_is_written(mast: Path, tmp_path: Path):
@@ -75,7 +75,7 @@ def test_a_file_that_may_only_be_read_says_so_before_and_is_saved_as_a_copy(
             assert "read-only" in hindrance
             assert told["copies"] == str(mast.parent)
             with pytest.raises(NotSavedError):
-                await document.save()
+                await document.saving.save()
             assert document.has_unsaved
             copy = mast.with_name("copy.urdf.xacro")
             wish = SaveCopy(document=document.id, file=str(mast), path=str(copy))
@@ -119,9 +119,9 @@ def test_a_folder_that_vanished_loses_nothing(mast: Path, tmp_path: Path):
             await made.execute(GetChanges(document=document.id), ear)
             assert all("deleted" in one["hindrance"] for one in ear.last("changes")["files"])
             with pytest.raises(NotSavedError, match="put it back or save a copy"):
-                await document.save()
+                await document.saving.save()
             (tmp_path / "elsewhere").rename(mast.parent)
-            await document.save()
+            await document.saving.save()
             assert mast.read_text() == MAST.replace("0.4", "0.5")
 
     asyncio.run(run())

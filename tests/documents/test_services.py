@@ -71,7 +71,7 @@ async def opening(
 
 
 def told(document: Document) -> set[str]:
-    return {one.code for one in document.board.found}
+    return {one.code for one in document.findings.all()}
 
 
 def running(module: str) -> int:
@@ -94,7 +94,7 @@ def test_checks_and_the_next_spare_worker_begin_after_the_last_mesh(tmp_path: Pa
         async with opening(tmp_path, let) as document:
             await asked.wait()
             for _ in range(20):  # there is time enough for all of it
-                reply = await document.ask(CheckQuery(), Checked, document.checks)
+                reply = await document.runs.answer(CheckQuery(), Checked, document.checks)
                 assert reply.problems is not None
                 await asyncio.sleep(0.02)
             assert "reversed-limits" not in told(document)
@@ -135,7 +135,7 @@ from tests.support.open_documents import Ear
 async def run():
     made = Engine(Settings(data_folder=Path({str(tmp_path / "data")!r})))
     document = made.document(await made.open_path(Path({str(file)!r}), {{}}))
-    document.board.attach(Ear())
+    document.attach(Ear())
     print("studio.live.displays.drawing_room" in sys.modules)
     await made.close()
 

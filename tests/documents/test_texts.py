@@ -56,7 +56,7 @@ class Tab:
 
     def __init__(self, document: Document, file: Path, role: Role = Role.PRESENTER) -> None:
         self.document, self.file, self.ear = document, str(file), Ear(role)
-        document.board.attach(self.ear)
+        document.attach(self.ear)
         told = document.texts.answer(GetText(file=self.file), role)
         self.text, self.version, self.read_only = told.text, told.version, told.read_only
 
@@ -117,7 +117,7 @@ def test_typing_moves_the_robot_touches_only_its_bytes_and_is_one_step(mast: Pat
             assert (late.text, late.saved) == (MAST.replace("0.4", "0.5"), MAST)
             assert document.sources.text(str(mast)) == AWKWARD.replace(b'"0.4"', b'"0.5"')
             assert tab.ear.last("history")["undo"] == ["Edit mast.urdf.xacro"]
-            await document.undo()
+            await document.edits.undo()
             assert tab.follow() == MAST
             assert document.sources.text(str(mast)) == AWKWARD
             assert height_of(document) == pytest.approx(0.4)
@@ -135,7 +135,7 @@ def test_several_places_are_changed_at_once_and_undone_as_one_step(mast: Path, t
             assert height_of(document) == pytest.approx(0.75)
             assert "dér 🤖\r\nMaße".encode() in document.sources.text(str(mast))
             assert len(ear.last("history")["undo"]) == 1
-            await document.undo()
+            await document.edits.undo()
             assert document.sources.text(str(mast)) == AWKWARD
 
     asyncio.run(run())
@@ -146,10 +146,10 @@ def test_an_open_text_follows_sliders_undo_saving_and_the_disk(mast: Path, tmp_p
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
             tab = Tab(document, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.45", "drag")
-            await document.edit_site(ear.site("width")["id"], "0.2", "drag")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.45", "drag")
+            await document.edits.edit_site(ear.site("width")["id"], "0.2", "drag")
             assert tab.follow() == MAST.replace("0.4", "0.45").replace('"0.1"', '"0.2"')
-            await document.undo()
+            await document.edits.undo()
             assert tab.follow() == MAST
             mast.write_bytes(AWKWARD.replace(b'"0.4"', b'"0.9"'))
             await until(lambda: tab.follow() == MAST.replace("0.4", "0.9"))
@@ -166,15 +166,15 @@ def test_an_edit_of_a_text_that_has_changed_since_is_refused(mast: Path, tmp_pat
             await one.type(one.change('"0.4"', '"0.123"'))
             stale = EditText(file=two.file, version=two.version, changes=(seen,))
             with pytest.raises(StaleTextError, match="was changed meanwhile"):
-                await document.edit_text(stale)
+                await document.texts.edit(stale)
             assert two.follow() == one.text
             await two.type(two.change('"0.1"', '"0.3"'))
             assert (
                 one.follow() == two.text == MAST.replace("0.4", "0.123").replace('"0.1"', '"0.3"')
             )
-            await document.edit_site(ear.site("reach")["id"], "0.2", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.2", "")
             with pytest.raises(StaleTextError):
-                await document.edit_text(stale.model_copy(update={"version": one.version}))
+                await document.texts.edit(stale.model_copy(update={"version": one.version}))
 
     asyncio.run(run())
 
@@ -211,7 +211,7 @@ def test_a_robot_that_never_opened_is_mended_by_typing(mast: Path, tmp_path: Pat
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            assert document.phase == "failed"
+            assert document.last_run.phase == "failed"
             tab = Tab(document, mast)
             await tab.type(tab.change("${nothing}", ""))
             assert ear.last("document")["phase"] == "ready"
@@ -228,7 +228,7 @@ def test_letters_that_come_during_a_run_all_count(mast: Path, tmp_path: Path):
             start = tab.change('0.4"', "").start
             tasks = [
                 asyncio.ensure_future(
-                    document.edit_text(
+                    document.texts.edit(
                         EditText(
                             file=tab.file,
                             version=tab.version + number,
@@ -239,7 +239,7 @@ def test_letters_that_come_during_a_run_all_count(mast: Path, tmp_path: Path):
                 )
                 for number in range(6)
             ]
-            slider = document.edit_site(ear.site("width")["id"], "0.25", "")
+            slider = document.edits.edit_site(ear.site("width")["id"], "0.25", "")
             await asyncio.gather(*tasks, slider)
             assert height_of(document) == pytest.approx(0.4111111)
             assert '"0.25"' in tab.follow()
@@ -263,8 +263,8 @@ def test_a_file_that_no_run_has_read_is_edited_and_counts_once_it_is_included(
             joint = '<joint name="j" type="fixed"><parent link="tip"/><child link="two"/></joint>'
             await tab.type(tab.change("</robot>", joint + include))
             assert "two" in document.model.robot.links
-            await document.undo()
-            await document.undo()
+            await document.edits.undo()
+            await document.edits.undo()
             assert beside.follow() == part.read_text()
             assert height_of(document) == pytest.approx(0.4)
 
@@ -299,7 +299,7 @@ def test_texts_that_are_none_or_not_ours_are_refused_in_words(mast: Path, tmp_pa
                 file=str(mast), version=1, changes=(TextChange(start=0, end=0, text="x"),)
             )
             with pytest.raises(StaleTextError):
-                await document.edit_text(never_asked)
+                await document.texts.edit(never_asked)
 
     asyncio.run(run())
 
@@ -378,7 +378,7 @@ def test_letters_that_came_to_mean_others_with_the_encoding_are_told(mast: Path,
             assert "Maß" in tab.text
             await tab.type(tab.change("iso-8859-1", "koi8-r"))
             assert tab.text == document.sources.text(str(mast)).decode("koi8-r")
-            await document.undo()
+            await document.edits.undo()
             assert tab.follow() == data
 
     asyncio.run(run())

@@ -109,14 +109,14 @@ def test_what_was_typed_a_moment_ago_is_completed_before_its_run_has_ended(
             at = offset(MAST, "|</robot>")
             change = TextChange(start=at, end=at, text=typed)
             edit = EditText(file=str(mast), version=text.version, changes=(change,))
-            editing = asyncio.create_task(document.edit_text(edit))
+            editing = asyncio.create_task(document.texts.edit(edit))
             await asyncio.sleep(0)
             command = Complete(file=str(mast), offset=at + len(typed))
             completions = (await asked(document, command))["completions"]
             assert [one["label"] for one in completions["items"]] == ["new_one"]
             assert completions["start"] == at + typed.index("${new") + 2
             await editing
-            assert document.failed
+            assert document.last_run.failed
 
     asyncio.run(story())
 

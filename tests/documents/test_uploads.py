@@ -67,7 +67,7 @@ def test_a_robot_dropped_without_its_meshes_says_which_package_is_missing(tmp_pa
         async with engine(tmp_path) as made:
             document = await sent(made, {"r.urdf": WITH_MESH})
             ear = Ear()
-            document.board.attach(ear)
+            document.attach(ear)
             problems = ear.last("problems")["problems"]
             (missing,) = [one for one in problems if one["code"] == "mesh"]
             assert '"parts"' in missing["sentence"]

@@ -40,8 +40,8 @@ def lines(answer: dict[str, Any], kind: str) -> list[str]:
 
 
 async def write(document: Document, size: str) -> None:
-    site = next(one for one in document.board.book.sites.values() if one.name == "size")
-    await document.edit_site(site.id, size, "")
+    site = next(one for one in document.sites.sites.values() if one.name == "size")
+    await document.edits.edit_site(site.id, size, "")
 
 
 def test_edits_are_told_line_by_line_against_the_disk(tmp_path: Path):
@@ -58,7 +58,7 @@ def test_edits_are_told_line_by_line_against_the_disk(tmp_path: Path):
             assert lines(answer, "old") == ['<sphere radius="1" />']
             assert lines(answer, "new") == ['<sphere radius="2" />']
             assert (answer["added"], answer["removed"], answer["fault"]) == (1, 1, "")
-            await document.save()
+            await document.saving.save()
             assert (await changes(document))["hunks"] == []
             await write(document, "3")
             assert lines(await changes(document), "old") == ['<sphere radius="2" />']
@@ -74,7 +74,7 @@ def test_arguments_passed_since_the_opening_are_changes_too(tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, file)
-            await document.history.pass_arguments({"tail": "true"})
+            await document.edits.pass_arguments({"tail": "true"})
             assert '<link name="tail" />' in lines(await changes(document), "new")
 
     asyncio.run(run())
@@ -91,7 +91,7 @@ def test_files_on_disk_that_do_not_run_are_said(tmp_path: Path):
             text = file.read_bytes()
             at = text.index(b"${nothing}")
             edit = type_edit(document, file, at, at + len(b"${nothing}"))
-            await document.edit_text(edit)
+            await document.texts.edit(edit)
             assert (await changes(document))["fault"].startswith("The files on disk do not run")
 
     asyncio.run(run())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import zipfile
 from typing import TYPE_CHECKING
 
-from studio.documents.workspace import target_of
+from studio.documents.workspace import read_policy
 from studio.packages.workspace import open_location
 from tests.support.packages import write_package
 
@@ -22,8 +22,8 @@ def test_a_trusted_file_sees_the_whole_environment(tmp_path: Path, monkeypatch: 
     monkeypatch.setenv("ROS_DISTRO", "jazzy")
     package = write_package(tmp_path / "ws" / "r_description", files={"r.urdf": ROBOT})
     location = open_location(package / "r.urdf", (), tmp_path / "data", {})
-    hidden = target_of(location, trusted=False).policy
-    shown = target_of(location, trusted=True).policy
+    hidden = read_policy(location, trusted=False)
+    shown = read_policy(location, trusted=True)
     assert "STUDIO_SECRET" not in hidden.environment
     assert hidden.environment["ROS_DISTRO"] == "jazzy"
     assert shown.environment["STUDIO_SECRET"] == "s"
@@ -39,6 +39,6 @@ def test_what_came_in_an_archive_is_never_trusted(tmp_path: Path, monkeypatch: p
             out.write(file, file.relative_to(package.parent))
     location = open_location(archive, (), tmp_path / "data", {})
     assert location.is_unpacked
-    policy = target_of(location, trusted=True).policy
+    policy = read_policy(location, trusted=True)
     assert not policy.trusted
     assert "STUDIO_SECRET" not in policy.environment

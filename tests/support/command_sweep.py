@@ -123,12 +123,12 @@ class _Sweep:
 
     def _known(self) -> dict[str, Sequence[str]]:
         document = next(iter(self._engine.documents.values()))
-        files = list(document.files_read) or [document.path]
+        files = list(document.last_run.files) or [document.path]
         robot = document.model.robot
         names = [*robot.links, *robot.joints, *document.sources.arguments]
         parts = [*(f"link:{one}" for one in robot.links), *(f"joint:{one}" for one in robot.joints)]
         folder = [str(self._folder)]
-        sites = list(document.board.book.sites)
+        sites = list(document.sites.sites)
         return {
             "document": list(self._engine.documents),
             "file": files,

@@ -34,17 +34,17 @@ def _rename_or_die(self: Path, target: str | os.PathLike[str]) -> Path:
 
 
 async def _save(document: Document, ear: Ear) -> None:
-    await document.edit_site(ear.site("reach")["id"], "0.5", "")
-    await document.edit_site(ear.site("width")["id"], "0.2", "")
+    await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
+    await document.edits.edit_site(ear.site("width")["id"], "0.2", "")
     drafts = Path(sys.argv[2]) / "drafts"
     await until(lambda: any(b"tools" in one.read_bytes() for one in drafts.glob("*.json")))
     Path.replace = _rename_or_die
-    await document.save()
+    await document.saving.save()
 
 
 async def _edit(document: Document, ear: Ear) -> None:
     drafts = Path(sys.argv[2]) / "drafts"
-    running = asyncio.create_task(document.edit_site(ear.site("reach")["id"], "0.5", ""))
+    running = asyncio.create_task(document.edits.edit_site(ear.site("reach")["id"], "0.5", ""))
     await until(lambda: any(drafts.glob("*.json")))
     _kill()
     await running

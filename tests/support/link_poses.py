@@ -61,7 +61,7 @@ async def _answer(document: Document, command: Command) -> dict[str, Any]:
 
 async def _poses(document: Document, positions: dict[str, float]) -> dict[str, list[float]]:
     """Three rows of each link's pose, one after the other."""
-    found = poses_by_yourdfpy(io.BytesIO((await document.urdf()).encode()), positions)
+    found = poses_by_yourdfpy(io.BytesIO((await document.urdf.text()).encode()), positions)
     assert found is not None
     return {link: pose[:3].ravel().tolist() for link, pose in found.items()}
 

@@ -6,13 +6,13 @@ import asyncio
 import os
 import signal
 from contextlib import asynccontextmanager, suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from studio.description.client import EXPANSION_TIMEOUT_S, DescriptionWorker
 from studio.description.editing.sources import Sources
 from studio.description.origins.origin_values import PartOrigin, PartOriginQuery
 from studio.description.values import Edit, Expansion
-from studio.documents.runs import Runs, Target
+from studio.documents.runs import Runs
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for, robot, write
 from tests.support.open_documents import Ear, until
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         ArgumentsRequest,
         EditRequest,
         OpenRequest,
+        ReadPolicy,
         ReloadRequest,
     )
     from studio.documents.runs import Outcome
@@ -37,6 +38,18 @@ SOURCE = robot(
 )
 AT = SOURCE.index('"1"') + 1
 ORIGIN = PartOriginQuery("link:left")
+
+
+class Target(NamedTuple):
+    """What is run, and what it may read."""
+
+    path: str
+    policy: ReadPolicy
+
+
+def target_for(file: Path) -> Target:
+    """A file that may read its own folder."""
+    return Target(str(file), policy_for(file.parent))
 
 
 class NotedWorker(DescriptionWorker):
@@ -84,7 +97,7 @@ class LoopStory:
         self.loop = Runs(
             worker,
             self.sources,
-            Target(str(file), policy_for(file.parent)),
+            target_for(file),
             lambda one, _: self.outcomes.append(one),
         )
 

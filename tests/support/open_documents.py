@@ -65,7 +65,7 @@ async def opened(made: Engine, path: Path, **arguments: str) -> tuple[Document, 
     """Open a path, wait for the robot and its meshes; the document and an ear at it."""
     document = made.document(await made.open_path(path, arguments))
     ear = Ear()
-    document.board.attach(ear)
+    document.attach(ear)
     await document.opened()
     return document, ear
 

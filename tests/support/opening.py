@@ -31,5 +31,5 @@ async def document_of(made: Engine, command: Command) -> Document:
 
 def sentences(document: Document) -> list[str]:
     ear = Ear()
-    document.board.attach(ear)
+    document.attach(ear)
     return [one["sentence"] for one in ear.last("problems")["problems"]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from studio.documents.joints import JointPositions
+from studio.documents.model import JointPositions
 from studio.robot.kinematics import Kinematics
 from studio.robot.values import Joint, JointType, Limit, Link, Origin, Robot
 

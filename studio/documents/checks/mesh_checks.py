@@ -11,18 +11,20 @@ from studio.description.syntax.attribute_spans import attribute_spans
 from studio.description.syntax.source_tree import SourceError, parse_source
 from studio.documents.meshes import mesh_problem
 from studio.errors import EditError, PackageError, RobotError, WorkerError
-from studio.packages.uris import near_file, resolve_uri
+from studio.packages.uris import near_file
 from studio.problems import Fix, Replacement
 from studio.robot.meshes.reading import MESH_SUFFIXES
 from studio.robot.meshes.textured import split_textured
+from studio.robot.values import Mesh
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
     from pathlib import Path
 
     from studio.description.syntax.source_tree import SourceElement, SourceTree
-    from studio.documents.document import Document
-    from studio.packages.workspace import Location
+    from studio.documents.meshes import Meshes
+    from studio.documents.model import Model
+    from studio.documents.workspace import Workspace
     from studio.problems import Problem
     from studio.robot.measures import Bounds
     from studio.robot.meshes.library import MeshLibrary
@@ -32,20 +34,20 @@ _Stamp: TypeAlias = "tuple[Path, int, int]"
 
 
 class HiddenMeshes:
-    """Sizes and problems of meshes by URI, as they were looked at last.
+    """Sizes and problems of meshes by URI, as they were read last.
 
     Collision shapes are loaded by the scene when somebody wants to see them; the checks want to
     know of them before.
     """
 
-    def __init__(self, document: Document, library: MeshLibrary) -> None:
-        self._document, self._library = document, library
+    def __init__(self, workspace: Workspace, library: MeshLibrary) -> None:
+        self._workspace, self._library = workspace, library
         self._seen: dict[str, _Stamp | None] = {}
         self.bounds: dict[str, Bounds] = {}
         self.problems: dict[str, Problem] = {}
 
-    async def look(self, uris: Iterable[str]) -> bool:
-        """Look at these and forget the others; one after the other, for nobody waits for them.
+    async def read(self, uris: Iterable[str]) -> bool:
+        """Read these and forget the others; one after the other, for nobody waits for them.
 
         Returns:
             Whether anything is other than before.
@@ -56,16 +58,16 @@ class HiddenMeshes:
             for uri in known.keys() - wanted:
                 del known[uri]
         for uri in sorted(wanted):
-            await self._look_at(uri)
+            await self._read(uri)
         return before != (self.bounds, self.problems)
 
-    async def _look_at(self, uri: str) -> None:
+    async def _read(self, uri: str) -> None:
         stamp: _Stamp | None = None
         try:
             stamp = await asyncio.to_thread(self._stamp, uri)
             if self._seen.get(uri) == stamp:
                 return
-            mesh = await self._library.load(stamp[0], self._document.location.served.all)
+            mesh = await self._library.load(stamp[0], self._workspace.served.all)
             self.bounds[uri] = mesh.bounds_m
             self.problems.pop(uri, None)
         except (PackageError, RobotError, WorkerError) as error:
@@ -75,16 +77,14 @@ class HiddenMeshes:
 
     def _stamp(self, uri: str) -> _Stamp:
         """Where a mesh lies, when it was written and how long it is."""
-        document = self._document
-        location = document.location
-        path = resolve_uri(uri, document.entry, location.index, location.served)
+        path = self._workspace.resolve_uri(uri)
         status = path.stat()
         return path, status.st_mtime_ns, status.st_size
 
 
 _FIND: Final = re.compile(r"\$\(\s*find\s[^()]*\)")
 """Comes to the same folder in every call of a macro."""
-_LOOKED_AT: Final = 200
+_SEARCHED: Final = 200
 """Missing meshes; a robot whose whole folder is gone has more."""
 
 
@@ -93,14 +93,12 @@ class NearMeshes:
     """Looks for what was meant; touches the disk, so it is asked in a thread.
 
     Args:
-        location: Of the robot.
-        entry: The file that its URIs stand in.
+        workspace: Of the robot.
         text: Of a file as it is edited now; None when it cannot be read.
         named: All mesh URIs of the robot.
     """
 
-    location: Location
-    entry: Path
+    workspace: Workspace
     text: Callable[[str], bytes | None]
     named: Collection[str]
 
@@ -108,7 +106,7 @@ class NearMeshes:
         """The problems by URI that can be mended, each with its fix; `found` has their places."""
         trees: dict[str, SourceTree | None] = {}
         made: dict[str, Problem] = {}
-        for uri, problem in list(found.items())[:_LOOKED_AT]:
+        for uri, problem in list(found.items())[:_SEARCHED]:
             meant = self._meant(uri) if problem.fix is None and problem.place else ""
             if not meant or problem.place is None:
                 continue
@@ -123,8 +121,8 @@ class NearMeshes:
     def _meant(self, uri: str) -> str:
         if split_textured(uri)[1] != uri:
             return ""
-        index, served = self.location.index, self.location.served
-        return near_file(uri, self.entry, index, served, MESH_SUFFIXES, self.named)
+        location, entry = self.workspace.location, self.workspace.entry
+        return near_file(uri, entry, location.index, location.served, MESH_SUFFIXES, self.named)
 
     def _tree(self, file: str) -> SourceTree | None:
         data = self.text(file)
@@ -179,3 +177,62 @@ def _renamed(mesh: SourceElement, written: str, meant: str) -> Replacement | Non
     if at < 0 or not plain or data[at + len(raw) : span.end].strip():
         return None
     return Replacement(mesh.tree.path, at, at + len(raw), name, meant)
+
+
+class MeshChecks:
+    """Checks the meshes of a robot: those of its scene, and those that only collisions name.
+
+    Args:
+        workspace: Where the meshes lie.
+        model: Names the meshes.
+        meshes: Those of the scene.
+        library: Loads the others.
+    """
+
+    def __init__(
+        self, workspace: Workspace, model: Model, meshes: Meshes, library: MeshLibrary
+    ) -> None:
+        self._workspace, self._model, self._meshes = workspace, model, meshes
+        self._hidden = HiddenMeshes(workspace, library)
+
+    async def read_hidden(self) -> bool:
+        """Read the meshes that the scene has not loaded; whether anything is other than before."""
+        return await self._hidden.read(self._hidden_uris())
+
+    def bounds(self) -> dict[str, Bounds]:
+        """The boxes of all meshes that are known, by URI."""
+        shown = ((uri, self._model.scene.mesh(uri)) for uri in self._model.mesh_uris())
+        of_scene = {uri: mesh.bounds_m for uri, mesh in shown if mesh is not None}
+        return {**self._hidden.bounds, **of_scene}
+
+    async def check(self, text: Callable[[str], bytes | None]) -> list[Problem]:
+        """What is wrong with hidden meshes; the fixes of the scene's go to these.
+
+        Args:
+            text: As for `NearMeshes`.
+        """
+        hidden, shown = self._problems_of_hidden(), self._meshes.problems
+        named = self._model.mesh_uris() | self._hidden_uris()
+        near_meshes = NearMeshes(self._workspace, text, named)
+        near = await asyncio.to_thread(near_meshes.mended, hidden | shown)
+        self._meshes.suggest({shown[uri]: near[uri] for uri in near if uri in shown})
+        return [near.get(uri, one) for uri, one in hidden.items()]
+
+    def _hidden_uris(self) -> frozenset[str]:
+        """Meshes of collisions that the scene has not loaded."""
+        scene = self._model.scene
+        return frozenset(
+            one.geometry.uri
+            for link in self._model.robot.links.values()
+            for one in link.collisions
+            if isinstance(one.geometry, Mesh) and scene.mesh(one.geometry.uri) is None
+        )
+
+    def _problems_of_hidden(self) -> dict[str, Problem]:
+        users = self._model.mesh_users()
+        return {
+            uri: replace(problem, place=part.place, parts=(part.key,))
+            if (part := users.get(uri))
+            else problem
+            for uri, problem in self._hidden.problems.items()
+        }

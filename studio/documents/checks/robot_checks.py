@@ -4,110 +4,77 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from studio.documents.checks.mesh_checks import HiddenMeshes, NearMeshes
+from studio.debounce import Debouncer
 from studio.errors import PackageError
 from studio.robot.checks.finding import CheckedRobot
 from studio.robot.checks.robot_checks import check_robot
-from studio.robot.values import Mesh
 
 if TYPE_CHECKING:
-    from studio.documents.document import Document
-    from studio.documents.meshes import Meshes
-    from studio.documents.services import Services
-    from studio.problems import Problem
-    from studio.robot.measures import Bounds
+    from studio.documents.checks.mesh_checks import MeshChecks
+    from studio.documents.checks.pace import Pace
+    from studio.documents.findings import Findings
+    from studio.documents.model import Model
+    from studio.documents.runs import LastRun
+    from studio.documents.workspace import Workspace
 
 _log = logging.getLogger(__name__)
 
 
 class RobotChecks:
-    """Tells the document's board what is wrong with its robot; the looking is done in a thread."""
+    """Finds what is wrong with the robot of the last good run; the work is done in a thread."""
 
-    def __init__(self, document: Document, services: Services, meshes: Meshes) -> None:
-        self._document, self._meshes = document, meshes
-        self._hidden = HiddenMeshes(document, services.meshes)
-        self._quiet_s, self._patience_s = services.quiet_s, services.patience_s
-        self._looking: asyncio.Task[None] | None = None
+    def __init__(
+        self,
+        workspace: Workspace,
+        last_run: LastRun,
+        model: Model,
+        meshes: MeshChecks,
+        findings: Findings,
+        pace: Pace,
+    ) -> None:
+        self._workspace, self._last_run, self._model = workspace, last_run, model
+        self._meshes, self._findings = meshes, findings
+        self._checking = Debouncer(self._check_all, pace.quiet_s, pace.opened)
 
-    def doubt(self) -> None:
-        """Something may be other than it was: look when it has been quiet for a while."""
-        if self._looking is not None:
-            self._looking.cancel()
-        self._looking = asyncio.create_task(self._look_later())
+    def trigger(self) -> None:
+        """Check the robot when it has been quiet for a while."""
+        self._checking.trigger()
 
     async def settled(self) -> None:
-        """Wait until the robot as it is now has been looked at."""
-        while self._looking is not None and not self._looking.done():
-            await asyncio.wait({self._looking})
+        """Wait until the robot as it is now has been checked."""
+        await self._checking.settled()
 
     async def close(self) -> None:
-        """Look no more."""
-        if self._looking is not None:
-            self._looking.cancel()
-            await asyncio.gather(self._looking, return_exceptions=True)
+        """Check no more."""
+        await self._checking.close()
 
-    async def _look_later(self) -> None:
-        await self._document.opened(self._patience_s)
-        await asyncio.sleep(self._quiet_s)
+    async def _check_all(self) -> None:
         try:
-            await self._look()
-            if await self._hidden.look(self._hidden_uris()):
-                await self._look()
+            await self._check()
+            if await self._meshes.read_hidden():
+                await self._check()
         except Exception:  # noqa: BLE001 - the checks of one robot may not end those of the next
-            _log.exception("The checks of %s failed.", self._document.path)
+            _log.exception("The checks of %s failed.", self._workspace.path)
 
-    async def _look(self) -> None:
-        if self._document.failed:
+    async def _check(self) -> None:
+        if self._last_run.failed:
             return  # the texts are ahead of the robot
         snapshot = self._snapshot()
         found = await asyncio.to_thread(check_robot, snapshot)
-        hidden, shown = self._of_hidden_meshes(), self._meshes.problems
-        near = await asyncio.to_thread(self._near(snapshot).mended, hidden | shown)
-        self._meshes.tell_nearer({shown[uri]: near[uri] for uri in near if uri in shown})
-        of_hidden = [near.get(uri, one) for uri, one in hidden.items()]
-        self._document.board.find("checks", (*found, *of_hidden))
-
-    def _near(self, snapshot: CheckedRobot) -> NearMeshes:
-        document = self._document
-        named = document.model.mesh_uris() | self._hidden_uris()
-        return NearMeshes(document.location, document.entry, snapshot.source, named)
+        of_meshes = await self._meshes.check(snapshot.source)
+        self._findings.replace("checks", (*found, *of_meshes))
 
     def _snapshot(self) -> CheckedRobot:
         """The robot and all that is known around it, as values that no edit changes."""
-        document, model = self._document, self._document.model
+        model = self._model
         parts = {part.key: part for part in model.assembly.parts()}
-        shown = ((uri, model.scene.mesh(uri)) for uri in model.mesh_uris())
-        bounds: dict[str, Bounds] = {
-            **self._hidden.bounds,
-            **{uri: mesh.bounds_m for uri, mesh in shown if mesh is not None},
-        }
-        texts = {file: self._text(file) for file in document.files_read}
-        return CheckedRobot(model.robot, parts.get, bounds.get, texts.get)
+        texts = {file: self._text(file) for file in self._last_run.files}
+        return CheckedRobot(model.robot, parts.get, self._meshes.bounds().get, texts.get)
 
     def _text(self, file: str) -> bytes | None:
         try:
-            return self._document.sources.text(file)
+            return self._workspace.sources.text(file)
         except PackageError:
             return None
-
-    def _hidden_uris(self) -> frozenset[str]:
-        """Meshes of collisions that the scene has not loaded."""
-        model = self._document.model
-        return frozenset(
-            one.geometry.uri
-            for link in model.robot.links.values()
-            for one in link.collisions
-            if isinstance(one.geometry, Mesh) and model.scene.mesh(one.geometry.uri) is None
-        )
-
-    def _of_hidden_meshes(self) -> dict[str, Problem]:
-        users = self._document.model.mesh_users()
-        return {
-            uri: replace(problem, place=part.place, parts=(part.key,))
-            if (part := users.get(uri))
-            else problem
-            for uri, problem in self._hidden.problems.items()
-        }

@@ -1,4 +1,4 @@
-"""What is found wrong with a document's texts and its robot, told on the board, fixes included."""
+"""What is wrong with the texts of a document and with its robot's structure, and the fixes."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import logging
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
+from studio.debounce import Debouncer
 from studio.description.values import Checked, CheckQuery, ReadRobot
 from studio.errors import CommandError
 from studio.problems import Fix, Problem
@@ -14,11 +15,16 @@ from studio.protocol.roles import Role
 from studio.robot.assembly import Assembly
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine, Iterable, Sequence
+    from collections.abc import Awaitable, Callable, Iterable, Sequence
 
     from studio.description.values import Expansion, Failure, Part
-    from studio.documents.document import Document
-    from studio.documents.services import Services
+    from studio.documents.checks.pace import Pace
+    from studio.documents.findings import Findings
+    from studio.documents.model import Model
+    from studio.documents.runs import Runs
+    from studio.documents.urdf import UrdfText
+    from studio.documents.workspace import Workspace
+    from studio.robot.worker_client import UrdfValidator
 
 
 _VALIDATE_AFTER_S: Final = 0.3
@@ -30,22 +36,37 @@ _log = logging.getLogger(__name__)
 
 
 class TextChecks:
-    """Tells what runs found at once, and what the checks of the texts find when it is quiet.
+    """Reports what runs found at once, and what the checks of the texts find when it is quiet.
 
     It asks the worker as a viewer does, so that whoever edits is answered first.
+
+    Args:
+        workspace: Whose texts they are.
+        runs: Asks the worker, and knows whether the last run failed.
+        findings: Gets what is found.
+        validate: What another reader of URDF finds in the robot as it is now.
+        pace: When the checks begin.
     """
 
     role = Role.VIEWER
     person = ""
 
-    def __init__(self, document: Document, services: Services) -> None:
-        self._document, self._validator = document, services.validator
-        self._quiet_s, self._patience_s = services.quiet_s, services.patience_s
+    def __init__(
+        self,
+        workspace: Workspace,
+        runs: Runs,
+        findings: Findings,
+        validate: Callable[[], Awaitable[tuple[Problem, ...]]],
+        pace: Pace,
+    ) -> None:
+        self._workspace, self._runs, self._findings = workspace, runs, findings
+        self._validate = validate
         self._of_robot: tuple[Problem, ...] = ()
         self._of_texts: tuple[Problem, ...] = ()
         self._second_opinion: tuple[Problem, ...] = ()
-        self._looking: asyncio.Task[None] | None = None
-        self._validating: asyncio.Task[None] | None = None
+        self._checking = Debouncer(self._check, pace.quiet_s, pace.opened)
+        validate_after_s = min(_VALIDATE_AFTER_S, pace.quiet_s)
+        self._validating = Debouncer(self._take_opinion, validate_after_s, pace.opened)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Nothing is sent to it: answers come from where it asks."""
@@ -53,88 +74,64 @@ class TextChecks:
     def failed(self, failure: Failure) -> None:
         """A run gave no robot."""
         first, *others = failure.problems or (failure.problem,)
-        self._document.board.find("expansion", (self._with_undo(first), *others))
-        self.doubt()
+        self._findings.replace("expansion", (self._with_undo(first), *others))
+        self._checking.trigger()
 
     def expanded(
         self, expansion: Expansion, of_robot: tuple[Problem, ...], *, structural: bool
     ) -> None:
         """A run gave a robot, with these problems."""
-        self._document.board.find("expansion", expansion.warnings)
+        self._findings.replace("expansion", expansion.warnings)
         self._of_robot = of_robot
-        self._tell()
+        self._report()
         if structural:
-            self._validating = self._instead(self._validating, self._validate())
-        self.doubt()
-
-    def doubt(self) -> None:
-        """The texts are other ones: look at them when it has been quiet for a while."""
-        self._looking = self._instead(self._looking, self._look_later())
+            self._validating.trigger()
+        self._checking.trigger()
 
     async def settled(self) -> None:
-        """Wait until the texts as they are now were looked at, by yourdfpy too."""
-        while under_way := self._under_way():
-            await asyncio.wait(under_way)
+        """Wait until the texts as they are now were checked, by yourdfpy too."""
+        await asyncio.gather(self._checking.settled(), self._validating.settled())
 
     async def close(self) -> None:
-        """Look no more."""
-        under_way = self._under_way()
-        for task in under_way:
-            task.cancel()
-        await asyncio.gather(*under_way, return_exceptions=True)
+        """Check no more."""
+        self._checking.cancel()
+        self._validating.cancel()
+        await asyncio.gather(self._checking.close(), self._validating.close())
 
-    def _under_way(self) -> set[asyncio.Task[None]]:
-        tasks = (self._looking, self._validating)
-        return {task for task in tasks if task is not None and not task.done()}
-
-    @staticmethod
-    def _instead(
-        before: asyncio.Task[None] | None, work: Coroutine[None, None, None]
-    ) -> asyncio.Task[None]:
-        if before is not None:
-            before.cancel()
-        return asyncio.create_task(work)
-
-    async def _look_later(self) -> None:
-        await self._document.opened(self._patience_s)
-        await asyncio.sleep(self._quiet_s)
+    async def _check(self) -> None:
         try:
-            await self._take(await self._document.ask(CheckQuery(), Checked, self))
+            await self._take(await self._runs.answer(CheckQuery(), Checked, self))
         except CommandError:
             return  # what was found last stands until there is a robot again
         except Exception:  # noqa: BLE001 - the checks of one text may not end those of the next
-            _log.exception("The checks of %s failed.", self._document.path)
+            _log.exception("The checks of %s failed.", self._workspace.path)
 
     async def _take(self, checked: Checked) -> None:
         of_robot = checked.read and await asyncio.to_thread(_problems_of, checked.read)
         self._of_texts = tuple(one for one in checked.problems if not one.code.startswith(_XML))
-        if of_robot is not None and self._document.failed:
+        if of_robot is not None and self._runs.last.failed:
             self._of_robot = of_robot
-        self._tell()
+        self._report()
 
-    def _tell(self) -> None:
-        board, found = self._document.board, merged(self._of_robot, self._of_texts)
-        board.find("robot", found)
+    async def _take_opinion(self) -> None:
+        self._second_opinion = await self._validate()
+        self._report()
+
+    def _report(self) -> None:
+        found = merged(self._of_robot, self._of_texts)
+        self._findings.replace("robot", found)
         codes = {one.code for one in found}
         more = [one for one in self._second_opinion if one.code not in codes]
-        board.find("validation", more if codes.isdisjoint(_EXPLAIN) else ())
-
-    async def _validate(self) -> None:
-        await self._document.opened(self._patience_s)
-        await asyncio.sleep(min(_VALIDATE_AFTER_S, self._quiet_s))
-        found = await self._validator.validate(await self._document.urdf())
-        part = self._document.model.assembly.part
-        self._second_opinion = tuple(placed(one, part) for one in found)
-        self._tell()
+        self._findings.replace("validation", more if codes.isdisjoint(_EXPLAIN) else ())
 
     def _with_undo(self, problem: Problem) -> Problem:
         """Offer to give what is missing, or to take the edit back that may have broken it."""
-        document = self._document
+        has_robot = self._runs.last.expansion is not None
         if problem.fix:
             return problem
-        if problem.code == "undefined-argument" and document.expansion is None:
+        if problem.code == "undefined-argument" and not has_robot:
             return replace(problem, fix=Fix("Give it a value", "give_arguments"))
-        if not document.sources.undo_labels or document.expansion is None:
+        if not self._workspace.sources.undo_labels or not has_robot:
             return problem
         return replace(problem, fix=Fix("Undo edit", "undo"))
 
@@ -163,6 +160,18 @@ def merged(of_robot: Iterable[Problem], of_texts: Sequence[Problem]) -> tuple[Pr
     better = {_fact(one): one for one in of_texts if one.code in _OF_BOTH}
     found = [replace(better.get(_fact(one), one), severity=one.severity) for one in of_robot]
     return (*found, *(one for one in of_texts if one.code not in _OF_BOTH))
+
+
+async def second_opinion(
+    model: Model, urdf: UrdfText, validator: UrdfValidator
+) -> tuple[Problem, ...]:
+    """What yourdfpy finds in the URDF as it is now.
+
+    Raises:
+        CommandError: There is no URDF yet.
+    """
+    found = await validator.validate(await urdf.text())
+    return tuple(placed(one, model.assembly.part) for one in found)
 
 
 def placed(problem: Problem, part: Callable[[str], Part | None]) -> Problem:

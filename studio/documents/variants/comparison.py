@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.variants import differing_names
 from studio.description.values import SiteKind
-from studio.documents.variants.second_robot import Ghost, SecondRobot, SecondRobots, present_robot
+from studio.documents.variants.second_robot import SecondRobot
 from studio.errors import CommandError
 from studio.protocol.listeners import encode
 from studio.protocol.variants import Comparison, DifferenceView, InputDifference, Side, shown
@@ -18,9 +18,9 @@ from studio.robot.measures import measure
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Sequence
 
-    from studio.description.client import DescriptionWorker
-    from studio.documents.document import Document
     from studio.documents.variants.recipes import Recipe, RecipeBook
+    from studio.documents.variants.second_robot import Ghost, SecondRobots
+    from studio.protocol.listeners import Audience
     from studio.robot.comparison import Row, Value
     from studio.robot.measures import Bounds, Measures
 
@@ -126,25 +126,27 @@ class VariantComparison:
     """Works out the sides that are not the present robot, and tells what differs.
 
     Args:
-        document: Whose states are compared.
-        book: What its states are made of.
-        take_worker: Gives an xacro worker.
+        book: What the states of the document are made of.
+        robots: Makes the robot of a state.
+        ghost: Shows one of them.
+        audience: Is told what differs.
         want_meshes: Called when the scene may lack meshes.
     """
 
     def __init__(
         self,
-        document: Document,
         book: RecipeBook,
-        take_worker: Callable[[], DescriptionWorker],
+        robots: SecondRobots,
+        ghost: Ghost,
+        audience: Audience,
         want_meshes: Callable[[], None],
     ) -> None:
-        self._document, self._book, self._want_meshes = document, book, want_meshes
-        self._second = SecondRobots(take_worker, lambda: document.target)
-        self._ghost = Ghost(document.model)
+        self._book, self._robots, self._ghost = book, robots, ghost
+        self._audience, self._want_meshes = audience, want_meshes
         self._made: dict[Side, _Made] = {}
         self.sides: tuple[Side, Side] | None = None
-        self.told = _NOTHING
+        self.latest = _NOTHING
+        """What the audience was told last."""
 
     @property
     def files(self) -> frozenset[str]:
@@ -181,7 +183,7 @@ class VariantComparison:
             present: What the document is made of now.
             recipe_of: What another side is made of; None when it is no more.
         """
-        if self.sides is None or self._document.expansion is None:
+        if self.sides is None or not self._robots.has_present:
             await self._end()
             return
         sides, robots = self.sides, list[SecondRobot]()
@@ -193,40 +195,39 @@ class VariantComparison:
                 return
             robots.append(await self._robot_of(side, recipe))
         self._made = {side: made for side, made in self._made.items() if side in sides}
-        if self.sides == sides:  # else others were chosen meanwhile, and are looked at next
+        if self.sides == sides:  # else others were chosen meanwhile, and are compared next
             self._show(sides, *robots)
 
     async def close(self) -> None:
         """End the worker."""
-        await self._second.close()
+        await self._robots.close()
 
     async def _end(self) -> None:
-        if self.told == _NOTHING:
+        if self.latest == _NOTHING:
             return
         self._made.clear()
         self._ghost.show(None, beside=False)
-        await self._second.close()
+        await self._robots.close()
         self._tell(_NOTHING)
 
     async def _robot_of(self, side: Side, recipe: Recipe) -> SecondRobot:
         if side == _PRESENT:
-            return present_robot(self._document, recipe)
+            return self._robots.present(recipe)
         overlay = self._book.overlay(recipe)
         made_of = recipe.arguments, overlay, self._book.disk()
         known = self._made.get(side)
         if known is None or known.of != made_of:
-            self._tell(self.told.model_copy(update={"sides": self.sides, "busy": True}))
-            robot = await self._second.made(recipe, overlay)
+            self._tell(self.latest.model_copy(update={"sides": self.sides, "busy": True}))
+            robot = await self._robots.made(recipe, overlay)
             known = self._made[side] = _Made(made_of, robot)
         return known.robot
 
     def _show(self, sides: tuple[Side, Side], one: SecondRobot, other: SecondRobot) -> None:
         ghost = None
-        settings = self._document.scene.displays()["ghost"]
-        if settings["visible"]:
+        if self._ghost.is_visible:
             ghost = sides[0] if sides[1] == _PRESENT else sides[1]
         second = one if ghost == sides[0] else other
-        self._ghost.show(second if ghost else None, beside=bool(settings["beside"]))
+        self._ghost.show(second if ghost else None, beside=self._ghost.is_beside)
         self._want_meshes()
         rows = robot_differences(one, other, self._ghost.mesh_bounds)
         self._tell(
@@ -242,10 +243,10 @@ class VariantComparison:
         )
 
     def _tell(self, news: Comparison) -> None:
-        if news != self.told:
-            self.told = news
+        if news != self.latest:
+            self.latest = news
             # While somebody drags, a slow page need not have them all.
-            self._document.board.audience.post(encode(news), key="comparison")
+            self._audience.post(encode(news), key="comparison")
 
 
 def _renamed(side: Side, old: str, new: str) -> Side:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from studio.description.values import Expansion, OpenRequest, SiteKind
+from studio.description.values import Expansion, OpenRequest
+from studio.documents.sites import argument_values
 from studio.robot.assembly import assembled
 from studio.robot.kinematics import Kinematics
 from studio.robot.measures import Bounds, box_around
@@ -16,14 +17,14 @@ from studio.robot.values import Robot
 from studio.scene.graph import STEP
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Mapping
 
     from studio.description.client import DescriptionWorker
-    from studio.description.values import Site
-    from studio.documents.document import Document
     from studio.documents.model import Model
-    from studio.documents.runs import Target
+    from studio.documents.runs import LastRun
+    from studio.documents.sites import SiteTable
     from studio.documents.variants.recipes import Recipe
+    from studio.documents.workspace import Workspace
     from studio.robot.kinematics import Floats
     from studio.robot.values import Link, Vector3
 
@@ -47,23 +48,52 @@ class SecondRobots:
     """Runs recipes in a worker of its own, one after the other; the document's is not disturbed.
 
     Args:
+        workspace: What is run, and what it may read.
+        last_run: Made the present robot.
+        model: The present robot.
+        sites: What its arguments came to.
         take_worker: Gives a worker; asked for at the first run.
-        target: What is run, and what it may read.
     """
 
     def __init__(
-        self, take_worker: Callable[[], DescriptionWorker], target: Callable[[], Target]
+        self,
+        workspace: Workspace,
+        last_run: LastRun,
+        model: Model,
+        sites: SiteTable,
+        take_worker: Callable[[], DescriptionWorker],
     ) -> None:
-        self._take_worker, self._target = take_worker, target
+        self._workspace, self._last_run, self._model = workspace, last_run, model
+        self._sites, self._take_worker = sites, take_worker
         self._worker: DescriptionWorker | None = None
+
+    @property
+    def has_present(self) -> bool:
+        """Whether any run made a robot."""
+        return self._last_run.expansion is not None
+
+    def present(self, recipe: Recipe) -> SecondRobot:
+        """The robot that is edited, as the last good run made it."""
+        model, last = self._model, self._last_run
+        values = self._sites.argument_values()
+        fault = "The robot as it is now does not run: its last good state is compared."
+        return SecondRobot(
+            recipe,
+            model.robot,
+            model.kinematics,
+            values,
+            last.files,
+            fault if last.failed else "",
+        )
 
     async def made(self, recipe: Recipe, overlay: Mapping[str, bytes]) -> SecondRobot:
         """Run a recipe; whatever goes wrong is in the answer."""
         if self._worker is None:
             self._worker = self._take_worker()
-        target = self._target()
-        request = OpenRequest(target.entry, recipe.arguments, target.policy, dict(overlay))
-        answer = await self._worker.open(request)
+        entry, policy = self._workspace.path, self._workspace.policy
+        answer = await self._worker.open(
+            OpenRequest(entry, recipe.arguments, policy, dict(overlay))
+        )
         if isinstance(answer, Expansion):
             return await asyncio.to_thread(_assembled, recipe, answer)
         robot = Robot("")
@@ -74,30 +104,6 @@ class SecondRobots:
         worker, self._worker = self._worker, None
         if worker is not None:
             await worker.close()
-
-
-def present_robot(document: Document, recipe: Recipe) -> SecondRobot:
-    """The robot that is edited, as the last good run made it."""
-    model = document.model
-    values = argument_values(document.board.book.sites.values())
-    fault = "The robot as it is now does not run: its last good state is compared."
-    return SecondRobot(
-        recipe,
-        model.robot,
-        model.kinematics,
-        values,
-        document.files_read,
-        fault if document.failed else "",
-    )
-
-
-def argument_values(sites: Iterable[Site]) -> dict[str, str]:
-    """What each argument came to in a run; of several declarations the first counts."""
-    found: dict[str, str] = {}
-    for site in sites:
-        if site.kind is SiteKind.ARG:
-            found.setdefault(site.name, site.value or site.text)
-    return found
 
 
 def _assembled(recipe: Recipe, expansion: Expansion) -> SecondRobot:
@@ -125,6 +131,16 @@ class Ghost:
     def shown(self) -> SecondRobot | None:
         """What it shows."""
         return self._shown
+
+    @property
+    def is_visible(self) -> bool:
+        """Whether the display settings show it."""
+        return bool(self._model.scene.displays()["ghost"]["visible"])
+
+    @property
+    def is_beside(self) -> bool:
+        """Whether the display settings put it beside the robot, not over it."""
+        return bool(self._model.scene.displays()["ghost"]["beside"])
 
     def show(self, second: SecondRobot | None, *, beside: bool) -> None:
         """Show another robot, or none. Over the first one, what is just like that is left out."""

@@ -7,12 +7,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from studio.debounce import Throttle
-from studio.description.editing.sources import Change
+from studio.description.editing.undo import Change
 from studio.description.editing.variants import VARIANT_LIMIT, read_variants, write_variants
 from studio.documents.file_watch import FileWatch
 from studio.documents.side_file import ItemKind, NamedItems
-from studio.documents.variants.comparison import VariantComparison
-from studio.documents.variants.recipes import Recipe, RecipeBook
 from studio.errors import CommandError
 from studio.protocol.listeners import LastTold
 from studio.protocol.variants import (
@@ -30,19 +28,22 @@ from studio.protocol.variants import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
     from studio.description.editing.variants import Variant
     from studio.description.values import Edit
-    from studio.documents.document import Document
-    from studio.documents.services import Services
+    from studio.documents.edits import Edits
+    from studio.documents.variants.comparison import VariantComparison
+    from studio.documents.variants.recipes import Recipe, RecipeBook
+    from studio.documents.workspace import Workspace
     from studio.protocol import Event
+    from studio.protocol.listeners import Audience
 
 
 _FIRST_S: Final = 0.02
 """The edit that gave cause goes out first."""
 _PAUSE_S: Final = 0.15
-"""Between two looks while somebody drags: a table that changes faster cannot be read."""
+"""Between two updates while somebody drags: a table that changes faster cannot be read."""
 _TEXTS_SHOWN: Final = 50
 _SHELF: Final = ItemKind("variant", read_variants, write_variants)
 
@@ -51,34 +52,38 @@ class NamedVariants:
     """Knows which variant the robot is, and carries out what is asked of variants.
 
     Args:
-        document: Whose states they are.
-        services: Gives an xacro worker for states that are compared.
-        want_meshes: Called when the scene may lack meshes.
+        workspace: Whose variants they are.
+        edits: Runs the edits of a variant that is applied.
+        book: What the states of the document are made of.
+        comparison: Compares two of them.
+        audience: Is told of the variants.
     """
 
     def __init__(
-        self, document: Document, services: Services, want_meshes: Callable[[], None]
+        self,
+        workspace: Workspace,
+        edits: Edits,
+        book: RecipeBook,
+        comparison: VariantComparison,
+        audience: Audience,
     ) -> None:
-        self._document = document
-        self._book = RecipeBook(document.sources, lambda: document.location)
-        self._shelf = NamedItems(document.entry, document.location.served, _SHELF)
-        self._comparison = VariantComparison(
-            document, self._book, services.description_worker, want_meshes
-        )
+        self._sources, self._edits = workspace.sources, edits
+        self._book, self._comparison = book, comparison
+        self._shelf = NamedItems(workspace.entry, workspace.served, _SHELF)
         self._active, self._modified = "", False
         self._steps = 0
-        self._told = LastTold[Variants](document.board.audience)
+        self._sent = LastTold[Variants](audience)
         self._watch = FileWatch(self._changed_on_disk)
         self._watch.watch({str(self._shelf.path)})
-        self._throttle = Throttle(self._look, first_s=_FIRST_S, pause_s=_PAUSE_S)
+        self._throttle = Throttle(self._refresh, first_s=_FIRST_S, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[Event]:
         """What a newcomer is told."""
         yield self._list()
-        yield self._comparison.told
+        yield self._comparison.latest
 
-    def doubt(self) -> None:
-        """Something may have changed: look soon, and not too often."""
+    def trigger(self) -> None:
+        """Compare soon, and not too often: something may have changed."""
         self._throttle.trigger()
 
     async def close(self) -> None:
@@ -132,8 +137,8 @@ class NamedVariants:
         self._active = command.name
         change = self._step(label, wanted, edits)
         if edits or change.arguments is not None:
-            await self._document.follow(change)
-        await self._look_up()
+            await self._edits.follow(change)
+        await self._find_active()
         self._tell()
         return VariantApplied(request=command.request, left_out=left_out)
 
@@ -167,11 +172,11 @@ class NamedVariants:
             if side.kind == "variant":
                 self._shelf.find(side.name)
         self._comparison.choose(sides)
-        self.doubt()
+        self.trigger()
 
     def _step(self, label: str, wanted: dict[str, str], edits: Sequence[Edit]) -> Change:
         """Do it to the sources, arguments and texts as one step; what is to be run then."""
-        sources, now = self._document.sources, self._document.sources.arguments
+        sources, now = self._sources, self._sources.arguments
         self._steps += 1
         gesture = f"variant {self._steps}"
         values = {
@@ -187,7 +192,7 @@ class NamedVariants:
 
     def _put(self, variants: Sequence[Variant]) -> None:
         self._shelf.put(variants)
-        self.doubt()
+        self.trigger()
 
     def _replace(self, name: str, new: Variant) -> None:
         self._put([new if one.name == name else one for one in self._shelf.items])
@@ -197,10 +202,10 @@ class NamedVariants:
             self._shelf.look()
         if files & self._comparison.files:
             self._comparison.remake()
-        self.doubt()
+        self.trigger()
 
-    async def _look(self) -> None:
-        await self._look_up()
+    async def _refresh(self) -> None:
+        await self._find_active()
         self._tell()
         await self._comparison.follow(self._present, self._recipe_of)
         self._watch.watch({str(self._shelf.path), *self._comparison.files})
@@ -215,7 +220,7 @@ class NamedVariants:
         known = next((one for one in self._shelf.items if one.name == side.name), None)
         return self._book.of_variant(known) if known else None
 
-    async def _look_up(self) -> None:
+    async def _find_active(self) -> None:
         """Find out which variant the robot is."""
         if self._shelf.items:
             await self._book.read(self._shelf.items)
@@ -249,7 +254,7 @@ class NamedVariants:
         )
 
     def _tell(self) -> None:
-        self._told.tell(self._list())
+        self._sent.tell(self._list())
 
 
 def _view(variant: Variant) -> VariantView:

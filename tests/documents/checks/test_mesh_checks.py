@@ -25,19 +25,19 @@ def test_a_mesh_is_measured_once_and_again_when_it_is_another(tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, path)
             pool = mesh_pool(1)
-            hidden = HiddenMeshes(document, MeshLibrary(tmp_path / "cache", pool))
-            assert await hidden.look(["m.stl"])
+            hidden = HiddenMeshes(document.workspace, MeshLibrary(tmp_path / "cache", pool))
+            assert await hidden.read(["m.stl"])
             assert "m.stl" in hidden.problems["m.stl"].sentence
-            assert not await hidden.look(["m.stl"])
+            assert not await hidden.read(["m.stl"])
             mesh.write_bytes(stl(TETRAHEDRON))
-            assert await hidden.look(["m.stl"])
+            assert await hidden.read(["m.stl"])
             assert not hidden.problems
             before = hidden.bounds["m.stl"]
-            assert not await hidden.look(["m.stl"])
+            assert not await hidden.read(["m.stl"])
             mesh.write_bytes(stl(TETRAHEDRON * 3) + b"behind")
-            assert await hidden.look(["m.stl"])
+            assert await hidden.read(["m.stl"])
             assert hidden.bounds["m.stl"] != before
-            assert await hidden.look([])
+            assert await hidden.read([])
             assert not hidden.bounds
             await pool.close()
 
@@ -55,9 +55,9 @@ def test_a_mesh_outside_the_served_folders_is_not_read(tmp_path: Path):
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, path)
             pool = mesh_pool(1)
-            hidden = HiddenMeshes(document, MeshLibrary(tmp_path / "cache", pool))
+            hidden = HiddenMeshes(document.workspace, MeshLibrary(tmp_path / "cache", pool))
             uris = ["../secret.stl", str(tmp_path / "secret.stl"), "http://127.0.0.1/m.stl"]
-            await hidden.look(uris)
+            await hidden.read(uris)
             assert not hidden.bounds
             assert set(hidden.problems) == set(uris)
             await pool.close()

@@ -30,7 +30,7 @@ def written(folder: Path, *shapes: str) -> Path:
 
 
 def missing(document: Document) -> list[Problem]:
-    return [one for one in document.board.found if one.code == "mesh"]
+    return [one for one in document.findings.all() if one.code == "mesh"]
 
 
 @pytest.mark.parametrize("kinds", [("visual",), ("collision",), ("visual", "collision")])
@@ -47,11 +47,11 @@ def test_one_click_writes_the_name_that_was_meant_and_the_mesh_is_there(
             (one,) = missing(document)
             assert one.sentence.endswith(': did you mean "Base.STL"?')
             assert one.fix is not None
-            await document.mending.apply(one.code, one.sentence, one.fix.label)
+            await document.fixes.apply(one.code, one.sentence, one.fix.label)
             now = document.sources.text(str(path)).decode()
             assert now == before.replace("meshes/base.stl", "meshes/Base.STL")
             await until(lambda: not missing(document))
-            await document.undo()
+            await document.edits.undo()
             await until(lambda: any(one.fix for one in missing(document)))
 
     asyncio.run(run())
@@ -88,7 +88,7 @@ def test_behind_the_folder_of_a_package_the_name_alone_is_written(tmp_path: Path
             await document.robot_checks.settled()
             (one,) = missing(document)
             assert one.fix is not None
-            await document.mending.apply(one.code, one.sentence, one.fix.label)
+            await document.fixes.apply(one.code, one.sentence, one.fix.label)
             assert (
                 uri.replace("base", "Base").replace(".stl", ".STL")
                 in document.sources.text(str(path)).decode()

@@ -31,7 +31,7 @@ def written(folder: Path, text: str) -> Path:
 
 
 def found(document: Document, code: str) -> list[Problem]:
-    return [one for one in document.board.found if one.code == code]
+    return [one for one in document.findings.all() if one.code == code]
 
 
 def test_what_is_wrong_with_a_robot_is_told_where_it_stands(tmp_path: Path):
@@ -60,13 +60,13 @@ def test_one_click_mends_and_what_is_mended_is_gone(tmp_path: Path):
             for code in ("reversed-limits", "bad-inertia"):
                 (problem,) = found(document, code)
                 assert problem.fix is not None
-                await document.mending.apply(code, problem.sentence, problem.fix.label)
+                await document.fixes.apply(code, problem.sentence, problem.fix.label)
                 await document.robot_checks.settled()
                 assert not found(document, code)
             limit = document.model.robot.joints["arm"].limit
             assert limit is not None
             assert (limit.lower, limit.upper) == (-1, 1)
-            await document.undo()
+            await document.edits.undo()
             await document.robot_checks.settled()
             assert found(document, "bad-inertia")
 
@@ -80,7 +80,7 @@ def test_while_the_text_is_broken_what_was_found_last_stands(tmp_path: Path):
             document, _ = await opened(made, path)
             await document.robot_checks.settled()
             path.write_text(STUCK.replace("</robot>", ""))
-            await until(lambda: document.failed)
+            await until(lambda: document.last_run.failed)
             await document.robot_checks.settled()
             assert found(document, "reversed-limits")
 
@@ -100,7 +100,7 @@ def test_a_collision_mesh_is_looked_for_though_nobody_sees_it(tmp_path: Path):
             assert "arm.stl" in missing.sentence
             assert missing.parts == ("link:base",)
             (path.parent / "arm.stl").write_bytes(stl(TETRAHEDRON * 2))
-            document.robot_checks.doubt()
+            document.robot_checks.trigger()
             await document.robot_checks.settled()
             assert not found(document, "mesh")
             (size,) = found(document, "collision-size")
@@ -113,7 +113,7 @@ def test_a_document_that_is_closed_is_looked_at_no_more(tmp_path: Path):
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, written(tmp_path, STUCK))
-            document.robot_checks.doubt()
+            document.robot_checks.trigger()
             del made.documents[document.id]
             await document.close()
             await document.robot_checks.settled()
@@ -143,6 +143,6 @@ def test_there_is_nothing_to_mend_in_our_own_models(models: Path, tmp_path: Path
             for path in sorted(models.glob("*/urdf/*.urdf.xacro")):
                 document, _ = await opened(made, path)
                 await document.robot_checks.settled()
-                assert not document.board.found, path.name
+                assert not document.findings.all(), path.name
 
     asyncio.run(run())

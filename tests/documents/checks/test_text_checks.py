@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def found(document: Document) -> list[str]:
-    return [problem.code for problem in document.board.found]
+    return [problem.code for problem in document.findings.all()]
 
 
 def test_row_d4_the_printed_snippet_gives_three_findings_and_is_mended_and_drawn(tmp_path: Path):
@@ -30,7 +30,7 @@ def test_row_d4_the_printed_snippet_gives_three_findings_and_is_mended_and_drawn
             document, _ = await opened(made, file)
             await document.checks.settled()
             assert list(document.model.robot.links) == ["base link"]
-            named = [one for one in document.board.found if one.fix and one.fix.edits]
+            named = [one for one in document.findings.all() if one.fix and one.fix.edits]
             assert [(one.code, one.place and one.place.line) for one in named] == [
                 ("xml-open-element", 14),
                 ("dangling-parent", 10),
@@ -38,14 +38,14 @@ def test_row_d4_the_printed_snippet_gives_three_findings_and_is_mended_and_drawn
             ]
             assert 'did you mean "base link"?' in named[1].sentence
             assert '"wheel_link"' in named[2].sentence
-            await document.mending.apply_all()
+            await document.fixes.apply_all()
             assert list(document.model.robot.links) == ["base_link", "wheel_link"]
             assert document.model.robot.joints["joint1"].parent == "base_link"
             await document.checks.settled()
             assert not {"xml-open-element", "dangling-parent", "dangling-child"} & {
                 *found(document)
             }
-            await document.undo()
+            await document.edits.undo()
             assert document.sources.text(str(file)).decode() == PRINTED
 
     asyncio.run(run())
@@ -59,9 +59,9 @@ def test_row_d4_each_finding_is_mended_by_a_click_of_its_own(tmp_path: Path):
             document, _ = await opened(made, file)
             for _ in range(3):
                 await document.checks.settled()
-                one = next(p for p in document.board.found if p.fix and p.fix.action == "edit")
+                one = next(p for p in document.findings.all() if p.fix and p.fix.action == "edit")
                 assert one.fix is not None
-                await document.mending.apply(one.code, one.sentence, one.fix.label)
+                await document.fixes.apply(one.code, one.sentence, one.fix.label)
             assert list(document.model.robot.joints) == ["joint1"]
             assert len(document.sources.undo_labels) == 3
 
@@ -77,14 +77,14 @@ def test_broken_texts_are_checked_while_the_last_good_robot_stays(tmp_path: Path
             broken = b'<joint name="j" type="fixed"><parent link="b"/><child link="a"/></joint>'
             edit = Edit(str(file), 32, 40, broken)
             document.sources.edit(edit, "Edit", is_value=False)
-            await document.follow(Change("Edit", (edit,)))
-            assert document.failed
+            await document.edits.follow(Change("Edit", (edit,)))
+            assert document.last_run.failed
             await document.checks.settled()
             assert found(document)[:2] == ["xml-open-element", "dangling-parent"]
             assert list(document.model.robot.links) == ["a"]
-            await document.undo()
+            await document.edits.undo()
             await document.checks.settled()
-            assert not document.failed
+            assert not document.last_run.failed
             assert "dangling-parent" not in found(document)
 
     asyncio.run(run())
@@ -114,7 +114,7 @@ def test_names_that_are_there_twice_are_told_once_and_mended(tmp_path: Path):
             await document.checks.settled()
             codes = found(document)
             assert [codes.count(one) for one in ("duplicate-link", "duplicate-joint")] == [1, 1]
-            await document.mending.apply_all()
+            await document.fixes.apply_all()
             await document.checks.settled()
             assert not {"duplicate-link", "duplicate-joint"} & {*found(document)}
             assert list(document.model.robot.links) == ["a", "a_2", "b", "c"]
@@ -136,7 +136,7 @@ def test_a_rule_that_yourdfpy_finds_broken_has_the_place_of_the_joint(tmp_path: 
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, file)
             await document.checks.settled()
-            rules = [one for one in document.board.found if one.code == "urdf-rule"]
+            rules = [one for one in document.findings.all() if one.code == "urdf-rule"]
             assert {one.place and one.place.line for one in rules} == {4}
 
     asyncio.run(run())

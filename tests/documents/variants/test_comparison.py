@@ -50,7 +50,7 @@ def test_a_variant_with_a_gripper_has_links_and_joints_more(mast: Path, tmp_path
             await at.edit("reach", "0.5")
             await at.ask(SaveVariant(name="Gripper"))
             await at.apply("")
-            pid = at.document.worker_pid
+            pid = at.document.runs.worker_pid
             told = await at.compared(PRESENT, variant("Gripper"))
             assert row(told, "link:gripper", "link") == (None, "link")
             assert row(told, "joint:grip", "joint") == (None, "fixed")
@@ -65,7 +65,7 @@ def test_a_variant_with_a_gripper_has_links_and_joints_more(mast: Path, tmp_path
             assert changed["unit"] == "m"
             assert told["faults"] == []
             # The document itself was left alone.
-            assert at.document.worker_pid == pid
+            assert at.document.runs.worker_pid == pid
             assert "gripper" not in at.document.model.robot.links
 
     asyncio.run(run())

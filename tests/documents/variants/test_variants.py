@@ -77,7 +77,7 @@ def test_what_is_told_of_a_variant_can_be_read(mast: Path, tmp_path: Path):
             assert told["arguments"] == {"gripper": "1", "side": None}
             assert told["texts"] == [{"file": "limits.yaml", "name": "upper", "text": "2"}]
             newcomer = Ear()
-            at.document.board.attach(newcomer)
+            at.document.attach(newcomer)
             assert newcomer.last("variants") == at.ear.last("variants")
             assert newcomer.last("comparison")["sides"] is None
 
@@ -161,9 +161,9 @@ def test_a_variant_whose_robot_does_not_run_leaves_the_last_good_one(mast: Path,
     async def run() -> None:
         async with desk(mast, tmp_path / "data") as at:
             await at.apply("Broken")
-            assert (at.document.failed, at.tip_m) == (True, 0.4)
+            assert (at.document.last_run.failed, at.tip_m) == (True, 0.4)
             await at.apply("")
-            assert not at.document.failed
+            assert not at.document.last_run.failed
             await at.is_told("")
 
     asyncio.run(run())
@@ -232,7 +232,7 @@ def test_variants_of_a_folder_that_is_only_read_last_for_the_session(mast: Path,
             document = made.document(ear.last("opened")["document"])
             await document.opened()
             at = Desk(made, document, ear)
-            document.board.attach(ear)
+            document.attach(ear)
             await at.edit("reach", "0.5")
             await at.ask(SaveVariant(name="A"))
             told = ear.last("variants")

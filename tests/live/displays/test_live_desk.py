@@ -374,9 +374,9 @@ def test_while_no_page_is_there_nothing_is_heard(
         async with studio(endpoint, tmp_path) as one:
             await one.do(AddDisplay(kind="Pose", topic="/aim4"))
             await until(lambda: bool(poses.get_subscription_count()))
-            one.document.board.audience.remove(one.ear)
+            one.document.audience.remove(one.ear)
             await until(lambda: poses.get_subscription_count() == 0)
-            one.document.board.attach(one.ear)
+            one.document.attach(one.ear)
             await until(lambda: bool(poses.get_subscription_count()))
 
     asyncio.run(run())

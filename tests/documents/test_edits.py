@@ -37,10 +37,10 @@ async def with_steps(document: Document, ear: Ear) -> list[tuple[bytes, dict[str
 
     states = [state()]
     for work in (
-        lambda: document.edit_site(size, "0.2", "drag"),
-        lambda: document.history.pass_arguments({"wide": "3"}),
-        lambda: document.edit_site(size, "0.3", "drag"),
-        lambda: document.history.pass_arguments({"wide": None}),
+        lambda: document.edits.edit_site(size, "0.2", "drag"),
+        lambda: document.edits.pass_arguments({"wide": "3"}),
+        lambda: document.edits.edit_site(size, "0.3", "drag"),
+        lambda: document.edits.pass_arguments({"wide": None}),
     ):
         await work()
         states.append(state())

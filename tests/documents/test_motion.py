@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from studio.documents.joints import Motion
+    from studio.documents.motion import Motion
 
 ROBOT = """<robot name="r"><link name="a"/><link name="b"/>
   <joint name="j" type="revolute"><parent link="a"/><child link="b"/>

@@ -3,7 +3,7 @@ import struct
 import numpy as np
 import pytest
 
-from studio.documents.joints import JOINTS_FRAME_KIND, JointPositions
+from studio.documents.model import JOINTS_FRAME_KIND, JointPositions
 from studio.robot.kinematics import Kinematics
 from studio.robot.values import Joint, JointType, Limit, Link, Mimic, Robot
 

@@ -52,7 +52,7 @@ def test_an_outside_write_and_an_unsaved_edit_are_both_in_the_robot(mast: Path, 
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             mast.write_text(MAST.replace('value="0.1"', 'value="0.3"'))
             await until(lambda: tip_of(document) == [0.3, 2.0, 0.5])
             assert ear.last("disk_merged") == {
@@ -65,7 +65,7 @@ def test_an_outside_write_and_an_unsaved_edit_are_both_in_the_robot(mast: Path, 
                 "0.4",
                 None,
             )
-            await document.save()
+            await document.saving.save()
             assert mast.read_text() == MAST.replace('"0.1"', '"0.3"').replace('"0.4"', '"0.5"')
 
     asyncio.run(run())
@@ -75,9 +75,9 @@ def test_a_save_right_after_an_outside_write_keeps_both(mast: Path, tmp_path: Pa
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             mast.write_text(MAST.replace('value="0.1"', 'value="0.3"'))
-            await document.save()
+            await document.saving.save()
             assert mast.read_text() == MAST.replace('"0.1"', '"0.3"').replace('"0.4"', '"0.5"')
             assert tip_of(document) == [0.3, 2.0, 0.5]
 
@@ -90,12 +90,12 @@ def test_a_yaml_file_put_in_place_by_a_rename_is_merged_too(mast: Path, tmp_path
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("y")["id"], "5.0", "")
+            await document.edits.edit_site(ear.site("y")["id"], "5.0", "")
             beside = config.with_suffix(".new")
             beside.write_text("# by another\n" + CONFIG)
             beside.rename(config)
             await until(lambda: "disk_merged" in {one["type"] for one in ear.events})
-            await document.save()
+            await document.saving.save()
             assert config.read_text() == "# by another\nx: 1.0\ny: 5.0\n"
             assert tip_of(document) == [0.1, 5.0, 0.4]
 
@@ -111,13 +111,13 @@ def test_a_collision_is_shown_overwrites_nothing_and_is_chosen(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             mast.write_text(theirs)
             await until(lambda: "changed-on-disk" in codes(ear))
             with pytest.raises(SaveConflictError):
-                await document.save()
+                await document.saving.save()
             assert (mast.read_text(), tip_of(document)) == (theirs, [0.1, 2.0, 0.5])
-            told = document.disk.answer(GetCollisions(file=str(mast)))
+            told = document.disk.collisions(GetCollisions(file=str(mast)))
             (place,) = told.places
             assert (place.line, told.count) == (3, 1)
             assert ('"0.4"' in place.base, '"0.5"' in place.mine, '"0.9"' in place.theirs) == (
@@ -126,13 +126,13 @@ def test_a_collision_is_shown_overwrites_nothing_and_is_chosen(
                 True,
             )
             side = ResolveCollisions.model_validate({"file": str(mast), "keep": keep}).keep
-            await document.saving.resolve(ResolveCollisions(file=str(mast), keep=side))
+            await document.disk.resolve(ResolveCollisions(file=str(mast), keep=side))
             assert tip_of(document) == [0.3, 2.0, reach]
             assert "changed-on-disk" not in codes(ear)
-            await document.save()
+            await document.saving.save()
             assert f'value="{reach}"' in mast.read_text()
             with pytest.raises(EditError):
-                await document.saving.resolve(ResolveCollisions(file=str(mast), keep=side))
+                await document.disk.resolve(ResolveCollisions(file=str(mast), keep=side))
 
     asyncio.run(run())
 
@@ -141,10 +141,10 @@ def test_a_collision_is_gone_when_the_edit_is_taken_back(mast: Path, tmp_path: P
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             mast.write_text(MAST.replace('value="0.4"', 'value="0.9"'))
             await until(lambda: "changed-on-disk" in codes(ear))
-            await document.undo()
+            await document.edits.undo()
             await until(lambda: tip_of(document) == [0.1, 2.0, 0.9])
             assert "changed-on-disk" not in codes(ear)
             assert not document.has_unsaved
@@ -159,7 +159,7 @@ def test_a_half_written_file_keeps_the_model_until_the_rest_comes(mast: Path, tm
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
             mast.write_text(theirs[:-60])
-            await until(lambda: document.failed)
+            await until(lambda: document.last_run.failed)
             assert tip_of(document) == [0.1, 2.0, 0.4]
             mast.write_text(theirs)
             await until(lambda: tip_of(document) == [0.3, 2.0, 0.4])
@@ -173,7 +173,7 @@ def test_a_file_that_comes_back_is_merged_with_what_was_kept(mast: Path, tmp_pat
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, mast)
-            await document.edit_site(ear.site("reach")["id"], "0.5", "")
+            await document.edits.edit_site(ear.site("reach")["id"], "0.5", "")
             mast.unlink()
             await until(lambda: "file-gone" in codes(ear))
             mast.write_text(MAST.replace('value="0.1"', 'value="0.3"'))

@@ -45,7 +45,7 @@ def found(file: Path, before: str, text: str, severity: Severity = Severity.WARN
 
 async def mend(document: Document, problem: Problem) -> None:
     label = problem.fix.label if problem.fix else ""
-    await document.mending.apply(problem.code, problem.sentence, label)
+    await document.fixes.apply(problem.code, problem.sentence, label)
 
 
 def test_a_fix_is_one_step_that_bears_its_label(cart: Path, tmp_path: Path):
@@ -57,12 +57,14 @@ def test_a_fix_is_one_step_that_bears_its_label(cart: Path, tmp_path: Path):
             more = Replacement(str(cart), child, child + 12, 'link="wheel"', 'link="front"')
             assert problem.fix is not None
             fix = Fix("Rename it", "edit", edits=(*problem.fix.edits, more))
-            document.board.find("test", [Problem(problem.severity, "odd", "A sentence.", fix=fix)])
+            document.findings.replace(
+                "test", [Problem(problem.severity, "odd", "A sentence.", fix=fix)]
+            )
             command = ApplyFix(code="odd", sentence="A sentence.", label="Rename it")
             await ask_document(document, command, ear)
             assert list(document.model.robot.links) == ["base", "front"]
             assert ear.last("history")["undo"] == ["Rename it"]
-            await document.undo()
+            await document.edits.undo()
             assert document.sources.text(str(cart)) == CART.encode()
 
     asyncio.run(run())
@@ -77,9 +79,9 @@ def test_a_fix_of_what_is_no_longer_found_or_stands_elsewhere_is_refused(
             problem = found(cart, '"wheel"', '"front"')
             with pytest.raises(CommandError, match="no longer found"):
                 await mend(document, problem)
-            document.board.find("test", [problem])
+            document.findings.replace("test", [problem])
             stale = found(cart, "<link", "<!-- a --><link")
-            document.board.find("other", [stale])
+            document.findings.replace("other", [stale])
             await mend(document, stale)
             with pytest.raises(StaleTextError):
                 await mend(document, problem)
@@ -99,14 +101,14 @@ def test_all_errors_and_warnings_are_mended_in_one_step_and_notes_are_left(
                 found(cart, '"turn"', '"spin"', Severity.ERROR),
                 found(cart, '"fixed"', '"floating"', Severity.INFO),
             ]
-            document.board.find("test", problems)
-            await document.mending.apply_all()
+            document.findings.replace("test", problems)
+            await document.fixes.apply_all()
             expected = CART.replace("cart", "dray").replace("turn", "spin")
             assert document.sources.text(str(cart)).decode() == expected
             assert document.sources.undo_labels == ("Mend all",)
-            document.board.find("test", ())
+            document.findings.replace("test", ())
             with pytest.raises(CommandError, match="Nothing that is found has a fix"):
-                await document.mending.apply_all()
+                await document.fixes.apply_all()
 
     asyncio.run(run())
 
@@ -117,8 +119,8 @@ def test_a_file_that_may_only_be_read_is_not_mended(cart: Path, tmp_path: Path):
         aside.mkdir()
         async with engine(tmp_path / "data", aside) as made:
             document, _ = await opened(made, cart)
-            document.board.find("test", [found(aside / "other.xacro", '"wheel"', '"front"')])
+            document.findings.replace("test", [found(aside / "other.xacro", '"wheel"', '"front"')])
             with pytest.raises(ReadOnlyTextError):
-                await mend(document, document.board.found[0])
+                await mend(document, document.findings.all()[0])
 
     asyncio.run(run())

@@ -6,7 +6,7 @@ import asyncio
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from studio.documents.joints import Glide
+from studio.documents.motion import Glide
 from tests.support.open_documents import until
 
 if TYPE_CHECKING:

@@ -1,0 +1,167 @@
+"""The edits of a document: made in its sources, run, timed, and taken back."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from typing import TYPE_CHECKING, Final, Protocol
+
+from studio.description.editing.undo import Change
+from studio.errors import CommandError
+from studio.protocol.edits import Built, History
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Mapping, Sequence
+
+    from studio.description.editing.sources import Sources
+    from studio.description.values import Edit
+    from studio.documents.runs import Runs
+    from studio.documents.sites import SiteTable
+    from studio.protocol.listeners import Audience
+    from studio.protocol.saving import UndoTo
+
+TEXT_LIMIT_BYTES: Final = 4 << 20
+"""More than any robot description; an editor in a browser holds it with ease."""
+READ_ONLY: Final = "it lies where the studio may only read."
+
+
+class EditObserver(Protocol):
+    """Is called when the sources have changed."""
+
+    def value_edited(self) -> None:
+        """A value was written that no run has shown yet."""
+        ...
+
+    def texts_changed(self) -> None:
+        """Texts, or what the disk has of them, are other ones."""
+        ...
+
+    def arguments_changed(self) -> None:
+        """Other arguments are passed."""
+        ...
+
+
+class Edits:
+    """Makes edits of values and arguments, and undoes steps; each returns when that is shown.
+
+    Args:
+        sources: The texts and arguments.
+        runs: Runs them.
+        sites: The sites in the texts.
+        audience: Is told how long each run took.
+        observer: Is called when the sources have changed.
+    """
+
+    def __init__(
+        self,
+        sources: Sources,
+        runs: Runs,
+        sites: SiteTable,
+        audience: Audience,
+        observer: EditObserver,
+    ) -> None:
+        self._sources, self._runs, self._sites, self._audience = sources, runs, sites, audience
+        self._observer = observer
+
+    async def edit_site(self, site: str, text: str, gesture: str) -> None:
+        """Write a new text at a site and show what it does."""
+        edit = self._sources.edit_site(site, text, gesture)
+        self._observer.value_edited()
+        await self.timed(self._runs.edit((edit,), in_gesture=bool(gesture)))
+
+    async def reset_site(self, site: str) -> None:
+        """Put a site back to what the disk says."""
+        if edit := self._sources.reset_site(site):
+            await self.timed(self._runs.edit((edit,)))
+
+    async def undo(self) -> None:
+        """Take the last step back."""
+        await self.follow(self._sources.undo())
+
+    async def redo(self) -> None:
+        """Do the step last taken back again."""
+        await self.follow(self._sources.redo())
+
+    async def undo_to(self, command: UndoTo) -> None:
+        """Undo or redo until that many steps are done.
+
+        Raises:
+            CommandError: The list is another one by now.
+        """
+        count = len(self._sources.undo_labels) + len(self._sources.redo_labels)
+        if command.of != count or command.position > count:
+            raise CommandError("The undo list changed meanwhile: choose the step again.")
+        await self.follow(self._sources.undo_to(command.position))
+
+    async def pass_arguments(self, values: Mapping[str, str | None]) -> None:
+        """Pass or take back arguments as one step; with arguments that break it, none is made.
+
+        Raises:
+            CommandError: The robot cannot be made with them; it is as before.
+        """
+        sources, last = self._sources, self._runs.last
+        before, was_failed = sources.kept(), last.failed
+        label = "Arguments" if len(values) > 1 else next(iter(values))
+        sources.set_arguments(values, label)
+        await self.follow(Change(label, arguments=sources.arguments))
+        if was_failed or not last.failed:
+            return
+        sentence = last.failure
+        if given_up := sources.give_up(before):
+            await self.follow(given_up)
+            raise CommandError(f"{sentence} The arguments are as they were.")
+
+    async def follow(self, change: Change | None) -> None:
+        """Run what a step has changed in the sources; None changes nothing."""
+        if change is None:
+            return
+        if change.arguments is None:
+            await self.timed(self._run(change.edits))
+        elif change.edits:  # both wait for the same run
+            await asyncio.gather(self._run(change.edits), self._run_arguments())
+        else:
+            await self._run_arguments()
+
+    async def follow_disk(self, edits: Sequence[Edit]) -> None:
+        """Run edits that came from the disk, after which any site may compare otherwise."""
+        self._sites.invalidate()
+        await self.follow(Change("", tuple(edits)))
+
+    async def run(self, edits: Sequence[Edit], *, in_gesture: bool = False) -> None:
+        """Run with edits of texts that the sources already hold; of a gesture more will come."""
+        self._observer.texts_changed()
+        await self.timed(self._run(edits, in_gesture=in_gesture))
+
+    def disk_changed(self) -> None:
+        """Tell what differs after files were read again, or written."""
+        self._sites.invalidate()
+        self._observer.texts_changed()
+
+    async def timed(self, run: Awaitable[None]) -> None:
+        """Wait for a run, and tell how long it took from the edit to the scene."""
+        began_s = time.perf_counter()
+        await run
+        took_ms = (time.perf_counter() - began_s) * 1000
+        self._audience.tell(Built(ok=not self._runs.last.failed, duration_ms=took_ms))
+
+    async def _run(self, edits: Sequence[Edit], *, in_gesture: bool = False) -> None:
+        files = {edit.file for edit in edits}
+        if files <= set(self._runs.last.files):
+            await self._runs.edit(edits, in_gesture=in_gesture)
+        else:  # the worker holds no text of what the last run did not read
+            await self._runs.reload(files)
+
+    async def _run_arguments(self) -> None:
+        self._sites.invalidate()
+        self._observer.arguments_changed()
+        await self.timed(self._runs.arguments_changed())
+
+
+def history_event(sources: Sources) -> History:
+    """The steps that can be undone and redone, and what is unsaved."""
+    return History(
+        undo=sources.undo_labels,
+        redo=sources.redo_labels,
+        unsaved_files=sources.unsaved_files,
+        unsaved_count=sources.unsaved_count,
+    )
