@@ -16,7 +16,8 @@ import numpy as np
 from studio.displays.map import MapDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.displays.tf import TfDisplay
-from studio.live.displays.frames_desk import FramesDesk
+from studio.live.displays.scene_frames import SceneFrames
+from studio.live.topics.zenoh_source import ZenohSource
 from studio.protocol.displays import GetTf
 from studio.robot.values import Joint, JointType, Link, Origin, Robot
 from studio.scene import DocumentScene
@@ -89,11 +90,11 @@ async def _frames(stretches: Stretches) -> None:
     robot = _robot(LINKS)
     for _ in range(_RUNS):
         scene = DocumentScene(asyncio.get_running_loop())
-        desk, display = FramesDesk(Posed(robot)), TfDisplay(TYPES)
+        frames, display = SceneFrames(Posed(robot), ZenohSource()), TfDisplay(TYPES)
         await _settled(stretches)
-        _step(scene, desk, display)
+        _step(scene, frames, display)
         first.values_ms.append(await _settled(stretches))
-        await asyncio.to_thread(desk.answer, GetTf(), desk.fixed)
+        await asyncio.to_thread(frames.answer, GetTf(), frames.fixed)
         asked.values_ms.append(await _settled(stretches))
         scene.close()
     say_beside(f"TF of {LINKS:,} links", first, asked)
@@ -101,9 +102,9 @@ async def _frames(stretches: Stretches) -> None:
     judge(f"loop: {LINKS:,} frames are asked for", asked.median_ms, at_most=5)
 
 
-def _step(scene: DocumentScene, desk: FramesDesk, display: TfDisplay) -> None:
-    desk.step()
-    display.show(desk.now())
+def _step(scene: DocumentScene, frames: SceneFrames, display: TfDisplay) -> None:
+    frames.step()
+    display.show(frames.now())
     drawing = display.draw(0)
     scene.live.apply("1", drawing, dict.fromkeys(drawing, UPRIGHT))
     scene.flush()

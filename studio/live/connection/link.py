@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Fit
     from studio.live.topics.subscription import Stream
     from studio.ros.graph.graph import Graph
-    from studio.ros.node.samples import RawCallback
-    from studio.ros.node.subscription import MessageCallback
-    from studio.ros.qos import QoSProfile
     from studio.ros.types.library import TypeLibrary
     from studio.ros.wire.settings import WireSettings
     from studio.settings import WireChoice
@@ -177,17 +174,6 @@ class WireLink:
             self._node.destroy_client(client)
         return answer.values[0].string_value if answer.values else ""
 
-    def hear(
-        self, type_name: str, topic: str, take: RawCallback, qos: QoSProfile
-    ) -> Callable[[], None]:
-        """Hear a topic's messages as bytes, in the thread of the link; gives what ends that.
-
-        Raises:
-            RosNameError: No topic is named so.
-            UnknownTypeError: The type is not known here.
-        """
-        return self._subscribed(type_name, topic, take, qos, raw=True)
-
     def shown_hash(self, type_name: str) -> str:
         """Give the hash of a type as publishers show it who have it as it is known here.
 
@@ -224,23 +210,6 @@ class WireLink:
         node = Node(name, context=self._context)
         self._executor.add_node(node)
         return node
-
-    def _subscribed(
-        self,
-        type_name: str,
-        topic: str,
-        take: MessageCallback,
-        qos: QoSProfile,
-        *,
-        raw: bool = False,
-    ) -> Callable[[], None]:
-        kind = self._wire.types.message(type_name)
-        subscription = self._node.create_subscription(kind, topic, take, qos, raw=raw)
-
-        def end() -> None:
-            self._node.destroy_subscription(subscription)
-
-        return end
 
     def _take(self, name: str, what: str) -> None:
         if name in self._taken:

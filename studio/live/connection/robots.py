@@ -58,11 +58,6 @@ class OpenRobot(Protocol):
         """Its robot on the wire."""
         ...
 
-    @property
-    def live(self) -> LetsGo:
-        """Its displays."""
-        ...
-
 
 class OpenRobots(Protocol):
     """All open documents."""
@@ -128,7 +123,7 @@ class WireRobotDesk:
 
     async def _let_go(self) -> None:
         documents = self._opener.documents.values()
-        parts: list[LetsGo] = [part for one in documents for part in (one.feed, one.live)]
+        parts: list[LetsGo] = [one.feed for one in documents]
         await asyncio.gather(*(part.let_go() for part in (*parts, self._ros)))
 
     async def open(self, command: OpenFromWire) -> Opened:

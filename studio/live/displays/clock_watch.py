@@ -1,29 +1,31 @@
-"""ClockWatch: hears /clock, and notices when its time begins anew: a simulation, or a bag."""
+"""ClockWatch: notices when the time on /clock begins anew, as of a simulation or a bag."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CdrError
+from studio.live.topics.request import Request
 from studio.ros.cdr import Codec
 from studio.ros.duration import NANOSECONDS
 from studio.ros.messages import shared_types
-from studio.ros.qos import QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.ros.node.samples import MessageInfo
+    from studio.ros.node.samples import RawSample
 
-CLOCK_TYPE: Final = "rosgraph_msgs/msg/Clock"
-CLOCK_QOS: Final = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+_TYPE: Final = "rosgraph_msgs/msg/Clock"
+CLOCK: Final = Request(
+    "/clock", (_TYPE,), newest_only=True, latched=False, usually=(False, False), as_known_here=True
+)
 _JITTER_NS: Final = 100_000_000
 """Who tells the time from several threads may be that much out of order."""
 _TELLERS_MAX: Final = 16
 
 
 class ClockWatch:
-    """Takes what /clock tells, on the wire's thread.
+    """Takes the messages of /clock, in one thread.
 
     Each publisher is compared with itself: two that tell different times never jump.
 
@@ -33,17 +35,17 @@ class ClockWatch:
 
     def __init__(self, jumped: Callable[[int, int], None]) -> None:
         self._jumped = jumped
-        self._codec = Codec(shared_types().message(CLOCK_TYPE))
+        self._codec = Codec(shared_types().message(_TYPE))
         self._told_ns: dict[bytes, int] = {}
 
-    def take(self, data: bytes, info: MessageInfo) -> None:
+    def take(self, sample: RawSample) -> None:
         """Take one message; what is none is left out."""
         try:
-            clock = self._codec.decode(data).clock
+            clock = self._codec.decode(sample.payload).clock
         except CdrError:
             return
         now_ns = clock.sec * NANOSECONDS + clock.nanosec
-        teller = info["publisher_gid"]
+        teller = sample.attachment.gid
         before_ns = self._told_ns.pop(teller, now_ns)
         if len(self._told_ns) >= _TELLERS_MAX:
             del self._told_ns[next(iter(self._told_ns))]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import replace
 from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
@@ -10,13 +11,12 @@ from studio.displays.display import Status, TopicRole
 from studio.displays.tf import TfDisplay
 from studio.errors import CommandError, SceneError
 from studio.live.displays.catalogue_views import property_view
-from studio.live.displays.ear import Hearing
 from studio.live.displays.followed_frames import FollowedFrames
-from studio.live.displays.frames_desk import STILL, FramesDesk, KnowsPublishers
 from studio.live.displays.own_frames import PosedRobot
 from studio.live.displays.reasons import remarks_on
 from studio.live.displays.running import RunningDisplay
-from studio.live.displays.topics_now import KnowsTopics, TopicsNow
+from studio.live.displays.scene_frames import STILL, SceneFrames
+from studio.live.displays.topics_now import TopicsNow
 from studio.protocol.displays import (
     DisplayState,
     DisplayStates,
@@ -28,12 +28,13 @@ from studio.protocol.displays import (
 from studio.ros.messages import shared_types
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection, Iterable
 
     from studio.displays.display import Display
     from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
-    from studio.live.displays.ear import Wish
     from studio.live.displays.placing import Pose
+    from studio.live.topics.request import Fit
+    from studio.live.topics.source import TopicSource
     from studio.protocol.roles import Visitor
     from studio.scene import DocumentScene
 
@@ -45,24 +46,6 @@ _AT_ONCE_S: Final = 0.03
 _SENTENCE_MAX: Final = 600
 """Addresses of meshes come from others."""
 _NO_TOPIC: Final = TopicRole("", (), depth=1)
-
-
-class KnowsGraph(KnowsPublishers, KnowsTopics, Protocol):
-    """What displays need of the graph."""
-
-
-class Connected(Hearing, Protocol):
-    """What displays need of a connection."""
-
-    @property
-    def is_connected(self) -> bool:
-        """Whether its router is there."""
-        ...
-
-    @property
-    def graph(self) -> KnowsGraph:
-        """Who publishes."""
-        ...
 
 
 class ShownRobot(PosedRobot, Protocol):
@@ -89,9 +72,10 @@ class Meshes(Protocol):
 class DrawingRoom:
     """Steps every display that is shown and applies what it draws."""
 
-    def __init__(self, robot: ShownRobot, meshes: Meshes) -> None:
-        self._scene, self._meshes = robot.scene, meshes
-        self.frames = FramesDesk(robot)
+    def __init__(self, robot: ShownRobot, meshes: Meshes, source: TopicSource) -> None:
+        self._scene, self._meshes, self._source = robot.scene, meshes, source
+        self._epoch = source.epoch
+        self.frames = SceneFrames(robot, source)
         self._running: dict[str, RunningDisplay] = {}
         self._faults: dict[str, str] = {}
         self._seen: frozenset[str] = frozenset()
@@ -118,7 +102,7 @@ class DrawingRoom:
         raise CommandError("This display is not there any more: choose another.")
 
     def close(self, display: str) -> RunningDisplay | None:
-        """Take one out of the scene; whoever asks closes it, in a thread."""
+        """Take one out of the scene; whoever asks closes it."""
         self._scene.live.drop(display)
         self._faults.pop(display, None)
         return self._running.pop(display, None)
@@ -127,30 +111,34 @@ class DrawingRoom:
         """All displays by their ids."""
         return {name: running.display for name, running in self._running.items()}
 
-    def listen(self, link: Connected, shown: Iterable[str]) -> None:
-        """Have TF and those that are shown heard, and no others; in a thread."""
-        self.frames.listen(link, link.graph)
-        wanted, connected = set(shown), link.is_connected
-        topics = TopicsNow(link.graph)
-        if connected:  # else all seem to be gone
-            self.frames.look(link.graph)
-        for display, running in tuple(self._running.items()):
-            if display in wanted:
-                running.listen(link, link.graph.publishers, connected=connected)
-                running.look_around(topics)
-            else:
-                running.deafen()
+    async def subscribe(self, shown: Collection[str]) -> None:
+        """Subscribe to TF and to what is shown wants, and to nothing else."""
+        is_new = self.frames.subscribe()
+        for display, running in self._running.items():
+            if display not in shown:
+                running.unsubscribe()
+            elif running.subscribe(self._source):
+                is_new = True
+        if is_new:
+            await asyncio.to_thread(self._source.fit_all)
+        self.frames.look()
+        await asyncio.to_thread(self._look_around)
 
-    def deafen(self) -> None:
-        """Have nothing heard; in a thread."""
-        self.frames.deafen()
+    def _look_around(self) -> None:
+        topics = TopicsNow(self._source)
         for running in tuple(self._running.values()):
-            running.deafen()
+            running.look_around(topics)
+
+    def unsubscribe(self) -> None:
+        """Receive nothing."""
+        self.frames.unsubscribe()
+        for running in self._running.values():
+            running.unsubscribe()
 
     def close_all(self) -> None:
-        """Have nothing heard any more, whoever is about to listen; in a thread."""
+        """Receive nothing any more."""
         self.frames.close()
-        for running in tuple(self._running.values()):
+        for running in self._running.values():
             running.close()
 
     def renew(self) -> None:
@@ -158,18 +146,17 @@ class DrawingRoom:
         for running in self._running.values():
             running.placing.renew()
 
-    def forget(self) -> None:
-        """Take what came by a connection that is no more off the screen."""
-        for running in self._running.values():
-            running.forget()
-
     def follow(self, frame: str, now_ns: int, visitor: Visitor) -> str:
         """Have a frame stand in the scene for a while; answers why it does not, or nothing."""
         return self._followed.ask(frame, now_ns, visitor) or self.frames.trouble_of(frame)
 
     def step(self, displays: DisplayList, now_ns: int) -> None:
-        """Draw what came since the last step."""
+        """Draw what came since the last step; nothing that came by another connection stays."""
         self.frames.step()
+        if self._epoch != self._source.epoch:
+            self._epoch = self._source.epoch
+            for running in self._running.values():
+                running.forget()
         shown = self._shown_of(displays)
         self._show_frames(running.display for running in shown.values())
         self._place_robot()
@@ -181,7 +168,7 @@ class DrawingRoom:
     def view(self, spec: DisplaySpec) -> DisplayView:
         """One display as it is set."""
         running = self._running[spec.id]
-        heard = _heard(running)
+        fit = _fit(running)
         return DisplayView(
             id=spec.id,
             kind=spec.kind,
@@ -190,9 +177,9 @@ class DrawingRoom:
             group=spec.group,
             enabled=spec.enabled,
             topic=spec.topic,
-            reliable=heard.reliable,
-            latched=heard.latched,
-            depth=heard.depth,
+            reliable=fit.reliable,
+            latched=fit.latched,
+            depth=fit.depth,
             wished=_wished(spec.listening),
             values=dict(running.display.values),
             more=_more_properties(running.display),
@@ -273,9 +260,9 @@ class DrawingRoom:
             self._scene.place_robot(*pose)
 
 
-def _heard(running: RunningDisplay) -> Wish | TopicRole:
-    """How the main topic is listened to; before there is one, how it would be."""
-    return running.wish() or next(iter(running.display.roles()), _NO_TOPIC)
+def _fit(running: RunningDisplay) -> Fit | TopicRole:
+    """Return how the main topic is subscribed; before it is, how it would be."""
+    return running.fit or next(iter(running.display.roles()), _NO_TOPIC)
 
 
 def _wished(listening: Listening) -> ListeningWish:

@@ -39,7 +39,6 @@ if TYPE_CHECKING:
 
     from studio.displays.properties import Value
     from studio.live.connection.desk import WireDesk
-    from studio.live.connection.link import WireLink
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
@@ -92,9 +91,6 @@ class LiveDesk:
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
-        self._link: WireLink | None = None
-        self._drawn_from: WireLink | None = None
-        self._listening = asyncio.Lock()
         self._ticking: asyncio.Task[None] | None = None
         self._keeping: asyncio.Task[None] | None = None
         self._unkept: KeptDisplays | None = None
@@ -113,7 +109,7 @@ class LiveDesk:
             from studio.live.displays.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
             from studio.live.displays.robot_models import RobotModels  # noqa: PLC0415
 
-            self._made = DrawingRoom(self._robot, self._meshes)
+            self._made = DrawingRoom(self._robot, self._meshes, self._wire.topics)
             self._robots = RobotModels(self._robot, self._wire.topics, self._reader)
         return self._made
 
@@ -158,13 +154,13 @@ class LiveDesk:
         if spec.topic:
             await self._connect()
 
-    async def remove(self, command: RemoveDisplay) -> None:
+    def remove(self, command: RemoveDisplay) -> None:
         """Take a display away."""
         self._list.remove(command.display)
         running = self._room.close(command.display)
         self._changed()
         if running is not None:
-            await asyncio.to_thread(running.close)
+            running.close()
 
     def duplicate(self, command: DuplicateDisplay) -> None:
         """Add one like another."""
@@ -201,7 +197,7 @@ class LiveDesk:
             self._room.open(spec)
         self._change(spec)
         if old is not None:
-            await asyncio.to_thread(old.close)
+            old.close()
         if spec.topic:
             await self._connect()
 
@@ -247,8 +243,8 @@ class LiveDesk:
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
         frames = self._room.frames
-        if is_first and not command.pose_only and self._wire.current is not None:
-            await frames.hear_first(self._wire.current.graph)
+        if is_first and not command.pose_only:
+            await frames.wait_for_first()
         frames.step()
         if command.pose_only:
             return frames.answer(command, frames.fixed)
@@ -263,14 +259,12 @@ class LiveDesk:
         trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
         return FrameFollowed(request=command.request, trouble=trouble)
 
-    async def let_go(self) -> None:
-        """Let go of the connection; displays stay, and listen again when there is one."""
-        async with self._listening:
-            self._link = None
-            if self._robots is not None:
-                self._robots.let_go()
-            if self._made is not None:
-                await asyncio.to_thread(self._made.deafen)
+    def let_go(self) -> None:
+        """Receive nothing until it is drawn again."""
+        if self._robots is not None:
+            self._robots.let_go()
+        if self._made is not None:
+            self._made.unsubscribe()
 
     async def close(self) -> None:
         """Draw nothing more."""
@@ -278,11 +272,11 @@ class LiveDesk:
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
-        await self.let_go()
+        self.let_go()
         if self._robots is not None:
             await self._robots.close()
         if self._made is not None:
-            await asyncio.to_thread(self._made.close_all)
+            self._made.close_all()
         if self._keeping is not None:
             await self._keeping
 
@@ -348,7 +342,7 @@ class LiveDesk:
                 looks = began_s - self._looked_s >= _LOOK_EVERY_S
                 if looks:
                     self._looked_s = began_s
-                    await self._listen()
+                    await self._subscribe()
                 self._step()
                 if looks:
                     self._tell_displays()
@@ -361,14 +355,14 @@ class LiveDesk:
             )
         self._room.step(self._list, time.time_ns())
         self._tell_states()
-        await self.let_go()
+        self.let_go()
         self._ticking = None
         self._go_on()  # somebody may have asked meanwhile
 
     def _step(self) -> None:
         room = self._room
         if self._robots is not None:
-            self._robots.step(room.displays(), self._link)
+            self._robots.step(room.displays(), self._wire.current)
         room.step(self._list, time.time_ns())
 
     def _log_once(self, error: Exception) -> None:
@@ -377,20 +371,9 @@ class LiveDesk:
             self._fault = repr(error)
             _log.error("A tick of the live scene failed.", exc_info=error)
 
-    async def _listen(self) -> None:
-        """Listen to what is shown, as fits who publishes now."""
-        link = self._wire.current
-        if self._link is not None and link is not self._link:
-            await self.let_go()
-        if link is not self._drawn_from:
-            self._drawn_from = link
-            self._room.forget()
-        async with self._listening:
-            if link is None:
-                return
-            self._link = link
-            shown = [one.id for one in self._list if self._list.is_shown(one)]
-            await asyncio.to_thread(self._room.listen, link, shown)
+    async def _subscribe(self) -> None:
+        """Subscribe to what is shown."""
+        await self._room.subscribe({one.id for one in self._list if self._list.is_shown(one)})
 
     def _tell_states(self) -> None:
         self._states.tell(self._room.states(self._list, time.time_ns()))

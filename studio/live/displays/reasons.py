@@ -14,29 +14,12 @@ if TYPE_CHECKING:
     from studio.displays.display import Status
     from studio.errors import FrameError
     from studio.live.displays.display_list import DisplaySpec
+    from studio.live.topics.request import StateKind, SubscriptionState
 
+_REASONS: Final[dict[StateKind, str]] = {"refused": "not_heard", "other_form": "other_hash"}
 _SHOWN_MAX: Final = 6
 _FRAMES_MAX: Final = 3
 """A robot has many links: what else is wrong is said, too."""
-
-
-@dataclass(frozen=True, slots=True)
-class OnWire:
-    """Who publishes the topic of a display.
-
-    Attributes:
-        connected: Whether there is a connection with a ROS 2 system at all.
-        lost: Whether there was a connection, and its router is gone.
-        publishers: Of the topic, of any type.
-        types: Under which it is published.
-        foreign_hash: Whether all publishers of a type that fits have it in another form.
-    """
-
-    connected: bool = False
-    publishers: int = 0
-    types: tuple[str, ...] = ()
-    foreign_hash: bool = False
-    lost: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,14 +28,13 @@ class Facts:
 
     Attributes:
         spec: How it is set.
+        topic: How its subscription stands.
         shown: Whether it is switched on, and its group with it.
         types: Of messages that it shows; empty: it listens to no topic.
         fitting_kind: The display that shows what is published on the topic; empty: none.
-        wire: Who publishes.
         instead: A topic that is published and would fit; empty: there is none.
         heard: Messages that came.
         silent_s: Since the last one, when it is longer ago than is usual of them.
-        trouble: Why the topic cannot be heard at all, in a sentence.
         frames: Why parts of the drawing have no place.
         frame: In it everything can be drawn so that the first of them has a place; empty: in none.
         stamp_zero: Whether messages come without a time.
@@ -62,14 +44,13 @@ class Facts:
     """
 
     spec: DisplaySpec
+    topic: SubscriptionState
     shown: bool = True
     types: tuple[str, ...] = ()
     fitting_kind: str = ""
-    wire: OnWire = OnWire()
     instead: str = ""
     heard: int = 0
     silent_s: float | None = None
-    trouble: str = ""
     frames: tuple[FrameError, ...] = ()
     frame: str = ""
     stamp_zero: bool = False
@@ -144,41 +125,20 @@ def _hidden(facts: Facts) -> Iterator[Remark]:
 
 def _silence(facts: Facts) -> Remark | None:
     """Why no message comes, or none that can be shown."""
-    spec, wire = facts.spec, facts.wire
+    spec, state = facts.spec, facts.topic
     if not spec.topic:
         sentence = f"{spec.kind} listens to no topic yet: choose one."
         return _warn("no_topic", sentence, _other_topic(facts))
-    if wire.lost:
-        return _error(
-            "connection_lost",
-            "The router of ROS 2 is not there any more: it is joined again once it runs.",
-        )
-    if not wire.connected:
-        return _error(
-            "not_connected",
-            "There is no connection with a ROS 2 system.",
-            Mend(label="Connect", command={"type": "connect_wire"}),
-        )
-    if facts.trouble:
-        return _error("not_heard", facts.trouble)
-    return _fault_of_publishers(facts) or _no_message(facts)
-
-
-def _fault_of_publishers(facts: Facts) -> Remark | None:
-    """Nobody publishes the topic, or none publishes what can be shown."""
-    spec, wire = facts.spec, facts.wire
-    if wire.publishers == 0:
-        sentence = f"Nobody publishes {spec.topic}: start its node."
-        return _error("no_publisher", sentence, _other_topic(facts))
-    if not set(wire.types) & set(facts.types):
+    if state.kind == "receiving":
+        return _no_message(facts)
+    if state.kind == "other_type":
         return _other_type(facts)
-    if wire.foreign_hash:
-        return _error(
-            "other_hash",
-            f"{spec.topic} is published with a {facts.types[0]} of another form, so its bytes "
-            "cannot be read here: run both sides with the same distribution of ROS 2.",
-        )
-    return None
+    mend = None
+    if state.kind == "not_connected":
+        mend = Mend(label="Connect", command={"type": "connect_wire"})
+    elif state.kind == "no_publisher":
+        mend = _other_topic(facts)
+    return _error(_REASONS.get(state.kind, state.kind), state.sentence, mend)
 
 
 def _other_topic(facts: Facts) -> Mend | None:
@@ -196,7 +156,7 @@ def _other_topic(facts: Facts) -> Mend | None:
 
 
 def _other_type(facts: Facts) -> Remark:
-    spec, published = facts.spec, ", ".join(facts.wire.types)
+    spec, published = facts.spec, ", ".join(facts.topic.types)
     sentence = f"{spec.topic} is published as {published}, and {spec.kind} shows {facts.types[0]}."
     if not facts.fitting_kind:
         return _error("other_type", f"{sentence} Choose another topic.")

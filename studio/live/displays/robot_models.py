@@ -82,6 +82,8 @@ class RobotModels:
         for name, model in tuple(self._models.items()):
             if models.get(name) is not model.display:
                 self._forget(self._models.pop(name))
+        if link is not self._link:
+            self.let_go()
         self._link = link
         for name, display in models.items():
             self._step(self._models.setdefault(name, _Model(display)))

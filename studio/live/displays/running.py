@@ -1,46 +1,46 @@
-"""RunningDisplay: one display at work: its ears, its messages, and where its drawing stands."""
+"""RunningDisplay: one display at work: its subscriptions, and where its drawing stands."""
 
 from __future__ import annotations
 
 import logging
 import math
-import threading
 import time
 from contextlib import suppress
 from itertools import chain
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.catalogue import display_of_kind, displays_of_type
-from studio.displays.display import Display, Received, Status, TopicRole
+from studio.displays.display import Display, Received, Status
 from studio.displays.drawing import NOTHING
 from studio.errors import DisplayPropertyError, StudioError
-from studio.live.displays.ear import Ear, on_wire, wish_for
 from studio.live.displays.placing import Placing
-from studio.live.displays.reasons import Facts, OnWire
+from studio.live.displays.reasons import Facts
+from studio.live.topics.request import Request, SubscriptionState
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator
 
+    from studio.displays.display import TopicRole
     from studio.displays.drawing import Drawing, Placed
     from studio.displays.properties import Value
     from studio.errors import FrameError
-    from studio.live.displays.display_list import DisplaySpec
-    from studio.live.displays.ear import Hearing, Wish
+    from studio.live.displays.display_list import DisplaySpec, Listening
     from studio.live.displays.placing import Lookup, Shown
     from studio.live.displays.topics_now import TopicsNow
-    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.live.topics.request import Fit
+    from studio.live.topics.source import TopicSource
+    from studio.live.topics.subscription import Subscription
     from studio.ros.types.library import TypeLibrary
 
 _SILENT_S: Final = 5.0
+_WAITING_MAX: Final = 1_000
 _NOT_DRAWN: Final = "A message could not be drawn: the terminal says why."
 
 _log = logging.getLogger(__name__)
 
 
 class RunningDisplay:
-    """Lives as long as its kind and topic are the same.
-
-    All is the loop's, but for `listen`, `deafen` and `close`, which wait: they are for a thread.
+    """Lives as long as its kind and topic are the same; used on the event loop only.
 
     Raises:
         DisplayError: There is no such kind.
@@ -55,13 +55,10 @@ class RunningDisplay:
         self.placing = Placing()
         self.drawn: Drawing = NOTHING
         """What stands in the scene."""
-        self._ears: dict[str, Ear] = {}
-        self._turn = threading.Lock()
-        """Who listens and who ends that come from different threads."""
+        self._subscriptions: dict[str, Subscription] = {}
+        """By the names of its roles."""
         self._closed = False
-        self._wire = OnWire()
         self._instead = ""
-        self._trouble = ""
         self._bad_message = ""
         self._placed_ns = 0
 
@@ -81,43 +78,40 @@ class RunningDisplay:
         self.display.set(name, value)
         return self.display.values[name]
 
-    def listen(
-        self,
-        hearing: Hearing,
-        publishers_of: Callable[[str], Sequence[GraphEndpoint]],
-        *,
-        connected: bool = True,
-    ) -> None:
-        """Listen as fits who publishes now.
+    def subscribe(self, source: TopicSource) -> bool:
+        """Subscribe to the topics that it wants now; return whether that is another one.
 
-        What cannot be heard is told by `facts`.
-
-        Args:
-            hearing: By which it is heard.
-            publishers_of: Those of a topic; raises a StudioError for what names none.
-            connected: Whether the router is there.
+        `facts` tells what is in the way of one.
         """
-        with self._turn:
-            if not self._closed:
-                self._listen(hearing, publishers_of, connected=connected)
+        wanted: dict[str, Request] = {}
+        if self.spec.topic and not self._closed:
+            for role in self.display.roles():
+                wanted[role.name] = request_for(role, self.spec.topic, self.spec.listening)
+        for name, one in tuple(self._subscriptions.items()):
+            if wanted.get(name) != one.request:
+                self._subscriptions.pop(name).close()
+        new = wanted.keys() - self._subscriptions.keys()
+        for name in new:
+            self._subscriptions[name] = source.subscribe(wanted[name])
+        return bool(new)
 
     def look_around(self, topics: TopicsNow) -> None:
-        """Know what to listen to instead, as long as nobody publishes its topic; in a thread."""
-        lacks = self._wire.publishers == 0
+        """Find a topic to subscribe to instead, as long as nobody publishes its own."""
+        main = self._subscriptions.get("")
+        lacks = main is not None and main.state.publishers == 0
         self._instead = topics.instead_of(self.spec.topic, self.display) if lacks else ""
 
-    def deafen(self) -> None:
-        """Stop listening, as when the connection is no more."""
-        with self._turn:
-            ears, self._ears = self._ears, {}
-            for ear in ears.values():
-                ear.close()
-            self._wire, self._instead = OnWire(), ""
+    def unsubscribe(self) -> None:
+        """Receive nothing, as when it is hidden."""
+        subscriptions, self._subscriptions = self._subscriptions, {}
+        for one in subscriptions.values():
+            one.close()
+        self._instead = ""
 
     def close(self) -> None:
-        """Stop listening for good, also if somebody is about to listen."""
+        """Receive nothing any more."""
         self._closed = True
-        self.deafen()
+        self.unsubscribe()
 
     def step(self, lookup: Lookup, now_ns: int, at_once_s: float = math.inf) -> Shown | None:
         """Take what came, and give what is to be drawn now; None: all is as it was.
@@ -125,9 +119,10 @@ class RunningDisplay:
         Of each topic one message is taken, and more for so long; the rest waits for other steps.
         """
         until_s = time.perf_counter() + at_once_s
-        for role, ear in tuple(self._ears.items()):
-            for received in ear.mailbox.take():
-                self._take(received, role)
+        for role, subscription in self._subscriptions.items():
+            type_name = subscription.fit.type_name if subscription.fit else ""
+            for payload, _, received_ns in subscription.take_each():
+                self._take(Received(type_name, payload, received_ns), role)
                 if time.perf_counter() > until_s:
                     break
         self.placing.offer(self._drawing(now_ns), now_ns)
@@ -142,53 +137,54 @@ class RunningDisplay:
 
         What is latched is told once, so it holds for all times.
         """
-        wish = self.wish()
-        if wish is None or not wish.latched:
+        fit = self.fit
+        if fit is None or not fit.latched:
             self.forget()
 
     def forget(self) -> None:
-        """Show nothing of what came: it is of a connection that is no more."""
+        """Show nothing of what came: it is of another connection."""
         self.display.reset()
         self.placing.forget()
 
-    def wish(self) -> Wish | None:
-        """How the main topic is listened to; None: it is not."""
-        ear = self._ears.get("")
-        return ear.wish if ear else None
+    @property
+    def fit(self) -> Fit | None:
+        """How the main topic is subscribed; None: it is not."""
+        main = self._subscriptions.get("")
+        return main.fit if main else None
 
     def rate_hz(self, now_ns: int) -> float:
-        """Messages on the main topic in a second."""
-        ear = self._ears.get("")
-        return ear.mailbox.rate_hz(now_ns) if ear else 0.0
+        """Return how many messages come on the main topic in a second."""
+        main = self._subscriptions.get("")
+        return main.rate_hz(now_ns) if main else 0.0
 
     def age_s(self, now_ns: int) -> float | None:
-        """How long ago the last one came."""
-        ear = self._ears.get("")
-        age_ns = ear.mailbox.age_ns(now_ns) if ear else None
+        """Return how long ago the last one came."""
+        main = self._subscriptions.get("")
+        age_ns = main.age_ns(now_ns) if main else None
         return None if age_ns is None else max(0.0, age_ns / 1e9)
 
     @property
     def lost(self) -> int:
         """Messages that fell out because too many came at once."""
-        return sum(ear.mailbox.lost for ear in tuple(self._ears.values()))
+        return sum(one.dropped for one in self._subscriptions.values())
 
     def facts(self, now_ns: int, *, shown: bool, more: tuple[Status, ...] = ()) -> Facts:
         """What is known of why it shows what it shows, with more that is to be said."""
-        ear, age_s = self._ears.get(""), self.age_s(now_ns)
+        main, age_s = self._subscriptions.get(""), self.age_s(now_ns)
+        state = main.state if main else SubscriptionState(self.spec.topic)
         roles = self.display.roles()
-        of_types = (displays_of_type(name, self.spec.topic) for name in self._wire.types)
+        of_types = (displays_of_type(name, self.spec.topic) for name in state.types)
         fitting = next(chain.from_iterable(of_types), None)
         drawing = self.placing.shown.drawing
         return Facts(
             self.spec,
+            state,
             shown=shown,
             types=roles[0].types if roles else (),
             fitting_kind=fitting.KIND if fitting else "",
-            wire=self._wire,
             instead=self._instead,
-            heard=ear.mailbox.heard if ear else 0,
+            heard=main.received if main else 0,
             silent_s=age_s if age_s is not None and age_s > self._patience_s else None,
-            trouble=self._trouble,
             frames=tuple(_first_of_each(self.placing.troubles.values())),
             frame=next((drawing[one].frame for one in self.placing.troubles if one in drawing), ""),
             stamp_zero=bool(roles) and any(_has_no_time(one) for one in drawing.values()),
@@ -200,8 +196,8 @@ class RunningDisplay:
     @property
     def _patience_s(self) -> float:
         """What is latched says one thing and then nothing."""
-        wish = self.wish()
-        return math.inf if wish and wish.latched else _SILENT_S
+        fit = self.fit
+        return math.inf if fit and fit.latched else _SILENT_S
 
     def _statuses(self) -> tuple[Status, ...]:
         said = self.display.statuses()
@@ -233,40 +229,20 @@ class RunningDisplay:
             _log.exception("A message on %s could not be drawn.", self.spec.topic)
         self._bad_message = _NOT_DRAWN
 
-    def _listen(
-        self,
-        hearing: Hearing,
-        publishers_of: Callable[[str], Sequence[GraphEndpoint]],
-        *,
-        connected: bool,
-    ) -> None:
-        self._trouble = ""
-        roles = self.display.roles()
-        for gone in self._ears.keys() - {role.name for role in roles}:
-            self._ears.pop(gone).close()
-        for role, topic in zip(roles, self.topics, strict=False):
-            try:
-                publishers = publishers_of(topic)
-                if not role.name:
-                    self._wire = on_wire(role, publishers, self._types, connected=connected)
-                self._listen_as(hearing, role, publishers)
-            except StudioError as error:
-                if not role.name:
-                    self._wire = OnWire(connected=True, lost=not connected)
-                    self._trouble = str(error)
 
-    def _listen_as(
-        self, hearing: Hearing, role: TopicRole, publishers: Sequence[GraphEndpoint]
-    ) -> None:
-        ear, spec = self._ears.get(role.name), self.spec
-        before = ear.wish if ear else None
-        wish = wish_for(role, spec.topic, spec.listening, publishers, before)
-        if ear is not None:
-            if wish == before:
-                return
-            ear.close()
-            del self._ears[role.name]
-        self._ears[role.name] = Ear(hearing, wish, role)
+def request_for(role: TopicRole, topic: str, chosen: Listening) -> Request:
+    """Return what is wanted of the topic of a role beside a main one."""
+    return Request(
+        role.topic(topic),
+        role.types,
+        newest_only=role.newest_only,
+        reliable=chosen.reliable,
+        latched=chosen.latched,
+        depth=chosen.depth or role.depth,
+        usually=(role.reliable, role.latched),
+        as_known_here=True,
+        waiting_max=_WAITING_MAX,
+    )
 
 
 def _first_of_each(errors: Iterable[FrameError]) -> Iterator[FrameError]:

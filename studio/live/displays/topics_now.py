@@ -8,32 +8,28 @@ from typing import TYPE_CHECKING, Protocol
 from studio.displays.catalogue import displays_of_type
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from studio.displays.display import Display
-    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.live.topics.source import Topic
 
 
-class KnowsTopics(Protocol):
-    """What is needed of the graph."""
+class HasCatalogue(Protocol):
+    """What is needed of a source of topics."""
 
-    def topics(self) -> Sequence[tuple[str, Sequence[str]]]:
-        """All names with the types of both ends."""
-        ...
-
-    def publishers(self, topic: str) -> Sequence[GraphEndpoint]:
-        """Those of a topic."""
+    def catalogue(self) -> Sequence[Topic]:
+        """Return all topics by name."""
         ...
 
 
 class TopicsNow:
-    """Asks the graph for all its topics once, and only if a display lacks its own."""
+    """Asks the source for all its topics once, and only if a display lacks its own."""
 
-    def __init__(self, graph: KnowsTopics) -> None:
-        self._graph = graph
+    def __init__(self, source: HasCatalogue) -> None:
+        self._source = source
 
     def instead_of(self, topic: str, display: Display) -> str:
-        """The topic that a display may listen to instead; empty: nobody publishes what it shows.
+        """Return the topic that a display may show instead; empty: nobody publishes one.
 
         One of the same last name is the best, as of another namespace; else the first that is not
         hidden.
@@ -43,16 +39,22 @@ class TopicsNow:
             return ""
         types = frozenset(roles[0].types)
         last = topic.rpartition("/")[2]
-        fitting = [name for name, those in self._topics if not types.isdisjoint(those)]
-        fitting.sort(key=lambda name: (name.rpartition("/")[2] != last, "/_" in name, name))
-        shown = (name for name in fitting if self._is_shown(name, display, types))
-        return next(shown, "")
+        fitting = [name for name, sent in self._sent if self._is_shown(name, sent & types, display)]
+        return min(
+            fitting,
+            key=lambda name: (name.rpartition("/")[2] != last, "/_" in name, name),
+            default="",
+        )
 
     @cached_property
-    def _topics(self) -> tuple[tuple[str, Sequence[str]], ...]:
-        return tuple(self._graph.topics())
+    def _sent(self) -> list[tuple[str, frozenset[str]]]:
+        """The topics that are published, and the types of those who publish them."""
+        found = (
+            (one.name, frozenset(each.type_name for each in one.publishers))
+            for one in self._source.catalogue()
+        )
+        return [(name, types) for name, types in found if types]
 
-    def _is_shown(self, name: str, display: Display, types: Iterable[str]) -> bool:
-        """Whether somebody publishes it in a type that the display shows under such a name."""
-        sent = {one.type_name for one in self._graph.publishers(name)}
-        return any(type(display) in displays_of_type(one, name) for one in sent.intersection(types))
+    def _is_shown(self, name: str, types: frozenset[str], display: Display) -> bool:
+        """Whether the display shows one of the types under such a name."""
+        return any(type(display) in displays_of_type(one, name) for one in types)

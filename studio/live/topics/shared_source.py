@@ -196,6 +196,8 @@ class SharedSource(ABC):
         if fit is None:
             one.leave()
             return state
+        if one.fit is not None and one.fit.type_name != fit.type_name:
+            one.change_type(fit)
         try:
             one.join(self._stream(request.topic, fit), fit.depth)
         except StudioError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections import deque
+from dataclasses import replace
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.live.topics.request import WAITING_BYTES_MAX, SubscriptionState
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 _CACHE_BYTES: Final = 16 << 20
 """Of a latched topic, for those who come later."""
 _SENDERS_MAX: Final = 10_000
+_ARRIVALS_MAX: Final = 400
+_RATE_OVER_NS: Final = 2_000_000_000
 
 _log = logging.getLogger(__name__)
 
@@ -65,6 +68,17 @@ class Subscription:
         stream = self._stream
         missed = 0 if stream is None else stream.lost - self._missed_before
         return max(0, self._missed + missed) + self.dropped
+
+    def rate_hz(self, now_ns: int) -> float:
+        """Return how many samples come in a second, of late; `now_ns` is since the Unix epoch."""
+        stream = self._stream
+        return 0.0 if stream is None else stream.arrivals.rate_hz(now_ns)
+
+    def age_ns(self, now_ns: int) -> int | None:
+        """Return how long ago the last sample came, None where none did."""
+        stream = self._stream
+        last_ns = None if stream is None else stream.arrivals.last_ns
+        return None if last_ns is None or not self.received else now_ns - last_ns
 
     def take(self) -> list[RawSample]:
         """Take all that waits, the oldest first."""
@@ -147,6 +161,12 @@ class Subscription:
             if self._changed is not None:
                 self._changed()
 
+    def change_type(self, fit: Fit) -> None:
+        """Share no stream, and forget what waits: what comes from now on is of another type."""
+        self.leave()
+        self.clear()
+        self.state = replace(self.state, fit=fit)
+
     def join(self, stream: Stream, depth: int) -> None:
         """Share a stream from now on, and no other."""
         if stream is not self._stream:
@@ -209,6 +229,7 @@ class Stream:
         hand_over: Callable[[Subscription], object],
     ) -> None:
         self.depth = fit.depth
+        self.arrivals = Arrivals()
         self._hand_over = hand_over
         self._lock = threading.Lock()
         self._subscribers: tuple[Subscription, ...] = ()
@@ -265,8 +286,9 @@ class Stream:
         """Receive nothing more; in a thread, for it may wait."""
         self._wire.close()
 
-    def take(self, samples: list[RawSample], _count: int, _size: int) -> None:
+    def take(self, samples: list[RawSample], count: int, _size: int) -> None:
         """Give all their share of what came; in a thread of the source."""
+        self.arrivals.add(samples[-1].received_ns, count)
         with self._lock:
             fresh = samples
             if self._cache is not None:
@@ -324,6 +346,29 @@ class Stream:
         newest_only = all(one.newest_only for one in requests)
         self._wire.read(newest_only=newest_only and self._cache is None)
         self._wire.hurry(wanted=any(one.at_once for one in requests))
+
+
+class Arrivals:
+    """When samples came, of late; those that came together count as one entry."""
+
+    def __init__(self) -> None:
+        self._entries: deque[tuple[int, int]] = deque(maxlen=_ARRIVALS_MAX)
+
+    def add(self, at_ns: int, count: int) -> None:
+        """Count samples that came together, at a time since the Unix epoch."""
+        self._entries.append((at_ns, count))
+
+    @property
+    def last_ns(self) -> int | None:
+        """When the last one came; None: none did."""
+        return self._entries[-1][0] if self._entries else None
+
+    def rate_hz(self, now_ns: int) -> float:
+        """Return how many came in a second, over the last two."""
+        late = [one for one in tuple(self._entries) if now_ns - one[0] <= _RATE_OVER_NS]
+        if not late or late[-1][0] <= late[0][0]:
+            return 0.0
+        return (sum(count for _, count in late) - 1) * 1e9 / (late[-1][0] - late[0][0])
 
 
 class Cache:

@@ -1,5 +1,5 @@
 from studio.live.connection.topic_kinds import carried_types, kind_for
-from tests.support.heard_topics import publisher as end
+from tests.support.graph_ends import publisher as end
 
 IMU, SCAN = "sensor_msgs/msg/Imu", "sensor_msgs/msg/LaserScan"
 TEXT = "std_msgs/msg/String"

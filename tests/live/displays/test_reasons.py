@@ -7,16 +7,26 @@ import pytest
 from studio.displays.display import Status
 from studio.errors import ExtrapolationError, UnconnectedFramesError, UnknownFrameError
 from studio.live.displays.display_list import DisplaySpec
-from studio.live.displays.reasons import Facts, OnWire, remarks_on
+from studio.live.displays.reasons import Facts, remarks_on
+from studio.live.topics.request import Fit, StateKind, SubscriptionState
 from studio.protocol.message import type_of
 from studio.server.commands import COMMAND_ADAPTER
 
 SCAN = "sensor_msgs/msg/LaserScan"
+
+
+def topic(kind: StateKind, *types: str) -> SubscriptionState:
+    """How the topic's subscription stands, with the types under which it is published."""
+    fit = Fit(SCAN, None, True, False, 5)
+    reason = "No type x." if kind == "refused" else ""
+    return SubscriptionState("/scan", kind, fit, len(types), types, reason)
+
+
 SPEC = DisplaySpec("d1", "LaserScan", "Front", "/scan")
 WELL = Facts(
     SPEC,
     types=(SCAN,),
-    wire=OnWire(connected=True, publishers=1, types=(SCAN,)),
+    topic=topic("receiving", SCAN),
     heard=7,
     draws=True,
 )
@@ -46,7 +56,7 @@ def test_a_display_that_draws_nothing_for_no_other_reason_says_so():
 
 
 def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
-    (remark,) = remarks_on(replace(WELL, wire=OnWire(connected=True, lost=True), heard=0))
+    (remark,) = remarks_on(replace(WELL, topic=topic("connection_lost"), heard=0))
     assert (remark.reason, remark.mend) == ("connection_lost", None)
 
 
@@ -54,17 +64,21 @@ def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
     ("facts", "reason", "words"),
     [
         (replace(WELL, spec=replace(SPEC, topic="")), "no_topic", "choose one"),
-        (replace(WELL, wire=OnWire()), "not_connected", "no connection"),
-        (replace(WELL, trouble="No type x.", heard=0), "not_heard", "No type x."),
-        (replace(WELL, wire=OnWire(True)), "no_publisher", "Nobody publishes /scan"),
+        (replace(WELL, topic=topic("not_connected")), "not_connected", "no connection"),
+        (replace(WELL, topic=topic("refused"), heard=0), "not_heard", "No type x."),
+        (replace(WELL, topic=topic("no_publisher")), "no_publisher", "Nobody publishes /scan"),
         (
-            replace(WELL, wire=OnWire(True, 1, (CLOUD,)), fitting_kind="PointCloud2", heard=0),
+            replace(WELL, topic=topic("other_type", CLOUD), fitting_kind="PointCloud2", heard=0),
             "other_type",
             "is published as sensor_msgs/msg/PointCloud2",
         ),
-        (replace(WELL, wire=OnWire(True, 1, ("a/msg/B",)), heard=0), "other_type", "another topic"),
         (
-            replace(WELL, wire=OnWire(True, 1, (SCAN,), foreign_hash=True), heard=0),
+            replace(WELL, topic=topic("other_type", "a/msg/B"), heard=0),
+            "other_type",
+            "another topic",
+        ),
+        (
+            replace(WELL, topic=topic("other_form", SCAN), heard=0),
             "other_hash",
             "of another form",
         ),
@@ -95,16 +109,19 @@ def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
 @pytest.mark.parametrize(
     ("facts", "label"),
     [
-        (replace(WELL, wire=OnWire()), "Connect"),
+        (replace(WELL, topic=topic("not_connected")), "Connect"),
         (
-            replace(WELL, wire=OnWire(True, 1, (CLOUD,)), fitting_kind="PointCloud2"),
+            replace(WELL, topic=topic("other_type", CLOUD), fitting_kind="PointCloud2"),
             "Add a PointCloud2 for it",
         ),
         (
             replace(WELL, spec=replace(SPEC, topic=""), instead="/scan"),
             "Listen to /scan",
         ),
-        (replace(WELL, wire=OnWire(True), instead="/front/scan"), "Listen to /front/scan"),
+        (
+            replace(WELL, topic=topic("no_publisher"), instead="/front/scan"),
+            "Listen to /front/scan",
+        ),
         (replace(WELL, frames=(NEAREST,)), "Draw everything in base"),
         (
             replace(WELL, frames=(ExtrapolationError("a", 1, 2, 3),), frame="map"),
@@ -135,7 +152,7 @@ def test_of_a_display_that_somebody_switched_off_nothing_is_said():
 
 
 def test_one_that_was_heard_before_and_is_not_any_more_says_what_else_is_in_the_way():
-    facts = replace(WELL, wire=OnWire(True), statuses=(EMPTY,))
+    facts = replace(WELL, topic=topic("no_publisher"), statuses=(EMPTY,))
     assert [one.reason for one in remarks_on(facts)] == ["no_publisher", "transparent"]
 
 

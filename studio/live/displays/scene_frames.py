@@ -1,37 +1,36 @@
-"""FramesDesk: where frames are for one document: TF of the wire, and the robot's own links."""
+"""SceneFrames: where frames are for one document: TF, and the robot's own links."""
 
 from __future__ import annotations
 
 import asyncio
 import threading
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Final
 
 from studio.displays.drawing import FIXED_FRAME, NO_TURN, ORIGIN
 from studio.errors import CdrError, FrameError
-from studio.live.displays.clock_watch import CLOCK_QOS, CLOCK_TYPE, ClockWatch
+from studio.live.displays.clock_watch import CLOCK, ClockWatch
 from studio.live.displays.own_frames import OwnFrames
+from studio.live.topics.request import Request
 from studio.protocol.displays import FrameView, GetTf, TfFrames, TfPose
 from studio.ros.columns.transforms import TransformCodec
-from studio.ros.qos import DurabilityPolicy, QoSProfile
 from studio.tf.buffer import TransformBuffer
 from studio.tf.transforms import Notice, plain_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
 
-    from studio.live.displays.ear import Hearing
     from studio.live.displays.own_frames import PosedRobot
     from studio.live.displays.placing import Pose
-    from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.node.samples import MessageInfo, RawCallback
+    from studio.live.topics.source import TopicSource
+    from studio.live.topics.subscription import Subscription
+    from studio.ros.node.samples import RawSample
     from studio.tf.frames import FramesNow
     from studio.tf.report import FrameReport
     from studio.tf.transforms import TransformColumns
 
 STILL: Final[Pose] = (NO_TURN, ORIGIN)
 _TF_TYPE: Final = "tf2_msgs/msg/TFMessage"
-_DYNAMIC: Final = QoSProfile(depth=100)
-_STATIC: Final = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_TOPICS: Final = ("/tf_static", "/tf")
 _FRAMES_SHOWN: Final = 2_000
 _LOOK_EVERY_S: Final = 0.05
 _FIRST_LOOKS: Final = 20
@@ -41,41 +40,21 @@ _NOTICES_KEPT: Final = 20
 _PUBLISHERS_KEPT: Final = 1_000
 
 
-class KnowsPublishers(Protocol):
-    """What the desk needs of the graph."""
-
-    def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
-        """Whose message it is."""
-        ...
-
-    def publishers(self, topic: str) -> Sequence[GraphEndpoint]:
-        """Those of a topic; raises a RosNameError when it is none."""
-        ...
-
-
-class Epoch:
-    """From the first message that is heard to the last: what comes later does not count."""
-
-    def __init__(self) -> None:
-        self.turn = threading.Lock()
-        self.is_over = False
-
-
-class FramesDesk:
+class SceneFrames:
     """Feeds one buffer and answers in the fixed frame.
 
-    `/tf` is taken in on the wire's thread; all else is the loop's.
+    TF is taken in by a thread of the source; all else is the loop's.
     """
 
-    def __init__(self, robot: PosedRobot) -> None:
+    def __init__(self, robot: PosedRobot, source: TopicSource) -> None:
         self.buffer = TransformBuffer()
         self.own = OwnFrames(robot, self.buffer)
         self.chosen = ""
         """The fixed frame as chosen; empty: the root link of the robot."""
-        self._turn = threading.Lock()
-        """Who listens and who ends that come from different threads."""
-        self._ends: list[Callable[[], None]] = []
-        self._epoch = Epoch()
+        self._source, self._epoch = source, source.epoch
+        self._forgetting = threading.Lock()
+        """Both threads may be the first to see another epoch."""
+        self._subscriptions: list[Subscription] = []
         self._closed = False
         self._jumped = False
         self._publishers: dict[bytes, str] = {}
@@ -88,20 +67,23 @@ class FramesDesk:
         """The frame that everything is drawn in."""
         return self.chosen or self.own.root
 
-    def listen(self, hearing: Hearing, graph: KnowsPublishers) -> None:
-        """Hear TF from now on, if it is not heard already; in a thread."""
-        with self._turn:
-            if self._ends or self._closed:
-                return
-            for topic, static in (("/tf_static", True), ("/tf", False)):
-                take, qos = self._taker(graph, static=static), _STATIC if static else _DYNAMIC
-                self._ends.append(hearing.hear(_TF_TYPE, topic, take, qos))
-            clock = ClockWatch(self._clock_jumped).take
-            self._ends.append(hearing.hear(CLOCK_TYPE, "/clock", clock, CLOCK_QOS))
+    def subscribe(self) -> bool:
+        """Receive TF from now on; return whether it was not received before."""
+        if self._subscriptions or self._closed:
+            return False
+        self._keep_epoch()
+        for topic in _TOPICS:
+            static = topic == "/tf_static"
+            request = Request(topic, (_TF_TYPE,), latched=static, depth=100, as_known_here=True)
+            take = self._taker(static=static)
+            self._subscriptions.append(self._source.subscribe(request, take=take))
+        clock = ClockWatch(self._clock_jumped).take
+        self._subscriptions.append(self._source.subscribe(CLOCK, take=clock))
+        return True
 
-    async def hear_first(self, graph: KnowsPublishers) -> None:
+    async def wait_for_first(self) -> None:
         """Wait for what is published of frames, so that the first list has them; not for long."""
-        if not any(graph.publishers(topic) for topic in ("/tf", "/tf_static")):
+        if not any(self._source.publishers(topic) for topic in _TOPICS):
             return
         before = self.buffer.changes
         for _ in range(_FIRST_LOOKS):
@@ -110,35 +92,28 @@ class FramesDesk:
                 await asyncio.sleep(_OTHERS_S)
                 return
 
-    def look(self, graph: KnowsPublishers) -> None:
-        """Take back the robot's own links from those who told of them and are gone; in a thread."""
-        told = tuple(self._publishers.items())
-        there = {
-            one.node.path for topic in ("/tf", "/tf_static") for one in graph.publishers(topic)
-        }
-        gone = {name for _, name in told} - there
+    def look(self) -> None:
+        """Take back the robot's own links from those who published them and are gone."""
+        known = tuple(self._publishers.items())
+        if not known or self._source.connection != "there":  # else all seem to be gone
+            return
+        there = {one.node for topic in _TOPICS for one in self._source.publishers(topic)}
+        gone = {name for _, name in known} - there
         if gone:
-            self._publishers = {gid: name for gid, name in told if name not in gone}
+            self._publishers = {gid: name for gid, name in known if name not in gone}
             self.own.take_back_from(gone)
 
-    def deafen(self) -> None:
-        """Hear TF no more, and forget what it told; in a thread."""
-        with self._turn:
-            ends, self._ends = self._ends, []
-            for end in ends:
-                end()
-            before, self._epoch = self._epoch, Epoch()
-            with before.turn:  # a message that is being taken in is forgotten with the others
-                before.is_over = True
-                self.buffer.clear()
-                self._publishers.clear()
-                self._notices.clear()
-                self.own.take_back()
+    def unsubscribe(self) -> None:
+        """Receive TF no more, and forget what came."""
+        subscriptions, self._subscriptions = self._subscriptions, []
+        for one in subscriptions:
+            one.close()
+        self._forget()
 
     def close(self) -> None:
-        """Hear TF no more, also if somebody is about to listen; in a thread."""
+        """Receive TF no more, whoever subscribes to it."""
         self._closed = True
-        self.deafen()
+        self.unsubscribe()
 
     def has_jumped(self) -> bool:
         """Whether time went back since this was asked last, as of a bag that begins anew."""
@@ -148,7 +123,8 @@ class FramesDesk:
         return True
 
     def step(self) -> None:
-        """Tell of the robot's own links what nobody else tells."""
+        """Put in the robot's own links where nobody else publishes them."""
+        self._keep_epoch()
         self.own.step()
 
     def lookup(self, frame: str, stamp_ns: int) -> Pose:
@@ -242,20 +218,32 @@ class FramesDesk:
             return None, str(error)
         return TfPose(wxyz=pose.wxyz, xyz=pose.xyz, chain=chain), ""
 
-    def _taker(self, graph: KnowsPublishers, *, static: bool) -> RawCallback:
-        codec, epoch = TransformCodec(), self._epoch
+    def _taker(self, *, static: bool) -> Callable[[RawSample], None]:
+        codec = TransformCodec()
 
-        def take(data: bytes, info: MessageInfo) -> None:
+        def take(sample: RawSample) -> None:
             try:
-                columns = codec.decode(data)
+                columns = codec.decode(sample.payload)
             except CdrError:
                 return
-            name = self._publisher(graph, info["publisher_gid"])
-            with epoch.turn:
-                if not epoch.is_over:
-                    self._take(columns, name, static=static)
+            self._keep_epoch()
+            self._take(columns, self._publisher(sample.attachment.gid), static=static)
 
         return take
+
+    def _keep_epoch(self) -> None:
+        """Forget what came in another epoch."""
+        if self._epoch != self._source.epoch:
+            with self._forgetting:
+                if self._epoch != self._source.epoch:
+                    self._forget()
+                    self._epoch = self._source.epoch
+
+    def _forget(self) -> None:
+        self.buffer.clear()
+        self._publishers.clear()
+        self._notices.clear()
+        self.own.take_back()
 
     def _take(self, columns: TransformColumns, publisher: str, *, static: bool) -> None:
         self.own.leave_to_others(columns.children, publisher)
@@ -273,17 +261,17 @@ class FramesDesk:
         self._note(Notice("time_jumped", "", "", "", sentence, left_out=False))
         self._jumped = True
 
-    def _publisher(self, graph: KnowsPublishers, gid: bytes) -> str:
-        """The node that has a GID; one that is not known yet is looked up again."""
+    def _publisher(self, gid: bytes) -> str:
+        """Return the node that has a GID; one that is not known yet is looked up again."""
         if name := self._publishers.get(gid):
             return name
-        endpoint = graph.endpoint_of_gid(gid)
-        if endpoint is None:
+        name = self._source.sender(gid)
+        if name is None:
             return gid.hex()
         if len(self._publishers) >= _PUBLISHERS_KEPT:
             self._publishers.clear()
-        self._publishers[gid] = endpoint.node.path
-        return endpoint.node.path
+        self._publishers[gid] = name
+        return name
 
     def _note(self, notice: Notice) -> None:
         self._notices.pop(notice.sentence, None)
