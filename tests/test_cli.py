@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import studio
+from studio.cli.commands import summaries
 from studio.server.ports import bind, port_of
 from studio.settings import repository_or_wheel
 
@@ -184,13 +185,9 @@ def test_check_says_what_is_wrong_and_its_exit_code_how_bad_it_is(tmp_path: Path
     assert run("check", str(tmp_path / "gone.urdf"), *at).returncode == 2
 
 
-GROUPS = ("topic", "service", "action", "node", "param", "lifecycle", "interface", "pkg", "run",
-          "demos", "doctor", "router", "daemon", "launch", "bag")  # fmt: skip
-
-
-@pytest.mark.parametrize("group", GROUPS)
-def test_help_of_the_lines_of_ros_imports_nothing_heavy(group: str):
-    found = modules_after(group, "--help")
+@pytest.mark.parametrize("command", summaries())
+def test_help_of_a_command_imports_nothing_heavy(command: str):
+    found = modules_after(command, "--help")
     assert not found & (HEAVY | {"xacro", "zenoh", "rosbags", "scipy"})
 
 

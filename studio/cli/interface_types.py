@@ -1,17 +1,17 @@
-"""The types that a command knows: ROS's, the studio's, and those of opened packages."""
+"""The types that a command knows: ROS's, the studio's, of opened packages, and pasted ones."""
 
 from __future__ import annotations
 
 import os
+import re
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
-from studio.cli.opened import add_package_options, opened_packages
-from studio.cli.pasted_types import is_pasted, pasted_texts
+from studio.cli.packages import add_package_options, opened_packages
 from studio.cli.terminal import harmless
-from studio.errors import StudioError
-from studio.ros.names import KINDS
+from studio.errors import RosNameError, SettingsError, StudioError
+from studio.ros.names import KINDS, full_type_name
 from studio.ros.types.files import texts_of_package
 
 if TYPE_CHECKING:
@@ -20,6 +20,62 @@ if TYPE_CHECKING:
 
     from studio.errors import InterfaceTextError
     from studio.ros.types.library import TypeLibrary
+
+
+PASTED = "-"
+"""What `--interfaces` is given for it."""
+CHARACTERS_MAX = 10_000_000
+# As recorded files write the types that a type is made of.
+_HEAD = re.compile(r"(MSG|SRV|ACTION):[ \t]*(\S+)[ \t]*")
+_RULE = re.compile(r"={3,}[ \t]*")
+
+
+def is_pasted(path: Path) -> bool:
+    """Whether a path of `--interfaces` means standard input."""
+    return str(path).strip() == PASTED  # a lone dash is shielded by a blank
+
+
+def pasted_texts(source: TextIO) -> dict[str, str]:
+    """Read texts by the full names of their types, to the end of the input.
+
+    Raises:
+        SettingsError: A text has no line above it that names its type, or there is too much.
+    """
+    text = source.read(CHARACTERS_MAX + 1)
+    if len(text) > CHARACTERS_MAX:
+        raise SettingsError(f"--interfaces -: more than {CHARACTERS_MAX} characters came.")
+    found = _parted(text.splitlines())
+    if not found:
+        raise SettingsError(_refusal("nothing came"))
+    return found
+
+
+def _parted(lines: Iterable[str]) -> dict[str, str]:
+    found: dict[str, list[str]] = {}
+    current: list[str] | None = None
+    for line in lines:
+        head = _HEAD.fullmatch(line)
+        if head is not None:
+            current = found.setdefault(_name(head[2], head[1].lower()), [])
+        elif current is not None and not _RULE.fullmatch(line):
+            current.append(f"{line}\n")
+        elif current is None and line.strip():
+            raise SettingsError(_refusal(f'"{line[:40]}" comes first'))
+    return {name: "".join(text) for name, text in found.items()}
+
+
+def _name(given: str, kind: str) -> str:
+    try:
+        return full_type_name(given, kind)
+    except RosNameError as error:
+        raise SettingsError(f"--interfaces -: {error}") from None
+
+
+def _refusal(what: str) -> str:
+    return (
+        f"--interfaces -: {what}, where a line such as MSG: my_interfaces/Telemetry "
+        "is to name what the text below it defines."
+    )
 
 
 def add_type_options(parser: argparse.ArgumentParser) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 from typing import TYPE_CHECKING, Final
-
-from studio.cli.values import domain_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+_HIGHEST_DOMAIN: Final = 232
 JOINING: Final = "ROS 2 over Zenoh"
 """The group of these options in the help."""
 
@@ -29,3 +29,11 @@ def add_joining_options(add: Callable[..., object], router: str, says: str) -> N
         help="the domain (default: ROS_DOMAIN_ID, else 0)",
     )
     add("--router", default=router, metavar="auto|off|ENDPOINT", help=says)
+
+
+def domain_number(text: str) -> int:
+    """Read a ROS_DOMAIN_ID, for argparse."""
+    number = int(text)
+    if not 0 <= number <= _HIGHEST_DOMAIN:
+        raise argparse.ArgumentTypeError(f"{number} is no domain: 0 to {_HIGHEST_DOMAIN}")
+    return number

@@ -5,19 +5,21 @@ from __future__ import annotations
 import argparse
 import errno
 import os
+import re
 import sys
 from typing import TYPE_CHECKING
 
 import studio
-from studio.cli.commands import COMMANDS
-from studio.cli.mappings import part_mappings
+from studio.cli.commands import add_command, summaries
 from studio.cli.terminal import harmless, take_any_letters
-from studio.cli.values import shield_values
 from studio.errors import StudioError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+
+# `-1` alone is an option of `topic pub`; argparse itself knows it as a number elsewhere.
+_VALUE = re.compile(r"-(?!1$)(\d|\.\d|\.?inf\b|\.?nan\b|$)", re.IGNORECASE)
 _OUTPUT_ERRORS = {errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO}
 _EXAMPLES = """\
 examples:
@@ -36,7 +38,7 @@ examples:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command; answers its exit code: 0 where it has none, 2 after a sentence on stderr."""
+    """Run one command; return its exit code: 0 where it has none, 2 after a sentence on stderr."""
     words = sys.argv[1:] if argv is None else list(argv)
     options = argparse.Namespace()
     take_any_letters()
@@ -67,10 +69,11 @@ def _output_refused(error: OSError) -> int:
 
 def _read(words: list[str]) -> argparse.Namespace:
     asked = next((word for word in words if not word.startswith("-")), None)
+    parser, command = _parsers(asked)
     mappings: list[str] = []
-    if any(command.takes_mappings for command in COMMANDS if command.name == asked):
-        words, mappings = part_mappings(words)
-    parser = _parser(asked)
+    if command is not None and command.get_default("takes_mappings"):
+        mappings = [word for word in words if ":=" in word]
+        words = [word for word in words if ":=" not in word]
     options, rest = parser.parse_known_args(shield_values(words))
     if rest[:1] == ["--"] or (len(rest) == 1 and not rest[0].startswith("-")):
         rest = _take_late(options, rest)
@@ -93,8 +96,20 @@ def _take_late(options: argparse.Namespace, rest: list[str]) -> list[str]:
     return []
 
 
-def _parser(asked: str | None) -> argparse.ArgumentParser:
-    """Make the parser of all commands; only the one that was asked for is filled in."""
+def shield_values(words: Sequence[str]) -> list[str]:
+    """Put a blank before values that begin with a dash, which argparse then takes for values.
+
+    YAML and Python's numbers pass over the blank; words behind `--` are values already.
+    """
+    end = words.index("--") if "--" in words else len(words)
+    shielded = [f" {word}" if _VALUE.match(word) else word for word in words[:end]]
+    return [*shielded, *words[end:]]
+
+
+def _parsers(
+    asked: str | None,
+) -> tuple[argparse.ArgumentParser, argparse.ArgumentParser | None]:
+    """Make the parser of all commands; only that of the command that was asked for is filled in."""
     parser = argparse.ArgumentParser(
         prog="studio",
         description="See and tweak robot descriptions in the browser.",
@@ -102,13 +117,14 @@ def _parser(asked: str | None) -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"studio {studio.__version__}")
-    parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in COMMANDS:
-        own = parsers.add_parser(
-            command.name,
-            help=command.summary,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    own = {
+        name: commands.add_parser(
+            name, help=summary, formatter_class=argparse.RawDescriptionHelpFormatter
         )
-        if command.name == asked:
-            command.add_to(own)
-    return parser
+        for name, summary in summaries().items()
+    }
+    command = own.get(asked or "")
+    if asked is not None and command is not None:
+        add_command(asked, command)
+    return parser, command

@@ -9,12 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.joining import JOINING, add_joining_options
+from studio.errors import SettingsError
 from studio.settings import DEFAULT_HOST, DEFAULT_PORT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from studio.settings import Settings
+
 
 _HIGHEST_PORT = 65535
 _NEW_OBJECTS_MAX = 5_000
@@ -125,3 +127,20 @@ def serve(
     gc.enable()
     opening = Opening(path, arguments, nodes, joins_ros=nodes is not None)
     launch(settings, opening, viewer_link=options.viewer_link)
+
+
+def read_mappings(words: Sequence[str]) -> dict[str, str]:
+    """`name:=value` by name, as xacro reads it: outer blanks dropped, `_name` is not for it.
+
+    Raises:
+        SettingsError: A word has more than one `:=`.
+    """
+    found: dict[str, str] = {}
+    for word in words:
+        name, *values = (part.strip() for part in word.split(":="))
+        if len(values) != 1:
+            raise SettingsError(f"{word} is no argument: write it as name:=value.")
+        is_hidden = len(name) > 1 and name[0] == "_" and name[1] != "_"
+        if name and values[0] and not is_hidden:
+            found[name] = values[0]
+    return found

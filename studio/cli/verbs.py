@@ -1,14 +1,12 @@
-"""Verbs of a command: `studio topic echo` is the verb `echo` of `topic`."""
+"""Verbs of a command, as `echo` of `studio topic`, and lines that are not served yet."""
 
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+import sys
+from collections.abc import Callable
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    Run = Callable[[argparse.Namespace], int | None]
+Run = Callable[[argparse.Namespace], int | None]
 
 
 class Verbs:
@@ -17,8 +15,10 @@ class Verbs:
     def __init__(self, parser: argparse.ArgumentParser) -> None:
         self._parsers = parser.add_subparsers(title="verbs", metavar="VERB", required=True)
 
-    def add(self, name: str, run: Run, summary: str, details: str = "") -> argparse.ArgumentParser:
-        """Add a verb; `run` answers its exit code, None for 0."""
+    def add(
+        self, name: str, run: Run | None, summary: str, details: str = ""
+    ) -> argparse.ArgumentParser:
+        """Add a verb; `run` returns its exit code, or None for 0."""
         parser = self._parsers.add_parser(
             name,
             help=summary,
@@ -27,3 +27,24 @@ class Verbs:
         )
         parser.set_defaults(run=run)
         return parser
+
+    def add_unserved(self, name: str, summary: str, line: str, instead: str) -> None:
+        """Add a verb that is not served yet; see `refuse`."""
+        refuse(self.add(name, None, f"{summary} (not served yet)"), line, instead)
+
+
+def refuse(parser: argparse.ArgumentParser, line: str, instead: str) -> None:
+    """Have a line of `ros2` that the studio does not serve yet, whatever stands behind it, say so.
+
+    Args:
+        parser: Of the command or verb.
+        line: Its name behind `studio`.
+        instead: What the user can do, as an end of a sentence.
+    """
+
+    def run(_options: argparse.Namespace) -> int:
+        print(f"studio: studio {line} is not there yet: {instead}.", file=sys.stderr)
+        return 2
+
+    parser.add_argument("rest", nargs="*", help=argparse.SUPPRESS)
+    parser.set_defaults(run=run, takes_rest=True)

@@ -1,0 +1,35 @@
+"""`studio daemon`: says that none is needed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from studio.cli.verbs import Verbs
+from studio.cli.wire import take_wire_options
+
+if TYPE_CHECKING:
+    import argparse
+
+    from studio.cli.verbs import Run
+
+
+_SENTENCES = {
+    "start": "No daemon is needed: each command reads the graph live from the router.",
+    "stop": "There is no daemon to stop: nothing is cached, a node that ends is gone at once.",
+    "status": "The daemon is not running, and none is needed.",
+}
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the verbs of `daemon`."""
+    verbs = Verbs(parser)
+    for name, sentence in _SENTENCES.items():
+        summary = sentence[0].lower() + sentence[1:].rstrip(".")
+        take_wire_options(verbs.add(name, _saying(sentence), summary))
+
+
+def _saying(sentence: str) -> Run:
+    def run(_options: argparse.Namespace) -> None:
+        print(sentence)
+
+    return run

@@ -1,0 +1,35 @@
+"""`studio router`: run a Zenoh router, where nodes find each other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import argparse
+
+
+_LOOPBACK = "tcp/127.0.0.1:7447"
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the options of `router`."""
+    parser.description = "Run a Zenoh router until Ctrl-C, so that nodes find each other."
+    parser.add_argument(
+        "--listen",
+        default=_LOOPBACK,
+        metavar="ENDPOINT",
+        help=f"where (default: {_LOOPBACK}, this machine only)",
+    )
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> None:
+    from studio.ros.wire.router import run_router
+    from studio.ros.wire.settings import wire_settings
+
+    settings = wire_settings()
+    run_router(options.listen, _say, settings.overrides, settings.router_config_file)
+
+
+def _say(endpoint: str) -> None:
+    print(f"Zenoh router at {endpoint}; Ctrl-C ends it.", flush=True)

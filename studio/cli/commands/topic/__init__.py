@@ -1,0 +1,27 @@
+"""`studio topic`: list topics, see what is said on them, and say something."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, cast
+
+from studio.cli.verbs import Verbs
+
+if TYPE_CHECKING:
+    import argparse
+
+
+class VerbsModule(Protocol):
+    """What each file beside this one holds."""
+
+    def add(self, verbs: Verbs) -> None:
+        """Add the verbs of the file to those of `topic`."""
+        ...
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Give the parser the verbs of `topic`: those of each file beside this one."""
+    verbs = Verbs(parser)
+    for file in sorted(Path(__file__).parent.glob("[!_]*.py")):
+        cast("VerbsModule", importlib.import_module(f"{__name__}.{file.stem}")).add(verbs)

@@ -1,0 +1,141 @@
+"""The graph as a command sees it when it asks, and its names and types as `ros2` lists them."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from studio.cli.wire import add_wire_options, opened_wire
+from studio.ros.names import check_full_name, is_hidden
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Generator, Iterable
+
+    from studio.ros.graph.graph import Graph
+    from studio.ros.wire.session import WireSession
+
+
+_FIRST_NEWS_S = 1.0
+_QUIET_S = 0.1
+
+
+def add_graph_options(parser: argparse.ArgumentParser) -> None:
+    """Options of a verb that reads the graph and does nothing else."""
+    add_wire_options(parser, own_types=False)
+
+
+@contextmanager
+def opened_graph(options: argparse.Namespace) -> Generator[Graph]:
+    """Join, and wait until what stands has been taken in.
+
+    Raises:
+        NoRouterError: None answers.
+    """
+    from studio.ros.graph.graph import Graph
+
+    with opened_wire(options, own_types=False) as wire, Graph(wire) as graph:
+        settle(graph, options)
+        if not graph.nodes():
+            print(f"studio: {why_empty(wire)}", file=sys.stderr)
+        yield graph
+
+
+def why_empty(wire: WireSession) -> str:
+    """Say why no node is seen: the router shows none, they are in other domains, or none is."""
+    from studio.ros.graph.diagnosis import nodes_by_domain, unseen_nodes, why_nobody, why_unseen
+
+    unseen = unseen_nodes(wire)
+    if unseen is not None:
+        return why_unseen(unseen)
+    counts = dict(nodes_by_domain(wire))
+    counts.pop(wire.domain, None)  # what came while this was asked
+    endpoint = ", ".join(wire.settings.connect) or "the configured address"
+    return why_nobody(endpoint, wire.domain, counts) or ""
+
+
+def settle(graph: Graph, options: argparse.Namespace) -> None:
+    """Take in what stands, and for `--spin-time` what comes."""
+    graph.settle()
+    # A router that was just joined tells in parts what stands, and at first perhaps nothing.
+    graph.wait_for(lambda: graph.version > 0, _FIRST_NEWS_S)
+    seen = -1
+    while seen != graph.version:
+        seen = graph.version
+        graph.settle()  # asked anew: the answer of the first time may have been a part of it
+        graph.wait_for(lambda: graph.version != seen, _QUIET_S)  # noqa: B023 - done within
+    if options.spin_time > 0:
+        graph.wait_for(lambda: False, options.spin_time)
+
+
+def full_name(text: str) -> str:
+    """Give a topic, service, action or node by its full name, the first slash added if missing.
+
+    Raises:
+        RosNameError: It breaks a rule.
+    """
+    return check_full_name(text if text.startswith("/") else f"/{text}")
+
+
+def add_listing_options(parser: argparse.ArgumentParser, what: str) -> None:
+    """Options of `list` verbs."""
+    parser.add_argument("-t", "--show-types", action="store_true", help="with their types")
+    parser.add_argument("-c", "--count", action="store_true", help="how many there are, alone")
+    add_hidden_option(parser, what)
+
+
+def add_hidden_option(parser: argparse.ArgumentParser, what: str) -> None:
+    """Let hidden names be shown: those of which a part begins with an underscore."""
+    parser.add_argument(
+        f"--include-hidden-{what}", action="store_true", dest="hidden", help="hidden ones, too"
+    )
+
+
+def visible_names(
+    found: Iterable[tuple[str, list[str]]], options: argparse.Namespace
+) -> list[tuple[str, list[str]]]:
+    """Leave hidden names out unless they are asked for."""
+    return [(name, types) for name, types in found if options.hidden or not is_hidden(name)]
+
+
+def print_listing(found: list[tuple[str, list[str]]], options: argparse.Namespace) -> None:
+    """Print names as `ros2`'s `list` verbs do."""
+    if options.count:
+        print(len(found))
+        return
+    for name, types in found:
+        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
+
+
+def print_names_of_type(
+    found: list[tuple[str, list[str]]], type_name: str, options: argparse.Namespace
+) -> None:
+    """Print the names that have a type, or how many, as `ros2`'s `find` verbs do."""
+    names = [name for name, types in found if type_name in types]
+    if options.count:
+        print(len(names))
+    else:
+        print("".join(f"{name}\n" for name in names), end="")
+
+
+def print_types_of(found: list[tuple[str, list[str]]], name: str) -> int:
+    """Print the types of a name, as `ros2`'s `type` verbs do; 1 when nobody has it."""
+    types = dict(found).get(name)
+    if types is None:
+        return 1
+    print(*types, sep="\n")
+    return 0
+
+
+def say_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]]]) -> None:
+    """Say on stderr that a name has other types than the one that is meant: they never meet."""
+    types = dict(found).get(name)
+    if types and wanted not in types:
+        print(f"WARNING: {name} has the type {', '.join(types)}, not {wanted}", file=sys.stderr)
+
+
+def say_unknown(what: str, name: str) -> int:
+    """Say that nobody has a name; answers ros2's exit code."""
+    print(f"Unknown {what} '{name}'", file=sys.stderr)
+    return 1

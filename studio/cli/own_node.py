@@ -1,0 +1,145 @@
+"""A node of the command's own, hidden as `ros2`'s are, and what it asks of other nodes."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from studio.cli.graph import full_name, settle
+from studio.cli.wire import opened_wire
+from studio.ros.names import is_hidden
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable, Generator, Iterable, Sequence
+
+    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.graph.graph import Graph
+    from studio.ros.node.executors import Executor
+    from studio.ros.node.node import Node
+    from studio.ros.node.task import Future
+    from studio.ros.types.library import TypeLibrary
+
+
+@dataclass(frozen=True, slots=True)
+class OwnNode:
+    """What a verb needs that takes part; the node is the executor's once there is work to do."""
+
+    node: Node
+    graph: Graph
+    types: TypeLibrary
+    executor: Executor
+
+    def work_until(self, is_done: Callable[[], bool], timeout_s: float | None = None) -> bool:
+        """Carry out callbacks until something holds; False when the time is over first."""
+        self.executor.add_node(self.node)
+        end_s = None if timeout_s is None else time.monotonic() + timeout_s
+        while not is_done():
+            left_s = None if end_s is None else end_s - time.monotonic()
+            if left_s is not None and left_s <= 0:
+                return False
+            self.executor.spin_once(left_s)
+        return True
+
+    def wait(self, future: Future[Any], timeout_s: float | None = None) -> bool:
+        """Carry out callbacks until a future is done; False when the time is over first."""
+        self.executor.add_node(self.node)
+        self.executor.spin_until_future_complete(future, timeout_s)
+        return future.done()
+
+    def report_every(self, period_s: float, report: Callable[[], None]) -> None:
+        """Carry out callbacks for ever, and report in between."""
+        next_s = time.monotonic() + period_s
+        while True:
+            self.work_until(lambda: False, max(0.0, next_s - time.monotonic()))
+            report()
+            next_s += period_s
+
+
+@contextmanager
+def own_node(
+    options: argparse.Namespace, name: str | None = None, *, answers: bool = False
+) -> Generator[OwnNode]:
+    """Join with a node of one's own, hidden unless it is given a name; take in what stands.
+
+    One that `answers` has parameters and tells others what its types are made of.
+
+    Raises:
+        NoRouterError: None answers, and none may be started.
+    """
+    from studio.ros.node.context import Context
+    from studio.ros.node.executors import SingleThreadedExecutor
+    from studio.ros.node.node import Node
+
+    with opened_wire(options) as wire:
+        context = Context.over(wire)
+        try:
+            node = Node(
+                name or f"_studio_{os.getpid()}",
+                context=context,
+                start_parameter_services=answers,
+            )
+            executor = SingleThreadedExecutor(context=context)
+            settle(node.graph, options)
+            yield OwnNode(node, node.graph, wire.types, executor)
+        finally:
+            context.shutdown()
+
+
+def learn_type(own: OwnNode, endpoints: Iterable[GraphEndpoint]) -> None:
+    """Ask the nodes of endpoints in turn until one says what its type is made of.
+
+    Why one did not is said on stderr; whether the type is known is seen by who needs it.
+    """
+    from studio.ros.type_lookup import learn_from_any
+
+    learn_from_any(own.node, endpoints, print_error)
+
+
+def print_error(sentence: str) -> None:
+    """Say something on stderr."""
+    print(sentence, file=sys.stderr)
+
+
+def warn_of_foreign_types(own: OwnNode, endpoints: Sequence[GraphEndpoint]) -> None:
+    """Say on stderr that others have another form of a type: they are not heard then."""
+    from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_heard
+
+    wire = own.node.wire
+    for found in foreign_hashes(endpoints, wire.profile, DistroHashes(wire.types)):
+        print(f"WARNING: {why_not_heard(found, wire.profile)}", file=sys.stderr)
+
+
+_LATE_S = 0.5
+_ASKED = ("rcl_interfaces/srv/", "lifecycle_msgs/srv/")
+"""Types of the services that are asked here."""
+
+
+def named_node(own: OwnNode, options: argparse.Namespace) -> str | None:
+    """Give the full name of the node; None, after words on stderr, when it is not there."""
+    path = full_name(options.node_name)
+    # On a busy machine what stands may be told late, and this one is meant by its name.
+    own.graph.wait_for(lambda: own.graph.node(path) is not None, _LATE_S)
+    node = own.graph.node(path)
+    if node is None:
+        print("Node not found", file=sys.stderr)
+        return None
+    ends = own.graph.endpoints_of(node)
+    warn_of_foreign_types(own, [end for end in ends if end.type_name.startswith(_ASKED)])
+    return path
+
+
+def nodes_serving(own: OwnNode, service: str, type_name: str, *, hidden: bool) -> list[str]:
+    """Name the nodes that serve `<node>/service` of a type, in order."""
+    found = [
+        name
+        for name, types in own.graph.services()
+        if name.endswith(f"/{service}") and type_name in types
+        if hidden or not is_hidden(name)
+    ]
+    warn_of_foreign_types(own, [server for name in found for server in own.graph.servers(name)])
+    return [name.removesuffix(f"/{service}") for name in found]
