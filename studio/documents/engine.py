@@ -28,8 +28,7 @@ from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
-from studio.protocol.at_most_once import AtMostOnce
-from studio.protocol.commands import Answer, CommandRates, Commands, Scope
+from studio.protocol.commands import Answer, AtMostOnce, CommandRates, Commands, Scope
 from studio.protocol.documents import (
     Arguments,
     CloseDocument,

@@ -12,7 +12,9 @@ the page's types come from the whole.
 
 from __future__ import annotations
 
+import asyncio
 import time
+from collections import OrderedDict
 from dataclasses import dataclass
 from enum import StrEnum
 from inspect import isawaitable
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterator
 
     from studio.protocol.listeners import Listener
+
 
 COMMAND_LIMIT_BYTES: Final = 1 << 20
 """Of any command's JSON text."""
@@ -201,3 +204,42 @@ class CommandRates:
             full = [one for one, (_, at_s) in self._left.items() if now_s - at_s > 1]
             for one in full:
                 del self._left[one]
+
+
+REMEMBERED_MAX: Final = 1_000
+"""Outcomes, of all persons together; the oldest are forgotten first."""
+
+
+class AtMostOnce:
+    """Remembers how commands with an id ended, by person and id.
+
+    A page sends what was not answered before its connection broke once more. If it ran, or runs
+    still, the answer is that of the first time, errors too.
+    """
+
+    def __init__(self) -> None:
+        self._outcomes: OrderedDict[tuple[str, str], asyncio.Task[Answer]] = OrderedDict()
+
+    async def run(
+        self,
+        command: Command,
+        asker: Listener,
+        carry_out: Callable[[Command, Listener], Awaitable[Answer]],
+    ) -> Answer:
+        """Carry the command out, unless that was done, or is under way.
+
+        Raises:
+            StudioError: As `carry_out` does, or did.
+        """
+        if not command.id:
+            return await carry_out(command, asker)
+        key = asker.person, command.id
+        if key not in self._outcomes:
+            self._outcomes[key] = asyncio.ensure_future(carry_out(command, asker))
+            while len(self._outcomes) > REMEMBERED_MAX:
+                self._outcomes.popitem(last=False)
+        # Who asked may leave: what runs is finished all the same.
+        answer = await asyncio.shield(self._outcomes[key])
+        if answer is not None and "request" in type(answer).model_fields:
+            return answer.model_copy(update={"request": command.request})
+        return answer

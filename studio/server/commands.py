@@ -1,4 +1,4 @@
-"""One command from bytes to its answer: parsed at the door, allowed or not, carried out."""
+"""Commands of browsers: the control lane that they come on, and each from bytes to its answer."""
 
 from __future__ import annotations
 
@@ -10,16 +10,20 @@ from pydantic import BaseModel, ValidationError
 
 from studio.documents.engine import COMMANDS
 from studio.errors import CommandError, StudioError
+from studio.hub import Outlet
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Refused
 from studio.protocol.listeners import tell
-from studio.protocol.message import adapter_of, all_events, type_of
+from studio.protocol.message import adapter_of, all_events
 from studio.server.access import demand
+from studio.server.lane import FrameTransport, binary_frame, text_frame
 
 if TYPE_CHECKING:
     from studio.protocol import Command, Event
+    from studio.protocol.documents import Hello
     from studio.protocol.listeners import Listener
     from studio.protocol.roles import Visitor
+    from studio.server.lane import Lane
     from studio.server.surface import OpenDocuments
 
 
@@ -49,9 +53,10 @@ def parse_command(text: bytes) -> Command:
         command = COMMAND_ADAPTER.validate_json(text)
     except ValidationError as error:
         raise CommandError(malformed("command", error)) from None
-    bytes_max = COMMANDS[type(command)].limits.bytes_max
+    entry = COMMANDS[type(command)]
+    bytes_max = entry.limits.bytes_max
     if len(text) > bytes_max:
-        name = type_of(type(command)).replace("_", " ").capitalize()
+        name = entry.permission.name.replace("_", " ").capitalize()
         raise CommandError(f"{name} of more than {bytes_max} bytes is not taken.")
     return command
 
@@ -77,7 +82,7 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
     """Carry out one command; whatever is wrong with it becomes an answer."""
     try:
         command = parse_command(text)
-        demand(listener, type_of(type(command)), command.document)
+        demand(listener, COMMANDS[type(command)].permission.name, command.document)
         await engine.execute(command, listener)
     except StudioError as error:
         tell(
@@ -116,3 +121,55 @@ class Answers:
         finally:
             engine.detach(self)
         return self.events
+
+
+_UNDER_WAY_LIMIT: Final = 64
+"""Commands of one browser that may wait for the engine; then its socket is not read."""
+_TOO_SLOW: Final = 1013
+"""Close code `try again later`: the page connects anew and gets the whole state."""
+
+
+class ControlLane:
+    """One browser's control lane: the Listener that the engine posts to."""
+
+    def __init__(self, lane: Lane, visitor: Visitor) -> None:
+        self.role, self.person = visitor.role, visitor.person
+        self._lane = lane
+        self._outlet = Outlet(FrameTransport(lane), on_hopeless=lambda: lane.close(_TOO_SLOW))
+        lane.on_drain(self._outlet.resume)
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Queue one message without waiting; of one `key` only the newest need arrive."""
+        self._outlet.post(binary_frame(data) if binary else text_frame(data), key)
+
+    async def serve(self, engine: OpenDocuments, hello: Hello) -> None:
+        """Greet, then answer commands until the browser leaves.
+
+        Commands start in their order but do not wait for each other: a slow one stops no slider.
+        What is under way when the browser leaves is finished; a save is not given up half-way.
+        """
+        self.post(hello.model_dump_json().encode())
+        engine.attach(self)
+        try:
+            async with asyncio.TaskGroup() as group:
+                under_way = await self._answer_all(engine, group)
+                if self._lane.server_ends:  # the engine has ended before: nothing can come of it
+                    for task in under_way:
+                        task.cancel()
+        finally:
+            engine.detach(self)
+            self._outlet.close()
+            await self._lane.finish()
+
+    async def _answer_all(
+        self, engine: OpenDocuments, group: asyncio.TaskGroup
+    ) -> set[asyncio.Task[None]]:
+        """Start every command that comes; gives those that are not done when the lane ends."""
+        under_way: set[asyncio.Task[None]] = set()
+        while (text := await self._lane.receive()) is not None:
+            task = group.create_task(answer(engine, self, text))
+            under_way.add(task)
+            task.add_done_callback(under_way.discard)
+            while len(under_way) >= _UNDER_WAY_LIMIT:
+                await asyncio.wait(under_way, return_when=asyncio.FIRST_COMPLETED)
+        return under_way

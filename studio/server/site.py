@@ -23,7 +23,7 @@ from studio.server.assets import (
     preload_links,
 )
 from studio.server.bulk_lane import BulkAnswer, BulkKeys
-from studio.server.control import ControlLane
+from studio.server.commands import ControlLane
 from studio.server.data_lane import DataLane
 from studio.server.lane import Lane
 from studio.server.pages import studio_page

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError
-from studio.protocol.at_most_once import REMEMBERED_MAX, AtMostOnce
+from studio.protocol.commands import REMEMBERED_MAX, AtMostOnce
 from studio.protocol.documents import Places
 from studio.protocol.edits import Undo
 from tests.support.open_documents import Ear
