@@ -1,7 +1,6 @@
 """Robot description studio: xacro, URDF and ROS 2 in the browser, without a ROS install.
 
-The rooms, each importing only rooms below it: cli, web, engine, scene, robot, description,
-hub and packages, problems, settings and workers, errors. This file imports nothing, so that a
+A room imports only rooms below it; CONTRIBUTING.md lists them. This file imports nothing, so that a
 worker process pays only for the room that it runs.
 """
 

@@ -25,7 +25,7 @@ from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from studio.errors import SceneError
-from studio.hub import Outlet
+from studio.outlet import Outlet
 from studio.scene.wire import Encoder, message_type
 
 if TYPE_CHECKING:

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Final, Protocol
 from starlette.responses import Response
 
 from studio.errors import UnknownLaneError
-from studio.hub import GATE_BYTES
 from studio.live.topics.frames import frame_parts
+from studio.outlet import GATE_BYTES
 from studio.server.backlog import Backlog
 from studio.server.http_protocol import connection_of
 

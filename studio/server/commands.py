@@ -10,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 
 from studio.documents.engine import COMMANDS
 from studio.errors import CommandError, StudioError
-from studio.hub import Outlet
+from studio.outlet import Outlet
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Refused
 from studio.protocol.listeners import tell

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Final
 
 from pydantic import ValidationError
 
-from studio.hub import Outlet
 from studio.live.topics.frames import Tick
 from studio.protocol.subscriptions import (
     LANE_COMMANDS,

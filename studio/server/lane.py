@@ -83,7 +83,7 @@ class Lane:
 
 
 class FrameTransport:
-    """A lane as a hub's Transport of whole frames, so that text and binary keep their order."""
+    """A lane as an outlet's Transport of whole frames, so that text and binary keep their order."""
 
     def __init__(self, lane: Lane) -> None:
         # Past the lane: thousands of frames go in a second.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.hub import GATE_BYTES
+from studio.outlet import GATE_BYTES
 from tests.support.deaf_browser import deaf_browser
 from tests.support.small_engine import FLOOD
 from tests.support.web_server import running_web

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from studio.hub import Hub, Outlet
+from studio.outlet import Outlet
 
 GATE, QUEUE = 100, 1000
 
@@ -93,32 +93,27 @@ def test_a_client_that_owes_too_many_ordered_messages_is_given_up_once_and_forgo
 
 def test_a_slow_client_slows_nobody_and_everyone_gets_the_very_same_bytes():
     slow, fast = Pipe(), Pipe()
-    hub = Hub()
-    hub.add(outlet_on(slow))
-    hub.add(outlet_on(fast))
+    outlets = [outlet_on(slow), outlet_on(fast)]
     sent = [bytes([number]) * GATE for number in range(40)]
     for data in sent:
-        hub.publish(data, "image")
+        for outlet in outlets:
+            outlet.post(data, "image")
         fast.drain()
     assert [a is b for a, b in zip(fast.read, sent, strict=True)] == [True] * 40
     assert slow.pending_bytes() <= 2 * GATE
-    assert not hub.resume()
+    assert not outlets[0].resume()
     slow.drain()
-    assert hub.resume()
+    assert outlets[0].resume()
     assert slow.pending == [sent[-1]]
 
 
-def test_an_outlet_that_left_hears_nothing_more():
+def test_an_outlet_that_was_closed_sends_nothing_more():
     pipe = Pipe()
-    hub = Hub()
     outlet = outlet_on(pipe)
-    hub.add(outlet)
-    hub.discard(outlet)
-    hub.discard(outlet)
-    hub.publish(b"anything")
+    outlet.close()
+    outlet.close()
     outlet.post(b"anything")
     assert pipe.pending == []
-    assert len(hub) == 0
 
 
 class SlowClient(RuleBasedStateMachine):

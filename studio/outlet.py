@@ -1,4 +1,4 @@
-"""An Outlet: one client's way out, which never waits and holds back a bounded amount."""
+"""A client's way out: it never waits, and holds back a bounded amount for one that is slow."""
 
 from __future__ import annotations
 
