@@ -311,8 +311,8 @@ def infer_widget(
     unit = quantity.unit
     is_expression = _EXPRESSION.search(text) is not None
     shown = value if is_expression or (value and not text.strip()) else text
-    if annotation.gives_range:
-        return _annotated(annotation, unit, shown)
+    if (said := _annotated(annotation, unit, shown)) is not None:
+        return said
     if not is_expression and shown.strip().lower() in _BOOLEANS:
         return Widget(WidgetKind.SWITCH, help=annotation.help)
     numbers = _numbers(shown)
@@ -341,14 +341,16 @@ def keep_range(widget: Widget, before: Iterable[Widget], shown: str) -> Widget:
     return widget
 
 
-def _annotated(annotation: Annotation, unit: str, shown: str) -> Widget:
-    """What the comment says; choices over a range, a vector where the value is one."""
+def _annotated(annotation: Annotation, unit: str, shown: str) -> Widget | None:
+    """What the comment gives: choices, else a range, of a vector where the value is one."""
     if annotation.choices:
         given, unit = annotation.choices, annotation.unit
         return Widget(
             WidgetKind.CHOICE, unit=unit, choices=given, help=annotation.help, annotated=True
         )
-    low, high = annotation.minimum or 0.0, annotation.maximum or 0.0
+    if annotation.minimum is None:
+        return None
+    low, high = annotation.minimum, annotation.maximum or 0.0
     kind = WidgetKind.VECTOR if len(_numbers(shown)) > 1 else WidgetKind.SLIDER
     whole = all(_INTEGER.fullmatch(word) for word in shown.split()) and bool(shown.split())
     whole = whole and low.is_integer() and high.is_integer() and high - low >= 2

@@ -125,7 +125,6 @@ class Ghost:
         self._beside = False
         self._alike: tuple[Robot, frozenset[str]] | None = None
         """The robot that the ghost was compared with, and the links that look the same."""
-        model.posed = self._pose
 
     @property
     def shown(self) -> SecondRobot | None:
@@ -149,6 +148,7 @@ class Ghost:
             return
         if second is not self._shown:
             self._shown, self._alike = second, None
+            self._model.posed = self._pose if second else None
             ghost.show(second.robot if second else Robot(""))
         self._beside = beside
         if second is not None:
