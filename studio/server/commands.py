@@ -16,15 +16,15 @@ from studio.protocol.documents import Refused
 from studio.protocol.listeners import tell
 from studio.protocol.message import adapter_of, all_events
 from studio.server.access import demand
-from studio.server.lane import FrameTransport, binary_frame, text_frame
+from studio.server.websocket import FrameTransport, binary_frame, text_frame
 
 if TYPE_CHECKING:
     from studio.protocol import Command, Event
     from studio.protocol.documents import Hello
     from studio.protocol.listeners import Listener
     from studio.protocol.roles import Visitor
-    from studio.server.lane import Lane
     from studio.server.surface import OpenDocuments
+    from studio.server.websocket import Lane
 
 
 COMMAND_ADAPTER: Final = adapter_of(COMMANDS.messages)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 from pydantic import ValidationError
 
 from studio.live.topics.frames import Tick
+from studio.outlet import Outlet
 from studio.protocol.subscriptions import (
     LANE_COMMANDS,
     AskBulk,
@@ -16,7 +17,7 @@ from studio.protocol.subscriptions import (
 )
 from studio.server.backlog import Backlog
 from studio.server.commands import malformed
-from studio.server.lane import FrameTransport, binary_frame, text_frame
+from studio.server.websocket import FrameTransport, binary_frame, text_frame
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
 
     from studio.protocol.subscriptions import LaneCommand
     from studio.server.bulk_lane import BulkKeys, BulkLane
-    from studio.server.lane import Lane
     from studio.server.surface import SubscribesTopics
+    from studio.server.websocket import Lane
 
 _TOO_SLOW: Final = 1013
 """Close code `try again later`: the page connects anew and subscribes all again."""

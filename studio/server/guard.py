@@ -19,7 +19,7 @@ from studio.server.origin import Authority, KnownHosts, is_same_origin, parse_au
 from studio.server.pages import no_access_page, return_page
 from studio.server.policy import COMMON_HEADERS, NOTHING_POLICY
 from studio.server.ports import CODE
-from studio.server.websocket_protocol import socket_of
+from studio.server.websocket import socket_of
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send

@@ -12,7 +12,7 @@ import uvicorn
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.server.crowd import CrowdedState
 from studio.server.http_protocol import StudioConnection
-from studio.server.websocket_protocol import StudioSocket
+from studio.server.websocket import StudioSocket
 
 if TYPE_CHECKING:
     import socket

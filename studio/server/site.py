@@ -25,10 +25,10 @@ from studio.server.assets import (
 from studio.server.bulk_lane import BulkAnswer, BulkKeys
 from studio.server.commands import ControlLane
 from studio.server.data_lane import DataLane
-from studio.server.lane import Lane
 from studio.server.pages import studio_page
 from studio.server.policy import SCENE_POLICY, WORKER_POLICY
 from studio.server.surface import OpenDocuments, OpenScene
+from studio.server.websocket import Lane
 
 
 async def serve_scene(

@@ -14,7 +14,7 @@ from starlette.websockets import WebSocket
 from studio.cli import main
 from studio.server import launch
 from studio.server.app import make_app
-from studio.server.lane import Lane
+from studio.server.websocket import Lane
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Receive, Scope, Send

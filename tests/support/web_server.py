@@ -16,7 +16,7 @@ from studio.server.assets import Assets
 from studio.server.credentials import Credentials
 from studio.server.ports import bind, port_of
 from studio.server.server import Server
-from studio.server.websocket_protocol import StudioSocket
+from studio.server.websocket import StudioSocket
 from tests.support.small_engine import SmallEngine
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""uvicorn's websocket protocol with bounds for who sends, and its transport in sight.
+"""A browser's websocket: bounded in what it may send, and written to without waiting.
 
 What comes is parsed in small pieces, each of which is counted: a flood of tiny frames neither
 stalls the loop nor fills the memory, but is read as slowly as its sender may send.
@@ -6,8 +6,11 @@ stalls the loop nor fills the memory, but is read as slowly as its sender may se
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 from typing import TYPE_CHECKING, Any, Final, cast
 
+from starlette.websockets import WebSocketDisconnect, WebSocketState
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.frames import CloseCode
 from websockets.protocol import State
@@ -15,10 +18,10 @@ from websockets.protocol import State
 from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
-    import asyncio
     from collections.abc import Callable
 
     from starlette.types import Scope
+    from starlette.websockets import WebSocket
     from uvicorn._types import ASGIReceiveEvent, ASGISendEvent
     from uvicorn.config import Config
     from uvicorn.server import ServerState
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
 
     from studio.protocol.roles import Visitor
     from studio.server.crowd import CrowdedState
+
 
 VIEWER_MESSAGE_LIMIT_BYTES: Final = 64 << 10
 """Who only looks has little to say; a presenter's limit is that of a command."""
@@ -246,3 +250,79 @@ def _head(length: int, *, binary: bool) -> bytes:
     if length <= _MEDIUM:
         return bytes((first, 126)) + length.to_bytes(2, "big")
     return bytes((first, 127)) + length.to_bytes(8, "big")
+
+
+SERVER_ENDS: Final = 1012
+"""The close code with which uvicorn ends its websockets; the page waits for the return."""
+_FRAMER: Final = Framer()
+"""One for all lanes, because one message goes to many of them in a row."""
+_GOODBYE_S: Final = 5.0
+"""For the closing handshake, and for what is still to be sent before it."""
+
+
+def text_frame(payload: bytes) -> bytes:
+    """The frame of one text message."""
+    return _FRAMER.frame(payload, binary=False)
+
+
+def binary_frame(payload: bytes) -> bytes:
+    """The frame of one binary message."""
+    return _FRAMER.frame(payload, binary=True)
+
+
+class Lane:
+    """The two ends of a websocket that was accepted; all of it runs on the loop's thread."""
+
+    def __init__(self, websocket: WebSocket) -> None:
+        self._websocket = websocket
+        self.socket = socket_of(websocket.scope)
+        self._closing: asyncio.Task[None] | None = None
+        self.server_ends = False
+        """Set once `receive` answers None: whether it was the studio that went."""
+
+    async def receive(self) -> bytes | None:
+        """The next whole message, text as UTF-8; None once the other side is gone."""
+        message = await self._websocket.receive()
+        if message["type"] == "websocket.disconnect":
+            self.server_ends = message["code"] == SERVER_ENDS
+            return None
+        text = message.get("text")
+        return text.encode() if text is not None else message["bytes"]
+
+    def write(self, data: bytes, /) -> None:
+        """Send one whole binary message."""
+        self.socket.write_frame(binary_frame(data))
+
+    def pending_bytes(self) -> int:
+        """Bytes written and not yet taken by the system."""
+        return self.socket.pending_bytes()
+
+    def on_drain(self, resume: Callable[[], object]) -> None:
+        """Call `resume` whenever a full write buffer has emptied."""
+        self.socket.on_drain = resume
+
+    def close(self, code: int = 1000) -> None:
+        """Begin the closing handshake; `receive` then answers None."""
+        if self._closing is None and self._websocket.client_state is WebSocketState.CONNECTED:
+            self._closing = asyncio.create_task(self._close(code))
+
+    async def finish(self) -> None:
+        """Begin the closing handshake, if nobody did, and see it on its way."""
+        self.close()
+        if self._closing is not None:
+            await self._closing
+
+    async def _close(self, code: int) -> None:
+        # Saying goodbye waits for a browser that takes nothing any more.
+        self.socket.give_up_within(_GOODBYE_S)
+        with contextlib.suppress(RuntimeError, WebSocketDisconnect):  # the other side went first
+            await self._websocket.close(code)
+
+
+class FrameTransport:
+    """A lane as an outlet's Transport of whole frames, so that text and binary keep their order."""
+
+    def __init__(self, lane: Lane) -> None:
+        # Past the lane: thousands of frames go in a second.
+        self.write = lane.socket.write_frame
+        self.pending_bytes = lane.socket.pending_bytes

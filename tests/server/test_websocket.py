@@ -14,7 +14,7 @@ from websockets.frames import Frame, Opcode
 from studio.protocol.roles import Role
 from studio.server.commands import COMMAND_LIMIT_BYTES
 from studio.server.crowd import VIEWER_CONNECTIONS_MAX
-from studio.server.websocket_protocol import VIEWER_MESSAGE_LIMIT_BYTES, Framer
+from studio.server.websocket import VIEWER_MESSAGE_LIMIT_BYTES, Framer
 from tests.support.strangers import frame, pour, raw_websocket, resident_bytes, until_end
 
 if TYPE_CHECKING:
