@@ -36,7 +36,7 @@ def data(shared: SharedTab) -> Path:
 
 
 @pytest.fixture
-def tab(shared: SharedTab, studio: RunningStudio) -> StudioPage:
-    """A tab that shows the demo."""
+def tab(shared: SharedTab, studio: RunningStudio, request: pytest.FixtureRequest) -> StudioPage:
+    """A tab that shows the demo, without the 3D view where a test is marked so."""
     del studio  # as at first, before the tab opens it
-    return shared.opened()
+    return shared.opened(view=request.node.get_closest_marker("without_view") is None)

@@ -40,7 +40,7 @@ def data(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def tab(browser: Browser, data: Path) -> Iterator[StudioPage]:
-    with running_studio(["demo"], data) as studio, studio_page(browser, studio) as page:
+    with running_studio(["demo"], data) as studio, studio_page(browser, studio, view=False) as page:
         page.page.evaluate(_LISTEN)
         yield page
 

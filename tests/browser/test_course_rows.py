@@ -53,7 +53,7 @@ def joined(
     words = ["demo", "--connect", router, "--router", "off"]
     with (
         running_studio(words, tmp_path_factory.mktemp("studio") / "data") as studio,
-        studio_page(browser, studio) as tab,
+        studio_page(browser, studio, view=False) as tab,
     ):
         tab.page.keyboard.press("Control+2")
         panel(tab, "topics").get_by_role("button", name="Connect", exact=True).click()

@@ -113,7 +113,7 @@ def test_v2_v3_t1_t3_a_click_echoes_a_topic_and_a_drag_draws_every_number_as_it_
     with (
         running_demo(endpoint, "talker") as talker,
         eight_numbers(endpoint) as eight,
-        studio_page(browser, studio) as tab,
+        studio_page(browser, studio, view=False) as tab,
     ):
         see_topics(tab)
         topic(tab, "/chatter").click()

@@ -194,7 +194,7 @@ def test_sv1_sv2_sv3_a1_a2_p1_p2_t2_what_is_done_from_the_page_and_what_is_in_th
         running_demo(router, "now_playing_server"),
         running_demo(router, "turtlesim_node"),
         node_at(router) as node,
-        studio_page(browser, studio) as tab,
+        studio_page(browser, studio, view=False) as tab,
     ):
         tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
         tab.page.evaluate(SHOW_PANEL, "services")

@@ -58,6 +58,7 @@ def search(tab: StudioPage, words: str) -> None:
     )
 
 
+@pytest.mark.without_view
 def test_the_palette_goes_to_a_property_by_some_of_its_letters(tab: StudioPage):
     search(tab, "whrad")
     assert tab.page.locator(".palette-item").first.locator("mark").count() == 2
@@ -69,6 +70,7 @@ def test_the_palette_goes_to_a_property_by_some_of_its_letters(tab: StudioPage):
     assert "wheel_radius" in used.first.inner_text()
 
 
+@pytest.mark.without_view
 def test_the_palette_goes_to_links_joints_and_lines(tab: StudioPage):
     search(tab, "@mast")
     tab.page.keyboard.press("Enter")
@@ -82,6 +84,7 @@ def test_the_palette_goes_to_links_joints_and_lines(tab: StudioPage):
     tab.page.get_by_text("Line 25, column 1").wait_for()
 
 
+@pytest.mark.without_view
 def test_a_panel_moves_by_keys_and_the_layout_comes_back_by_its_name(tab: StudioPage):
     first = groups(tab)
     tab.page.get_by_role("tab", name="Variants").click()
@@ -107,6 +110,7 @@ def test_a_panel_moves_by_keys_and_the_layout_comes_back_by_its_name(tab: Studio
     wait_until("the saved layout again", lambda: groups(tab) == mine)
 
 
+@pytest.mark.without_view
 def test_a_panel_whose_words_come_with_it_stays_the_one_that_keys_are_for(tab: StudioPage):
     tab.page.set_viewport_size({"width": 720, "height": 640})
     search(tab, "diagnostics")
@@ -117,6 +121,7 @@ def test_a_panel_whose_words_come_with_it_stays_the_one_that_keys_are_for(tab: S
     assert active.inner_text() == "Diagnostics"
 
 
+@pytest.mark.without_view
 def test_layouts_travel_as_a_file_and_what_is_no_such_file_is_refused(
     tab: StudioPage, tmp_path: Path
 ):
@@ -152,6 +157,7 @@ def test_a_closed_3d_view_stays_closed_and_comes_back_when_asked_for(tab: Studio
     wait_until("the robot", tab.has_drawn_robot)
 
 
+@pytest.mark.without_view
 def test_the_focus_goes_back_to_where_a_window_was_opened_from(tab: StudioPage):
     button = tab.page.get_by_role("button", name="Settings")
     button.click()
@@ -161,6 +167,7 @@ def test_the_focus_goes_back_to_where_a_window_was_opened_from(tab: StudioPage):
     wait_until("the focus", lambda: button.evaluate("it => it === document.activeElement"))
 
 
+@pytest.mark.without_view
 def test_tab_begins_with_a_way_past_the_bar(tab: StudioPage):
     tab.page.evaluate("document.activeElement.blur()")
     tab.page.keyboard.press("Tab")

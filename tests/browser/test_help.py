@@ -15,7 +15,12 @@ if TYPE_CHECKING:
     from playwright.sync_api import Locator
 
 
-pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.without_view,
+    pytest.mark.network,
+    pytest.mark.timeout(300),
+]
 
 _FOCUSED_CLASS = "() => document.activeElement.className"
 _FOCUSED_TITLE = "() => document.activeElement.title"

@@ -98,7 +98,7 @@ def test_saving_shows_the_lines_and_writes_only_their_bytes(
     before.write_bytes(mast.read_bytes())
     with (
         running_studio(["open", str(mast)], tmp_path / "data") as studio,
-        studio_page(browser, studio) as tab,
+        studio_page(browser, studio, view=False) as tab,
     ):
         reach = tab.drag_slider("reach", 0.7)
         page = tab.page

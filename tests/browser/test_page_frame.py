@@ -72,6 +72,7 @@ def first_line(tab: StudioPage) -> str:
     return tab.page.locator(".cm-line").first.inner_text()
 
 
+@pytest.mark.without_view
 def test_tab_walks_through_the_source_until_one_has_begun_to_edit(tab: StudioPage):
     before = first_line(tab)
     walk_into_editor(tab)
@@ -105,6 +106,7 @@ def scroll_down(tab: StudioPage, scroller: Locator) -> float:
         ("Properties", "Joints", '[aria-label="Properties"] > .scroll'),
     ],
 )
+@pytest.mark.without_view
 def test_a_panel_comes_back_where_it_was_scrolled_to(
     tab: StudioPage, panel: str, other: str, scroller: str
 ):
@@ -118,6 +120,7 @@ def test_a_panel_comes_back_where_it_was_scrolled_to(
     wait_until("where it was", lambda: place.evaluate("one => one.scrollTop") == where)
 
 
+@pytest.mark.without_view
 def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
     tab.page.get_by_role("button", name="Settings").click()
     tab.page.get_by_role("menuitemradio", name="Deutsch").click()
@@ -127,6 +130,7 @@ def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
         wait_until(f"whole tabs at {width} px", lambda: tab.page.evaluate(_CUT_TABS) == [])
 
 
+@pytest.mark.without_view
 def test_tabs_that_do_not_fit_are_in_a_menu_at_their_end(tab: StudioPage):
     tab.page.get_by_role("button", name="Live", exact=True).click()
     more = tab.page.get_by_role("button", name="More tabs").locator("visible=true").first
@@ -141,6 +145,7 @@ def in_front(tab: StudioPage, name: str) -> bool:
     return panel_tab(tab, name).get_attribute("aria-selected") == "true"
 
 
+@pytest.mark.without_view
 def test_the_menu_of_panels_begins_with_the_layouts_and_groups_the_panels(tab: StudioPage):
     tab.page.get_by_role("button", name="Panels and layouts").click()
     lines = tab.page.get_by_role("menu").inner_text().split("\n")
@@ -202,6 +207,7 @@ def brightness(picture: str, place: FloatRect) -> float:
         return ImageStat.Stat(image.convert("L").crop((left, top, right, bottom))).mean[0]
 
 
+@pytest.mark.without_view
 def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):
     tab.page.set_viewport_size({"width": 390, "height": 844})
     bar = tab.page.get_by_role("navigation", name="Panels")
@@ -211,6 +217,7 @@ def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):
     wait_until("its name in the bar", lambda: "Source" in bar.inner_text())
 
 
+@pytest.mark.without_view
 def test_a_link_that_is_selected_in_the_tree_stays_in_view_above_its_details(tab: StudioPage):
     row = tab.page.get_by_role("treeitem", name="upper_arm", exact=True)
     row.click()
@@ -227,6 +234,7 @@ def top_of(one: Locator) -> float:
     return float(one.evaluate("one => one.getBoundingClientRect().top"))
 
 
+@pytest.mark.without_view
 def test_who_logs_everybody_out_is_told_how_to_come_back(tab: StudioPage):
     tab.page.keyboard.press("Control+k")
     tab.page.keyboard.type("log everybody out")

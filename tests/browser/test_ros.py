@@ -69,7 +69,7 @@ def test_the_robot_goes_out_joints_come_in_and_a_router_that_was_away_is_found_a
     browser: Browser, studio: RunningStudio, router: EmbeddedRouter
 ):
     endpoint = router.endpoint.text
-    with studio_page(browser, studio) as tab:
+    with studio_page(browser, studio, view=False) as tab:
         tab.page.get_by_role("tab", name="Joints").click()
         wait_until("nothing is connected", lambda: "not connected" in status(tab))
         with node_at(endpoint) as peer:
@@ -100,7 +100,7 @@ def test_the_robot_goes_out_joints_come_in_and_a_router_that_was_away_is_found_a
 def test_the_window_on_ros_says_where_and_a_viewer_sees_it_and_changes_nothing(
     browser: Browser, studio: RunningStudio, router: EmbeddedRouter
 ):
-    with studio_page(browser, studio) as tab, node_at(router.endpoint.text, "somebody"):
+    with studio_page(browser, studio, view=False) as tab, node_at(router.endpoint.text, "somebody"):
         tab.page.locator(".ros-status").click()
         window = tab.page.get_by_role("dialog", name="ROS 2")
         connect = window.get_by_role("button", name="Connect", exact=True)

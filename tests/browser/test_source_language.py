@@ -31,7 +31,12 @@ _FRAMES = """async () => {
 }"""
 _HAS_FOCUS = "() => document.activeElement?.classList.contains('cm-content')"
 
-pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.without_view,
+    pytest.mark.network,
+    pytest.mark.timeout(240),
+]
 
 
 @pytest.fixture

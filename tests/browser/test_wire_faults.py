@@ -98,7 +98,7 @@ def studio(
 def tab(browser: Browser, studio: RunningStudio, robot: FaultyRobot) -> Iterator[StudioPage]:
     """A tab of a studio that is connected with the robot."""
     del robot  # is there before
-    with studio_page(browser, studio) as opened:
+    with studio_page(browser, studio, view=False) as opened:
         opened.page.keyboard.press("Control+2")
         panel(opened, "topics").get_by_role("button", name="Connect", exact=True).click()
         row(opened, "/count").wait_for()

@@ -225,7 +225,7 @@ def test_a_system_is_joined_read_drawn_and_given_a_type(browser: Browser, tmp_pa
         place = ["--connect", endpoint, "--router", "off", "--domain", "41"]
         with (
             running_studio(["demo", *place], tmp_path / "data") as studio,
-            studio_page(browser, studio) as tab,
+            studio_page(browser, studio, view=False) as tab,
         ):
             join_where_nodes_are(tab, alone, humble)
             read_the_log(tab)

@@ -48,10 +48,10 @@ class SharedTab:
             do(type="open_path", path=str(self.data / "models" / PACKAGE / ENTRY))
         return self._studio
 
-    def opened(self) -> StudioPage:
-        """The tab, in which the robot is drawn."""
+    def opened(self, *, view: bool = True) -> StudioPage:
+        """The tab, in which the robot is drawn; without the 3D view, it is listed."""
         tab = StudioPage(self._page)
-        tab.open(self._studio.url)
+        tab.open(self._studio.url, view=view)
         return tab
 
     def close(self) -> None:

@@ -42,9 +42,12 @@ _HAS_VISUALS = """() => {
 _AS_A_TEST = """try {
   localStorage.setItem("studio.pixels.fixed", "true");
   localStorage.setItem("studio.graphics.said", "true");
-} catch {}"""
+} catch {}
+if (document.cookie.includes("without_view"))
+  Object.defineProperty(HTMLIFrameElement.prototype, "src", { set() {} });"""
 """A picture of a busy machine has the pixels of one of an idle one; and that the processor draws is
-not said over the 3D view, where it would be in pictures of it."""
+not said over the 3D view, where it would be in pictures of it. Without the view, its frame stays
+empty."""
 
 _SEVERAL_FRAMES = """() => new Promise((done) => {
   const view = document.querySelector("iframe")?.contentWindow ?? window;
@@ -81,10 +84,20 @@ class StudioPage:
         if message.type in _COMPLAINTS:
             self.errors.append(message.text)
 
-    def open(self, url: str) -> None:
-        """Go there and wait until the robot is drawn."""
+    def open(self, url: str, *, view: bool = True) -> None:
+        """Go there and wait until the robot is drawn.
+
+        Args:
+            url: Where to.
+            view: Whether with the 3D view, half of the work; without it the robot is listed.
+        """
+        if not view:
+            self.page.context.add_cookies([{"name": "without_view", "value": "1", "url": url}])
         self.page.goto(url)
-        wait_until("the 3D view to draw the robot", self.has_drawn_robot)
+        if view:
+            wait_until("the 3D view to draw the robot", self.has_drawn_robot)
+        else:
+            self.page.get_by_role("treeitem").first.wait_for()
         self.settle()
 
     def has_drawn_robot(self) -> bool:
@@ -217,12 +230,14 @@ def studio_context(browser: Browser) -> BrowserContext:
 
 
 @contextmanager
-def studio_page(browser: Browser, studio: RunningStudio) -> Generator[StudioPage]:
-    """A tab that has opened the studio's printed address."""
+def studio_page(
+    browser: Browser, studio: RunningStudio, *, view: bool = True
+) -> Generator[StudioPage]:
+    """A tab that has opened the studio's printed address, with or without the 3D view."""
     context = studio_context(browser)
     page = StudioPage(context.new_page())
     try:
-        page.open(studio.url)
+        page.open(studio.url, view=view)
         yield page
     finally:
         context.close()
