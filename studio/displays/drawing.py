@@ -26,6 +26,8 @@ Xyz: TypeAlias = tuple[float, float, float]
 """m."""
 Wxyz: TypeAlias = tuple[float, float, float, float]
 """A quaternion of length 1."""
+Pose: TypeAlias = tuple[Wxyz, Xyz]
+"""Of something in another frame, most often the fixed one."""
 FIXED_FRAME: Final = "<Fixed Frame>"
 """RViz's name of the fixed frame; `Placed.frame` may be it, too."""
 NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)

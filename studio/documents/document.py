@@ -39,10 +39,10 @@ from studio.documents.variants.recipes import RecipeBook
 from studio.documents.variants.second_robot import Ghost, SecondRobots
 from studio.documents.variants.variants import NamedVariants
 from studio.documents.workspace import Workspace
-from studio.live.connection.feed import FeedDesk
+from studio.live.connection.feed import RobotFeed
 from studio.live.connection.opened_types import take_types
 from studio.live.displays.display_file import DisplayFile
-from studio.live.displays.live_desk import LiveDesk
+from studio.live.displays.document_displays import DocumentDisplays
 from studio.live.displays.robot_reading import RobotReader
 from studio.protocol.documents import DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, tell
@@ -135,9 +135,9 @@ class Document:
         robots = SecondRobots(workspace, last, model, self.sites, take_worker)
         comparison = VariantComparison(book, robots, Ghost(model), audience, self._meshes.want)
         self.variants = NamedVariants(workspace, self.edits, book, comparison, audience)
-        self.feed = FeedDesk(model, self.motion, lambda: last.expansion, services.wire, audience)
+        self.feed = RobotFeed(model, self.motion, lambda: last.expansion, services.wire, audience)
         data_folder = services.settings.data_folder
-        self.live = LiveDesk(
+        self.live = DocumentDisplays(
             model,
             self._meshes,
             RobotReader(take_worker, workspace, data_folder / "from_ros" / "nowhere"),

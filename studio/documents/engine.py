@@ -22,7 +22,7 @@ from studio.documents.uploads import Uploads
 from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
-from studio.live.connection.robots import WireRobotDesk
+from studio.live.connection.robots import ConnectionCommands
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
@@ -79,7 +79,7 @@ class Engine:
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
         self.browser_topics = self.ros.browser_topics
-        self.wire_robots = WireRobotDesk(wire, settings.data_folder, self, self.ros)
+        self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
         """What can be listed and opened out of the page."""
         self.left_work = LeftDrafts(lambda: self.served, settings.data_folder)

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.client import DescriptionWorker
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.robot.meshes.library import MeshLibrary
 from studio.robot.worker_client import UrdfValidator, mesh_pool
 
@@ -42,7 +42,7 @@ class Services:
         self._pool = mesh_pool()
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
-        self.wire = WireDesk(settings.wire)
+        self.wire = RosConnection(settings.wire)
         self._spare = DescriptionWorker()
         self._warming: set[asyncio.Task[None]] = set()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any, cast, get_args
 
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.ros_system import RosSystem
 from studio.protocol.calls import FollowOperations
 from studio.settings import WireChoice
@@ -52,7 +52,7 @@ class Bridged:
 @asynccontextmanager
 async def bridged(endpoint: str) -> AsyncGenerator[Bridged]:
     """A bridge that has joined the router; its ear follows calls, goals and publications."""
-    wire = WireDesk(WireChoice("off", (endpoint,)))
+    wire = RosConnection(WireChoice("off", (endpoint,)))
     ros, ear = RosSystem(wire), Ear()
     try:
         await wire.link()

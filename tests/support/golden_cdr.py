@@ -11,7 +11,7 @@ import random
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.interfaces import InterfaceTypes
 from studio.protocol.interfaces import GetInterface
 from studio.ros.cdr import Codec
@@ -73,7 +73,7 @@ def _case(name: str, chance: random.Random) -> dict[str, Any]:
 
 def schemas() -> dict[str, Any]:
     """What each type is made of, as the page is told."""
-    desk = InterfaceTypes(WireDesk(WireChoice()))
+    desk = InterfaceTypes(RosConnection(WireChoice()))
     return {
         name: [
             one.model_dump()

@@ -1,4 +1,4 @@
-"""FeedDesk: a document's robot on the wire: what goes out, and who moves its joints."""
+"""RobotFeed: a document's robot on the wire: what goes out, and who moves its joints."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.description.values import Expansion
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.followed_joints import FollowedJoints
     from studio.live.connection.received_description import ReceivedDescription
+    from studio.live.connection.ros_connection import RosConnection
     from studio.live.connection.sending import SentRobot
     from studio.protocol.connection import JointSource
     from studio.protocol.listeners import Audience
@@ -58,7 +58,7 @@ class _Described:
     trouble: str = ""
 
 
-class FeedDesk:
+class RobotFeed:
     """Carries out what is asked about one document and the wire.
 
     Args:
@@ -74,7 +74,7 @@ class FeedDesk:
         model: SentRobot,
         motion: MovesJoints,
         expansion: Callable[[], Expansion | None],
-        wire: WireDesk,
+        wire: RosConnection,
         audience: Audience,
     ) -> None:
         self._model, self._motion, self._wire = model, motion, wire

@@ -1,6 +1,6 @@
 """WireLink: the connection itself, its nodes, and the thread that carries out their work.
 
-The only file of the engine that imports Zenoh, by way of ros: the desk imports it when it is used.
+It imports Zenoh, by way of ros, so it is imported when the first connection is made.
 """
 
 from __future__ import annotations

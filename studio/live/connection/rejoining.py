@@ -17,8 +17,8 @@ from studio.settings import WireChoice
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
 
 FILE: Final = "connection.json"
 _LIMIT_BYTES: Final = 64 << 10
@@ -47,7 +47,7 @@ class Rejoining:
     A router that does not answer is waited for, until somebody connects elsewhere or disconnects.
     """
 
-    def __init__(self, wire: WireDesk, data_folder: Path) -> None:
+    def __init__(self, wire: RosConnection, data_folder: Path) -> None:
         self._wire = wire
         self._path = data_folder / FILE
         self._started_for = place_of(wire.choice)

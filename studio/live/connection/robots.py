@@ -1,4 +1,4 @@
-"""WireRobots: commands about ROS that concern no document yet: join, leave, look around, open."""
+"""Commands about ROS that concern no document yet: join, leave, look around, open a robot."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from studio.live.connection.desk import WireDesk
-    from studio.live.connection.feed import FeedDesk
+    from studio.live.connection.feed import RobotFeed
     from studio.live.connection.received_description import ReceivedDescription
+    from studio.live.connection.ros_connection import RosConnection
     from studio.packages.index import PackageIndex
     from studio.packages.roots import ServedRoots
     from studio.packages.workspace import Location
@@ -54,7 +54,7 @@ class OpenRobot(Protocol):
         ...
 
     @property
-    def feed(self) -> FeedDesk:
+    def feed(self) -> RobotFeed:
         """Its robot on the wire."""
         ...
 
@@ -78,10 +78,12 @@ class OpenRobots(Protocol):
         ...
 
 
-class WireRobotDesk:
-    """Carries them out for the engine; `ros` lets go of a connection before it ends."""
+class ConnectionCommands:
+    """Carries them out; `ros` lets go of a connection before it ends."""
 
-    def __init__(self, wire: WireDesk, data_folder: Path, opener: OpenRobots, ros: LetsGo) -> None:
+    def __init__(
+        self, wire: RosConnection, data_folder: Path, opener: OpenRobots, ros: LetsGo
+    ) -> None:
         self._wire, self._data_folder, self._opener = wire, data_folder, opener
         self._ros = ros
 
@@ -162,7 +164,7 @@ def _keep(data_folder: Path, source: str, text: str, indexes: list[PackageIndex]
     return file
 
 
-COMMANDS: Final = Commands[WireRobotDesk](Scope.ROS)
+COMMANDS: Final = Commands[ConnectionCommands](Scope.ROS)
 COMMANDS.presenter(ConnectWire, lambda robots, c, _: robots.connect(c))
 COMMANDS.presenter(ExamineWire, lambda robots, c, _: robots.examine(c))
 COMMANDS.presenter(DisconnectWire, lambda robots, _, __: robots.disconnect())

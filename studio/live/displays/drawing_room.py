@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
     from studio.displays.display import Display
+    from studio.displays.drawing import Pose
     from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
-    from studio.live.displays.placing import Pose
     from studio.live.topics.request import Fit
     from studio.live.topics.source import TopicSource
     from studio.protocol.roles import Visitor

@@ -12,8 +12,8 @@ from studio.protocol.roles import Role
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.displays.drawing import Drawing
-    from studio.live.displays.placing import Lookup, Pose
+    from studio.displays.drawing import Drawing, Pose
+    from studio.live.displays.placing import Lookup
     from studio.protocol.roles import Visitor
 
 FOLLOWED: Final = "followed"

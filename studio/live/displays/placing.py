@@ -8,19 +8,17 @@ from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 from studio.displays.drawing import NO_TURN, NOTHING
 from studio.errors import ExtrapolationError, FrameError
-from studio.live.displays.carrying import Carrying
+from studio.live.displays.deskewing import Deskewing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from studio.displays.drawing import Drawing, Placed, Wxyz, Xyz
+    from studio.displays.drawing import Drawing, Placed, Pose
 
 PATIENCE_NS: Final = 500_000_000
 """How long a drawing waits for transforms that come after its message."""
 _WAITING_MAX: Final = 30
 
-Pose: TypeAlias = "tuple[Wxyz, Xyz]"
-"""In the fixed frame."""
 Lookup: TypeAlias = "Callable[[str, int], Pose]"
 """From a frame and a time, ns since the epoch (0: the newest); raises a FrameError."""
 
@@ -61,7 +59,7 @@ class Placing:
         """What is shown, as the display drew it."""
         self._placed: dict[str, Placed] = {}
         self._ends: Mapping[str, Pose] = {}
-        self._carrying = Carrying()
+        self._deskewing = Deskewing()
         self.troubles: Mapping[str, FrameError] = {}
         """By path, why a part of what is shown, or would be, has no place."""
 
@@ -130,8 +128,8 @@ class Placing:
     def _show(self, drawing: Drawing, tried: _Tried) -> Shown:
         self._source, self._placed, self._ends = drawing, dict(drawing), tried.ends
         self.troubles = tried.troubles
-        carried = self._carrying.carried(drawing, tried.poses, tried.ends)
-        self._shown = Shown(carried, tried.poses)
+        deskewed = self._deskewing.deskewed(drawing, tried.poses, tried.ends)
+        self._shown = Shown(deskewed, tried.poses)
         return self._shown
 
     def _follow(self, lookup: Lookup) -> Shown | None:

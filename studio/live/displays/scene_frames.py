@@ -19,8 +19,8 @@ from studio.tf.transforms import Notice, plain_name
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from studio.displays.drawing import Pose
     from studio.live.displays.own_frames import PosedRobot
-    from studio.live.displays.placing import Pose
     from studio.live.topics.source import TopicSource
     from studio.live.topics.subscription import Subscription
     from studio.ros.node.samples import RawSample

@@ -12,7 +12,7 @@ from studio.protocol.calls import Begun, Calls, CallService, CallView, CancelCal
 from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.requests import ServiceRequest
 
 _KEPT: Final = 40
@@ -52,7 +52,7 @@ def _event_of(is_whole: bool, calls: tuple[Call, ...]) -> Calls:  # noqa: FBT001
 class ServiceCalls:
     """Begins and ends calls; `operations` has their state."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self.operations: Operations[Call] = Operations(_event_of, kept=_KEPT, running=_RUNNING_MAX)
         self._running = RunningTasks()

@@ -12,8 +12,8 @@ from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.publishing import Drive
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.protocol.listeners import Listener
 
 _SILENCE_S: Final = 0.5
@@ -92,7 +92,7 @@ class Driving:
     Used on the event loop only.
     """
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._drivers: dict[str, _Driver] = {}
         self._ends: set[asyncio.Task[object]] = set()

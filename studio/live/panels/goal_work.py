@@ -1,6 +1,6 @@
 """GoalRequest: one goal on its way, from the sending to its result; clients of actions are shared.
 
-Imports Zenoh, by way of ros: the desk imports it when it is used.
+It imports Zenoh, by way of ros, so it is imported when it is first used.
 """
 
 from __future__ import annotations

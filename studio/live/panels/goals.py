@@ -14,8 +14,8 @@ from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import CancelGoal, FeedbackView, Goals, GoalState, GoalView, SendGoal
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.goal_work import ActionClients, GoalRequest
     from studio.live.panels.logs import NodeLogs
     from studio.protocol.logs import LogLine
@@ -91,7 +91,7 @@ def _event_of(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001
 class ActionGoals:
     """Sends goals and has them cancelled; `operations` has their state."""
 
-    def __init__(self, wire: WireDesk, logs: NodeLogs) -> None:
+    def __init__(self, wire: RosConnection, logs: NodeLogs) -> None:
         self._wire, self._logs = wire, logs
         self.operations: Operations[Goal] = Operations(_event_of, kept=_KEPT, running=_RUNNING_MAX)
         self._running = RunningTasks()

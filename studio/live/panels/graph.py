@@ -21,8 +21,8 @@ from studio.protocol.graph import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
     from studio.ros.graph.graph import Graph, NamesAndTypes
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 class GraphViews:
     """Views of the connection's graph; empty without a connection."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
 
     async def graph(self, command: GetGraph) -> GraphAnswer:

@@ -25,8 +25,8 @@ from studio.protocol.interfaces import (
 
 if TYPE_CHECKING:
     from studio.errors import InterfaceTextError
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.types.definitions import Constant, Field, Message
     from studio.ros.types.library import TypeLibrary
@@ -45,7 +45,7 @@ _ADVICE: Final = "drop its .{kind} file, or its package's folder, on the page"
 class TypeLearner:
     """Learns types from other nodes, one at a time, once for all pages; used on the event loop."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._turn = asyncio.Lock()
         self._untold: dict[str, tuple[float, str]] = {}
@@ -126,7 +126,7 @@ _FAULTS_MAX: Final = 200
 class InterfaceTypes:
     """The types that the connection knows; without one, those of the process."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._learner = TypeLearner(wire)
         self._texts: dict[str, str] = {}

@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Literal
 
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
 
 
 LINES_MAX: Final = 200
@@ -211,7 +211,7 @@ RUNNING_MAX: Final = 10
 class CourseDemos:
     """Runs demos as processes that join the studio's ROS system, and end with its connection."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._runs: dict[str, DemoRun] = {}
         """The last run of each demo."""

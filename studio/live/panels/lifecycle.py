@@ -18,8 +18,8 @@ from studio.protocol.graph import (
 )
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.ros.graph.graph import Graph
     from studio.ros.lifecycle.client import LifecycleClient
 
@@ -37,7 +37,7 @@ _LEFT: Final = "Not connected with ROS 2: connect first."
 class LifecycleNodes:
     """Asks managed nodes in threads, several at once, each with a time-out."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._clients: dict[str, LifecycleClient] = {}
         self._asking = asyncio.Lock()

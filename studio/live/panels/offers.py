@@ -21,7 +21,7 @@ from studio.protocol.commands import Commands, Scope
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.interfaces import InterfaceTypes
     from studio.ros.graph.endpoints import GraphNode
     from studio.ros.graph.graph import NamesAndTypes
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 class Offers:
     """Services and actions of the connection's graph; none without a connection."""
 
-    def __init__(self, wire: WireDesk, interfaces: InterfaceTypes) -> None:
+    def __init__(self, wire: RosConnection, interfaces: InterfaceTypes) -> None:
         self._wire, self._interfaces = wire, interfaces
 
     async def services(self, command: GetServices) -> Services:

@@ -1,6 +1,6 @@
 """RemoteParameters: the parameters of another node, asked and set without a thread that waits.
 
-Imports Zenoh, by way of ros: the desk imports it when it is used.
+It imports Zenoh, by way of ros, so it is imported when it is first used.
 """
 
 from __future__ import annotations

@@ -27,8 +27,8 @@ from studio.protocol.parameters import (
 )
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.parameter_work import RemoteParameters
     from studio.live.topics.subscription import Subscription
     from studio.protocol.listeners import Listener
@@ -48,7 +48,7 @@ _NEWS_MAX: Final = 2_000
 class NodeParameters:
     """Keeps clients of the nodes asked last, and one subscription of all parameter events."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._remotes: OrderedDict[tuple[int, str], RemoteParameters] = OrderedDict()
         self._turn = asyncio.Lock()

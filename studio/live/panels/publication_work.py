@@ -1,6 +1,6 @@
 """Saying: a publisher and the message that it sends, made anew where it holds the time.
 
-Imports Zenoh, by way of ros: the desk imports it when it is used.
+It imports Zenoh, by way of ros, so it is imported when it is first used.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from studio.protocol.publishing import Publications, PublicationView, Publish, S
 from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.publication_work import Saying
     from studio.protocol.listeners import Listener
 
@@ -72,7 +72,7 @@ def _event_of(is_whole: bool, found: tuple[Publication, ...]) -> Publications:  
 class Publishing:
     """Begins and ends publications; `operations` has their state."""
 
-    def __init__(self, wire: WireDesk) -> None:
+    def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self.operations: Operations[Publication] = Operations(
             _event_of, kept=_KEPT, running=_RUNNING_MAX

@@ -1,4 +1,4 @@
-"""RateDesk: tells how often, how large and how old what others publish is."""
+"""How often messages come on topics, how large they are, and how old the last one is."""
 
 from __future__ import annotations
 
@@ -10,25 +10,19 @@ from studio.protocol.topic_rates import GetTopicRates, TopicRate, TopicRates
 from studio.ros.qos import DurabilityPolicy
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.ros.node.topic_statistics import Flow
 
 _State: TypeAlias = Literal["waiting", "live", "silent", "latched"]
 
 
-class RateDesk:
-    """Asks the connection; without one, nothing is known of any topic."""
-
-    def __init__(self, wire: WireDesk) -> None:
-        self._wire = wire
-
-    async def rates(self, command: GetTopicRates) -> TopicRates:
-        """Tell how topics come."""
-        link = self._wire.current
-        # To hear two hundred more takes some 10 ms.
-        found = await asyncio.to_thread(_rates, link, command.topics) if link else ()
-        return TopicRates(request=command.request, rates=found)
+async def topic_rates(connection: RosConnection, command: GetTopicRates) -> TopicRates:
+    """Return how messages come on some topics; without a connection nothing is known of any."""
+    link = connection.current
+    # To subscribe to two hundred more takes some 10 ms.
+    found = await asyncio.to_thread(_rates, link, command.topics) if link else ()
+    return TopicRates(request=command.request, rates=found)
 
 
 def _rates(link: WireLink, topics: tuple[str, ...]) -> tuple[TopicRate, ...]:
@@ -55,5 +49,5 @@ def _state(flow: Flow, *, is_latched: bool) -> _State:
     return "waiting" if flow.age_s is None else "live"
 
 
-COMMANDS: Final = Commands[RateDesk](Scope.ROS)
-COMMANDS.viewer(GetTopicRates, lambda one, c, _: one.rates(c))
+COMMANDS: Final = Commands["RosConnection"](Scope.ROS)
+COMMANDS.viewer(GetTopicRates, lambda one, c, _: topic_rates(one, c))

@@ -1,6 +1,6 @@
 """What asks other nodes on behalf of panels: a service called, and how long one waits for it.
 
-Imports Zenoh, by way of ros: the desks import it when it is used.
+It imports Zenoh, by way of ros, so it is imported when it is first used.
 """
 
 from __future__ import annotations

@@ -23,26 +23,22 @@ from studio.live.panels import (
     rates,
     topics,
 )
-from studio.live.panels.rates import RateDesk
-from studio.live.panels.topics import TopicDesk
 from studio.live.topics.browsers import BrowserTopics
 from studio.protocol.calls import FollowOperations
 from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
-    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.ros_connection import RosConnection
     from studio.protocol.listeners import Listener
 
 
 class RosSystem:
     """One part for each subject of panels; used on the event loop only."""
 
-    def __init__(self, wire: WireDesk) -> None:
-        self._wire = wire
+    def __init__(self, wire: RosConnection) -> None:
+        self.connection = wire
         self.interfaces = interfaces.InterfaceTypes(wire)
         self.browser_topics = BrowserTopics(wire.topics)
-        self.topics = TopicDesk(wire)
-        self.rates = RateDesk(wire)
         self.logs = logs.NodeLogs(wire.topics)
         self.graph = graph.GraphViews(wire)
         self.lifecycle = lifecycle.LifecycleNodes(wire)
@@ -67,7 +63,7 @@ class RosSystem:
         Raises:
             RouterGoneError: The router is away.
         """
-        link = self._wire.current
+        link = self.connection.current
         if link is not None and not link.is_connected:
             raise RouterGoneError(link.endpoint)
 
@@ -141,5 +137,5 @@ COMMANDS.include(logs.COMMANDS, lambda ros, _: ros.logs)
 COMMANDS.include(offers.COMMANDS, lambda ros, _: ros.offers)
 COMMANDS.include(parameters.COMMANDS, lambda ros, _: ros.parameters)
 COMMANDS.include(publishing.COMMANDS, lambda ros, _: ros.publishing)
-COMMANDS.include(rates.COMMANDS, lambda ros, _: ros.rates)
-COMMANDS.include(topics.COMMANDS, lambda ros, _: ros.topics)
+COMMANDS.include(rates.COMMANDS, lambda ros, _: ros.connection)
+COMMANDS.include(topics.COMMANDS, lambda ros, _: ros.connection)

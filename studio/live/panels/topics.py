@@ -1,4 +1,4 @@
-"""TopicDesk: tells which topics there are, who is at their ends, and what keeps those apart."""
+"""Which topics there are, who is at their ends, and what keeps those apart."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from studio.ros.qos import why_unmatched
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from studio.live.connection.desk import WireDesk
     from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
     from studio.ros.duration import Duration
     from studio.ros.graph.endpoints import GraphEndpoint
 
@@ -31,34 +31,29 @@ ENDS_MAX: Final = 100
 MISFITS_MAX: Final = 20
 
 
-class TopicDesk:
-    """Asks the graph of the connection; without one there are no topics."""
+async def topic_table(connection: RosConnection, command: ListTopics) -> TopicTable:
+    """Return every topic; without a connection there is none."""
+    link = connection.current
+    rows = await asyncio.to_thread(_rows, link) if link else ()
+    return TopicTable(request=command.request, topics=rows)
 
-    def __init__(self, wire: WireDesk) -> None:
-        self._wire = wire
 
-    async def table(self, command: ListTopics) -> TopicTable:
-        """Tell every topic."""
-        link = self._wire.current
-        rows = await asyncio.to_thread(_rows, link) if link else ()
-        return TopicTable(request=command.request, topics=rows)
+def topic_ends(connection: RosConnection, command: GetTopicEnds) -> TopicEnds:
+    """Return who is at the ends of a topic.
 
-    def ends(self, command: GetTopicEnds) -> TopicEnds:
-        """Tell who is at the ends of a topic.
-
-        Raises:
-            RosNameError: No topic is named so.
-        """
-        link = self._wire.current
-        publishers = link.graph.publishers(command.topic) if link else []
-        subscribers = link.graph.subscriptions(command.topic) if link else []
-        own = link.zid if link else ""
-        return TopicEnds(
-            request=command.request,
-            publishers=tuple(_end(one, own) for one in publishers[:ENDS_MAX]),
-            subscribers=tuple(_end(one, own) for one in subscribers[:ENDS_MAX]),
-            misfits=_misfits(publishers[:ENDS_MAX], subscribers[:ENDS_MAX]),
-        )
+    Raises:
+        RosNameError: No topic is named so.
+    """
+    link = connection.current
+    publishers = link.graph.publishers(command.topic) if link else []
+    subscribers = link.graph.subscriptions(command.topic) if link else []
+    own = link.zid if link else ""
+    return TopicEnds(
+        request=command.request,
+        publishers=tuple(_end(one, own) for one in publishers[:ENDS_MAX]),
+        subscribers=tuple(_end(one, own) for one in subscribers[:ENDS_MAX]),
+        misfits=_misfits(publishers[:ENDS_MAX], subscribers[:ENDS_MAX]),
+    )
 
 
 def _rows(link: WireLink) -> tuple[TopicRow, ...]:
@@ -146,6 +141,6 @@ def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
     return []
 
 
-COMMANDS: Final = Commands[TopicDesk](Scope.ROS)
-COMMANDS.viewer(ListTopics, lambda one, c, _: one.table(c))
-COMMANDS.viewer(GetTopicEnds, lambda one, c, _: one.ends(c))
+COMMANDS: Final = Commands["RosConnection"](Scope.ROS)
+COMMANDS.viewer(ListTopics, lambda one, c, _: topic_table(one, c))
+COMMANDS.viewer(GetTopicEnds, lambda one, c, _: topic_ends(one, c))

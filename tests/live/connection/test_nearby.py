@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
-from studio.live.connection.desk import WireDesk
 from studio.live.connection.nearby import nodes_nearby
+from studio.live.connection.ros_connection import RosConnection
 from studio.settings import WireChoice
 from tests.support.demos import node_at
 from tests.support.open_documents import Ear, until
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.network
 def test_who_is_not_connected_is_told_how_many_nodes_the_router_of_this_machine_has(endpoint: str):
     async def run() -> None:
         with node_at(endpoint):
-            wire, ear = WireDesk(WireChoice("off", (endpoint,))), Ear()
+            wire, ear = RosConnection(WireChoice("off", (endpoint,))), Ear()
             wire.attach(ear)
             await until(lambda: ear.last("wire_state")["nearby_count"] == 1)
             assert ear.last("wire_state")["state"] == "off"

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import msgspec
 import pytest
 
-from studio.live.connection.desk import WireDesk
 from studio.live.connection.rejoining import FILE, KeptConnection, Rejoining, place_of
+from studio.live.connection.ros_connection import RosConnection
 from studio.protocol.connection import ConnectWire, DisconnectWire
 from studio.protocol.displays import AddDisplay
 from studio.settings import WireChoice
@@ -83,7 +83,7 @@ def test_one_that_was_disconnected_stays_so_and_says_what_mends_it(endpoint: str
 def test_a_router_that_comes_later_than_the_studio_is_waited_for(tmp_path: Path):
     async def run() -> None:
         endpoint = free_endpoint()
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         keep(tmp_path, KeptConnection(place_of(wire.choice), (endpoint,)))
         rejoining = Rejoining(wire, tmp_path)
         rejoining.begin()
@@ -97,7 +97,7 @@ def test_a_router_that_comes_later_than_the_studio_is_waited_for(tmp_path: Path)
 
 def test_a_router_of_its_own_is_started_again(tmp_path: Path):
     async def run() -> None:
-        wire = WireDesk(WireChoice("auto", (free_endpoint(),)))
+        wire = RosConnection(WireChoice("auto", (free_endpoint(),)))
         keep(
             tmp_path,
             KeptConnection(place_of(wire.choice), wire.choice.connect, had_own_router=True),
@@ -115,7 +115,7 @@ def test_a_router_of_its_own_is_started_again(tmp_path: Path):
 
 def test_where_a_person_had_it_look_is_where_it_looks_again(endpoint: str, tmp_path: Path):
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (free_endpoint(),)))
+        wire = RosConnection(WireChoice("off", (free_endpoint(),)))
         keep(tmp_path, KeptConnection(place_of(wire.choice), (endpoint,), domain=3))
         rejoining = Rejoining(wire, tmp_path)
         rejoining.begin()
@@ -127,7 +127,7 @@ def test_where_a_person_had_it_look_is_where_it_looks_again(endpoint: str, tmp_p
     asyncio.run(run())
 
 
-def begun(wire: WireDesk, data_folder: Path) -> Callable[[], bool]:
+def begun(wire: RosConnection, data_folder: Path) -> Callable[[], bool]:
     """Tells whether it gave up by itself."""
     rejoining = Rejoining(wire, data_folder)
     rejoining.begin()
@@ -140,7 +140,7 @@ def test_who_was_connected_elsewhere_or_not_at_all_is_not_connected(
     endpoint: str, tmp_path: Path, place: str
 ):
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         keep(tmp_path, KeptConnection(place, (endpoint,)))
         await until(begun(wire, tmp_path))
         assert wire.current is None
@@ -153,7 +153,7 @@ def test_who_was_connected_elsewhere_or_not_at_all_is_not_connected(
 def test_a_broken_file_is_as_none(endpoint: str, tmp_path: Path, text: bytes):
     async def run() -> None:
         (tmp_path / FILE).write_bytes(text)
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         await until(begun(wire, tmp_path))
         assert wire.current is None
         await wire.close()
@@ -163,7 +163,7 @@ def test_a_broken_file_is_as_none(endpoint: str, tmp_path: Path, text: bytes):
 
 def test_who_disconnects_is_not_connected_again(endpoint: str, tmp_path: Path):
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         rejoining = Rejoining(wire, tmp_path)
         await wire.link()
         await until(lambda: kept(tmp_path).connect == (endpoint,))

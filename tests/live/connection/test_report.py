@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.live.connection.desk import WireDesk
 from studio.live.connection.report import Census, examine
+from studio.live.connection.ros_connection import RosConnection
 from studio.ros.wire.zenoh import declare_token
 from studio.settings import WireChoice
 from tests.support.wire import (
@@ -121,7 +121,7 @@ def test_a_bridge_of_dds_alone_is_told():
 def test_the_studios_own_nodes_do_not_count():
     async def run() -> None:
         with running_router() as endpoint:
-            desk = WireDesk(at(endpoint))
+            desk = RosConnection(at(endpoint))
             try:
                 link = await desk.link()
                 other = await asyncio.to_thread(seen, at(endpoint), "fine")

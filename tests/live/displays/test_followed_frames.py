@@ -15,8 +15,7 @@ from studio.protocol.roles import Role, Visitor
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.displays.drawing import Drawing
-    from studio.live.displays.placing import Pose
+    from studio.displays.drawing import Drawing, Pose
 
 NOW = 1_000_000_000
 PRESENTER = Visitor(Role.PRESENTER, "p")

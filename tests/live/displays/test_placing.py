@@ -1,8 +1,8 @@
 from collections.abc import Mapping
 
-from studio.displays.drawing import NO_TURN, Placed, Text
+from studio.displays.drawing import NO_TURN, Placed, Pose, Text
 from studio.errors import ExtrapolationError, UnknownFrameError
-from studio.live.displays.placing import PATIENCE_NS, Placing, Pose
+from studio.live.displays.placing import PATIENCE_NS, Placing
 
 MOMENT = 1_000_000_000
 

@@ -15,7 +15,7 @@ from tests.support.display_messages import NOW_NS, TYPES, pose, received
 from tests.support.memory_source import MemorySource
 
 if TYPE_CHECKING:
-    from studio.live.displays.placing import Pose
+    from studio.displays.drawing import Pose
 
 POSE = "geometry_msgs/msg/PoseStamped"
 SPEC = DisplaySpec("d1", "Pose", "Goal", "/goal")

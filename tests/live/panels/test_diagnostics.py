@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels import diagnostics
 from studio.live.panels.diagnostics import PartDiagnostics, Parts
 from studio.protocol.diagnostics import GetDiagnostics
@@ -90,7 +90,7 @@ def test_they_are_heard_from_the_first_question_on(endpoint: str, tester: Node):
     out = tester.create_publisher(ARRAY, "/diagnostics", 10)
 
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         desk = PartDiagnostics(wire.topics)
         try:
             assert not (desk.diagnostics(GetDiagnostics(request=8))).connected

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.graph import GraphViews
 from studio.protocol.graph import GetGraph, GetNode, GraphAnswer, GraphLinkView
 from studio.ros.action.client import ActionClient
@@ -33,7 +33,7 @@ def ignore(*_: Any) -> None:  # noqa: ANN401
 
 @asynccontextmanager
 async def desk_at(endpoint: str) -> AsyncGenerator[GraphViews]:
-    wire = WireDesk(WireChoice("off", (endpoint,)))
+    wire = RosConnection(WireChoice("off", (endpoint,)))
     try:
         await wire.link()
         yield GraphViews(wire)
@@ -65,7 +65,7 @@ def has_both_ends(answer: GraphAnswer, *names: str) -> bool:
 
 def test_without_a_connection_nobody_is_there():
     async def run() -> None:
-        desk = GraphViews(WireDesk(WireChoice("off")))
+        desk = GraphViews(RosConnection(WireChoice("off")))
         answer = await desk.graph(GetGraph(known=3))
         assert (answer.version, answer.nodes) == (-1, ())
         assert (await desk.node(GetNode(name="/talker"))).count == 0

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import InterfaceTextError, StudioError
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.interfaces import InterfaceTypes
 from studio.protocol.interfaces import AddInterfaces, GetInterface, ListInterfaces
 from studio.settings import WireChoice
@@ -17,17 +17,17 @@ if TYPE_CHECKING:
 
 
 def added(texts: dict[str, str]) -> InterfacesAdded:
-    desk = InterfaceTypes(WireDesk(WireChoice()))
+    desk = InterfaceTypes(RosConnection(WireChoice()))
     return asyncio.run(desk.add(AddInterfaces(request=2, texts=texts)))
 
 
 def listed() -> InterfacesAnswer:
-    desk = InterfaceTypes(WireDesk(WireChoice()))
+    desk = InterfaceTypes(RosConnection(WireChoice()))
     return asyncio.run(desk.names(ListInterfaces(request=3)))
 
 
 def asked(name: str) -> InterfaceAnswer:
-    desk = InterfaceTypes(WireDesk(WireChoice()))
+    desk = InterfaceTypes(RosConnection(WireChoice()))
     return asyncio.run(desk.interface(GetInterface(request=7, name=name)))
 
 
@@ -77,7 +77,7 @@ def test_what_is_not_known_is_refused_with_a_sentence(name: str):
 
 
 def test_t6_all_types_of_the_six_packages_are_listed():
-    desk = InterfaceTypes(WireDesk(WireChoice()))
+    desk = InterfaceTypes(RosConnection(WireChoice()))
     told = asyncio.run(desk.names(ListInterfaces(request=3)))
     packages = {name.split("/")[0] for name in told.names}
     assert packages >= {

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import UnknownTypeError
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.interfaces import InterfaceTypes
 from studio.protocol.interfaces import GetInterface
 from studio.ros.types.library import TypeLibrary
@@ -40,7 +40,7 @@ def foreign_types() -> TypeLibrary:
 
 @asynccontextmanager
 async def joined(endpoint: str) -> AsyncGenerator[tuple[InterfaceTypes, WireLink]]:
-    wire = WireDesk(WireChoice("off", (endpoint,)))
+    wire = RosConnection(WireChoice("off", (endpoint,)))
     try:
         link = await wire.link()
         yield InterfaceTypes(wire), link

@@ -12,7 +12,7 @@ import pytest
 
 from studio.course.demos import DEMOS
 from studio.errors import CommandError
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels import lessons
 from studio.live.panels.lessons import CourseDemos
 from studio.protocol.lessons import (
@@ -79,7 +79,7 @@ def is_there(pid: int) -> bool:
 
 
 def test_every_demo_is_listed_by_chapters():
-    desk = CourseDemos(WireDesk(WireChoice("off")))
+    desk = CourseDemos(RosConnection(WireChoice("off")))
     told = desk.lessons(GetLessons(request=4))
     assert told.request == 4
     assert {one.demo for one in told.lessons} == {demo.name for demo in DEMOS}
@@ -195,7 +195,7 @@ def test_no_more_than_the_most_run_at_once(endpoint: str, monkeypatch: pytest.Mo
 
 def test_without_a_connection_or_such_a_demo_nothing_starts():
     async def run() -> None:
-        desk = CourseDemos(WireDesk(WireChoice("off")))
+        desk = CourseDemos(RosConnection(WireChoice("off")))
         assert (await desk.demos(GetDemos())).elsewhere == ()
         with pytest.raises(CommandError, match="Not connected with ROS 2: connect first"):
             await desk.start(StartDemo(demo="talker"))
@@ -258,7 +258,7 @@ def test_a_demo_is_in_the_domain_of_the_studio_not_in_that_of_its_environment(
     monkeypatch.setenv("ROS_DOMAIN_ID", "3")
 
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,), domain=41))
+        wire = RosConnection(WireChoice("off", (endpoint,), domain=41))
         desk = CourseDemos(wire)
         try:
             await wire.link()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError, NotServedError
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels import lifecycle
 from studio.live.panels.lifecycle import LifecycleNodes
 from studio.protocol.graph import ChangeState, GetManaged, ManagedNodeView
@@ -25,7 +25,7 @@ pytestmark = pytest.mark.network
 
 @asynccontextmanager
 async def desk_at(endpoint: str) -> AsyncGenerator[LifecycleNodes]:
-    wire = WireDesk(WireChoice("off", (endpoint,)))
+    wire = RosConnection(WireChoice("off", (endpoint,)))
     desk = LifecycleNodes(wire)
     try:
         await wire.link()
@@ -81,7 +81,7 @@ def test_without_a_connection_or_such_a_node_nothing_changes(
     monkeypatch.setattr(lifecycle, "_CHANGE_S", 0.05)
 
     async def run() -> None:
-        alone = LifecycleNodes(WireDesk(WireChoice("off")))
+        alone = LifecycleNodes(RosConnection(WireChoice("off")))
         assert (await alone.managed(GetManaged(request=6))).request == 6
         with pytest.raises(CommandError, match="Not connected"):
             await alone.change(ChangeState(node="/arm", transition=1))

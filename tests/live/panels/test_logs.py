@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.logs import NodeLogs
 from studio.protocol.logs import GetLog
 from studio.settings import WireChoice
@@ -33,7 +33,7 @@ def test_it_is_heard_from_the_first_question_on_with_what_was_said_before(
     endpoint: str, tester: Node
 ):
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         logs = NodeLogs(wire.topics)
         try:
             before = logs.log(GetLog(request=3))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import StudioError
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.ros_system import RosSystem
 from studio.protocol.calls import GetActions, GetServices, ReadValues
 from studio.settings import WireChoice
@@ -24,7 +24,7 @@ TWIST = "geometry_msgs/msg/Twist"
 
 def asked(command: Command) -> Any:  # noqa: ANN401 - the answer
     """Ask a studio that has joined nothing."""
-    return asyncio.run(ask_ros(RosSystem(WireDesk(WireChoice("off"))), command, Ear()))
+    return asyncio.run(ask_ros(RosSystem(RosConnection(WireChoice("off"))), command, Ear()))
 
 
 def read(text: str, name: str = TWIST, place: int = 0) -> Any:  # noqa: ANN401 - what was read

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.live.connection.desk import WireDesk
-from studio.live.panels.rates import RateDesk
+from studio.live.connection.ros_connection import RosConnection
+from studio.live.panels.rates import topic_rates
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.topic_rates import GetTopicRates, TopicRate
 from studio.ros.messages import message
@@ -26,8 +26,8 @@ STRING = message("std_msgs/msg/String")
 
 
 @asynccontextmanager
-async def wire_at(endpoint: str) -> AsyncGenerator[WireDesk]:
-    desk = WireDesk(WireChoice("off", (endpoint,)))
+async def wire_at(endpoint: str) -> AsyncGenerator[RosConnection]:
+    desk = RosConnection(WireChoice("off", (endpoint,)))
     try:
         yield desk
     finally:
@@ -40,8 +40,8 @@ async def until_true(holds: Callable[[], Awaitable[bool]]) -> None:
             await asyncio.sleep(0.02)
 
 
-async def rate_of(desk: RateDesk, topic: str) -> TopicRate | None:
-    found = await desk.rates(GetTopicRates(request=7, topics=(topic,)))
+async def rate_of(wire: RosConnection, topic: str) -> TopicRate | None:
+    found = await topic_rates(wire, GetTopicRates(request=7, topics=(topic,)))
     assert found.request == 7
     return found.rates[0] if found.rates else None
 
@@ -49,7 +49,7 @@ async def rate_of(desk: RateDesk, topic: str) -> TopicRate | None:
 def test_without_a_connection_nothing_is_known_and_none_is_made(endpoint: str):
     async def story() -> None:
         async with wire_at(endpoint) as wire:
-            assert await rate_of(RateDesk(wire), "/chatter") is None
+            assert await rate_of(wire, "/chatter") is None
             assert wire.current is None
 
     asyncio.run(story())
@@ -61,12 +61,11 @@ def test_a_topic_waits_then_lives_then_is_silent(endpoint: str, tester: Node):
     async def story() -> None:
         async with wire_at(endpoint) as wire:
             await wire.link()
-            desk = RateDesk(wire)
 
             async def reaches(state: str, *, talks: bool) -> bool:
                 if talks:
                     out.publish(STRING(data="x"))
-                rate = await rate_of(desk, "/chatter")
+                rate = await rate_of(wire, "/chatter")
                 return rate is not None and rate.state == state
 
             await until_true(lambda: reaches("waiting", talks=False))
@@ -83,10 +82,9 @@ def test_a_latched_topic_that_spoke_before_is_not_called_silent(endpoint: str, t
     async def story() -> None:
         async with wire_at(endpoint) as wire:
             await wire.link()
-            desk = RateDesk(wire)
 
             async def is_latched() -> bool:
-                rate = await rate_of(desk, "/description")
+                rate = await rate_of(wire, "/description")
                 assert rate is None or rate.state != "silent"
                 return rate is not None and rate.state == "latched"
 

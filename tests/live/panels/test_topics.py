@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import RosNameError
-from studio.live.connection.desk import WireDesk
-from studio.live.panels.topics import TopicDesk
+from studio.live.connection.ros_connection import RosConnection
+from studio.live.panels.topics import topic_ends, topic_table
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.topics import GetTopicEnds, ListTopics, TopicEnds, TopicRow
 from studio.ros.messages import message
@@ -31,15 +31,14 @@ def test_topics_are_told_with_their_ends_and_what_would_keep_those_apart(
     tester.create_subscription(message(IMU), "/scan", print, 10)
 
     async def run() -> tuple[TopicRow, TopicEnds]:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
-        desk = TopicDesk(wire)
-        assert (await desk.table(ListTopics())).topics == ()
+        wire = RosConnection(WireChoice("off", (endpoint,)))
+        assert (await topic_table(wire, ListTopics())).topics == ()
         try:
             link = await wire.link()
             await until(lambda: len(link.graph.subscriptions("/scan")) == 2)
-            table = await desk.table(ListTopics(request=3))
-            return next(one for one in table.topics if one.name == "/scan"), desk.ends(
-                GetTopicEnds(topic="/scan")
+            table = await topic_table(wire, ListTopics(request=3))
+            return next(one for one in table.topics if one.name == "/scan"), topic_ends(
+                wire, GetTopicEnds(topic="/scan")
             )
         finally:
             await wire.close()
@@ -61,11 +60,11 @@ def test_topics_are_told_with_their_ends_and_what_would_keep_those_apart(
 
 def test_what_is_no_topic_has_no_ends(endpoint: str):
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         try:
             await wire.link()
             with pytest.raises(RosNameError):
-                TopicDesk(wire).ends(GetTopicEnds(topic="no topic"))
+                topic_ends(wire, GetTopicEnds(topic="no topic"))
         finally:
             await wire.close()
 
@@ -74,14 +73,14 @@ def test_what_is_no_topic_has_no_ends(endpoint: str):
 
 def test_what_the_studio_publishes_counts_and_by_what_it_listens_does_not(endpoint: str):
     async def run() -> dict[str, tuple[int, int]]:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         try:
             link = await wire.link()
             link.node.create_publisher(message(SCAN), "/told", 10)
             link.node.create_subscription(message(SCAN), "/heard", print, 10)
             await until(lambda: bool(link.graph.subscriptions("/heard")))
             await until(lambda: bool(link.graph.publishers("/told")))
-            table = await TopicDesk(wire).table(ListTopics())
+            table = await topic_table(wire, ListTopics())
             return {one.name: (one.publishers, one.subscribers) for one in table.topics}
         finally:
             await wire.close()

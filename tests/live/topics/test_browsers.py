@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import pytest
 
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.live.topics.browsers import SUBSCRIPTIONS_MAX, BrowserTopics
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.subscriptions import Subscribe, Unsubscribe
@@ -45,7 +45,7 @@ def said(text: str) -> Any:  # noqa: ANN401
 @asynccontextmanager
 async def browser_topics(endpoint: str) -> AsyncGenerator[BrowserTopics]:
     """The topics of a studio that is connected."""
-    wire = WireDesk(WireChoice("off", (endpoint,)))
+    wire = RosConnection(WireChoice("off", (endpoint,)))
     topics = BrowserTopics(wire.topics)
     try:
         await wire.link()
@@ -196,7 +196,7 @@ def test_a_type_that_is_not_known_here_is_heard_as_bytes(endpoint: str):
 
 def test_what_is_in_the_way_is_told_and_heals(endpoint: str):
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         topics = BrowserTopics(wire.topics)
         hearer = browser(topics)
         try:
@@ -242,7 +242,7 @@ def test_another_connection_is_heard_where_the_one_before_was(endpoint: str, tes
     out = tester.create_publisher(message(STRING), "/again", 10)
 
     async def run() -> None:
-        wire = WireDesk(WireChoice("off", (endpoint,)))
+        wire = RosConnection(WireChoice("off", (endpoint,)))
         topics = BrowserTopics(wire.topics)
         hearer = browser(topics)
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import ForeignEndpointError, NoRouterError
-from studio.live.connection.desk import WireDesk
+from studio.live.connection.ros_connection import RosConnection
 from studio.settings import WireChoice
 from tests.support.demos import node_at
 from tests.support.open_documents import Ear, until
@@ -24,8 +24,8 @@ pytestmark = pytest.mark.network
 
 
 @asynccontextmanager
-async def desk(choice: WireChoice) -> AsyncGenerator[tuple[WireDesk, Ear]]:
-    made, ear = WireDesk(choice), Ear()
+async def desk(choice: WireChoice) -> AsyncGenerator[tuple[RosConnection, Ear]]:
+    made, ear = RosConnection(choice), Ear()
     made.attach(ear)
     try:
         yield made, ear

@@ -1,4 +1,4 @@
-"""WireDesk: the one connection with a ROS 2 system, opened when it is first used."""
+"""RosConnection: the one connection with a ROS 2 system, opened when it is first used."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Listener
     from studio.settings import WireChoice
 
+
 _NODES_SHOWN: Final = 200
 _PAUSE_S: Final = 0.25
 """Between two looks at who is there."""
@@ -31,7 +32,7 @@ _OPENING_PATIENCE_S: Final = 0.5
 _Phase: TypeAlias = Literal["off", "connecting", "failed"]
 
 
-class WireDesk:
+class RosConnection:
     """Holds the connection for all documents and tells every page how it stands.
 
     Nothing of Zenoh is imported before the first `link`: who needs no ROS does not pay for it.
@@ -202,7 +203,7 @@ class WireDesk:
 
 
 def _nobody(_link: WireLink | None) -> None:
-    """For a desk whose connections nobody keeps."""
+    """Do nothing: nobody keeps where there is a connection."""
 
 
 def _state_with(link: WireLink) -> WireState:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import CommandError, DisplayError
-from studio.live.displays import live_desk
+from studio.live.displays import document_displays
 from studio.protocol.connection import ConnectWire, DisconnectWire
 from studio.protocol.displays import (
     AddDisplay,
@@ -367,7 +367,7 @@ def test_a_topic_without_a_slash_is_the_one_that_has_it_and_no_topic_says_so_alo
 def test_while_no_page_is_there_nothing_is_heard(
     endpoint: str, tester: Node, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    monkeypatch.setattr(live_desk, "_UNSEEN_S", 0.2)
+    monkeypatch.setattr(document_displays, "_UNSEEN_S", 0.2)
 
     async def run() -> None:
         poses = tester.create_publisher(message(POSE), "/aim4", 10)

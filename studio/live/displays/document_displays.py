@@ -1,4 +1,4 @@
-"""LiveDesk: the displays of a document: what is asked of them, and the tick that draws them."""
+"""DocumentDisplays: what is asked of the displays of a document, and the tick that draws them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.displays.properties import Value
-    from studio.live.connection.desk import WireDesk
+    from studio.live.connection.ros_connection import RosConnection
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from studio.live.displays.robot_reading import RobotReader
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
+
 
 _TICK_S: Final = 1 / 30
 _LOOK_EVERY_S: Final = 0.5
@@ -61,7 +62,7 @@ _ASKED_FOR_S: Final = 5.0
 _log = logging.getLogger(__name__)
 
 
-class LiveDesk:
+class DocumentDisplays:
     """Carries out what is asked, and ticks while there is anything to draw.
 
     Every command raises a CommandError or DisplayError when it cannot be done; then all is as it
@@ -82,7 +83,7 @@ class LiveDesk:
         meshes: Meshes,
         reader: RobotReader,
         file: DisplayFile,
-        wire: WireDesk,
+        wire: RosConnection,
         audience: Audience,
     ) -> None:
         self._robot, self._meshes, self._reader = robot, meshes, reader

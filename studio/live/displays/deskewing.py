@@ -1,4 +1,4 @@
-"""Carrying: points that a moving sensor met one after the other, each put where it was met."""
+"""Deskewing: points that a moving sensor met one after the other, each put where it was met."""
 
 from __future__ import annotations
 
@@ -15,21 +15,20 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.displays.drawing import Drawing, Placed, Shape, Sweep
-    from studio.live.displays.placing import Pose
+    from studio.displays.drawing import Drawing, Placed, Pose, Shape, Sweep
     from studio.tf.rotations import Pose as Row
 
 _STILL: Final = 1e-6
 """m, and parts of a unit quaternion: what moved less than this stood still."""
 
 
-class Carrying:
+class Deskewing:
     """Puts points where they were met, and remembers: what is the same stays the same object."""
 
     def __init__(self) -> None:
         self._done: dict[str, tuple[Placed, Row, Placed]] = {}
 
-    def carried(
+    def deskewed(
         self, drawing: Drawing, poses: Mapping[str, Pose | None], ends: Mapping[str, Pose]
     ) -> Drawing:
         """The same drawing as its frames at their stamps would have seen it.
@@ -45,17 +44,17 @@ class Carrying:
             if begin is not None and placed.sweep is not None:
                 motion = compose(inverse((*begin[0], *begin[1])), (*end[0], *end[1]))
                 if _moved(motion):
-                    done[path] = self._carry(path, placed, placed.sweep, motion)
+                    done[path] = self._deskew(path, placed, placed.sweep, motion)
         self._done = done
         return {**drawing, **{path: one[2] for path, one in done.items()}} if done else drawing
 
-    def _carry(
+    def _deskew(
         self, path: str, placed: Placed, sweep: Sweep, motion: Row
     ) -> tuple[Placed, Row, Placed]:
         before = self._done.get(path)
         if before is not None and before[0] is placed and before[1] == motion:
             return before
-        shapes = {name: _carried(one, sweep, motion) for name, one in placed.shapes.items()}
+        shapes = {name: _deskewed(one, sweep, motion) for name, one in placed.shapes.items()}
         return placed, motion, replace(placed, shapes=shapes)
 
 
@@ -63,13 +62,13 @@ def _moved(motion: Row) -> bool:
     return max(map(abs, motion[1:])) > _STILL
 
 
-def _carried(shape: Shape, sweep: Sweep, motion: Row) -> Shape:
+def _deskewed(shape: Shape, sweep: Sweep, motion: Row) -> Shape:
     if not isinstance(shape, Points | Solids) or len(shape.positions) != len(sweep.shares):
         return shape
-    return replace(shape, positions=carried_points(shape.positions, sweep.shares, motion))
+    return replace(shape, positions=deskewed_points(shape.positions, sweep.shares, motion))
 
 
-def carried_points(
+def deskewed_points(
     points_m: NDArray[np.float32], shares: NDArray[np.float32], begin_from_end: Row
 ) -> NDArray[np.float32]:
     """Points as seen from where the sensor was in the beginning.

@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from studio.displays.drawing import Lines, Placed, Points, Sweep
+from studio.displays.drawing import Lines, Placed, Points, Pose, Sweep
 from studio.displays.laser_scan import LaserScanDisplay
-from studio.live.displays.carrying import Carrying, carried_points
-from studio.live.displays.placing import Placing, Pose
+from studio.live.displays.deskewing import Deskewing, deskewed_points
+from studio.live.displays.placing import Placing
 from studio.tf.buffer import TransformBuffer
 from studio.tf.rotations import compose, inverse
 from tests.support.display_messages import NOW_NS, TYPES, received
@@ -67,7 +67,7 @@ def test_each_point_is_where_its_own_beam_met_it(begin: Pose, end: Pose):
     motion = compose(inverse((*begin[0], *begin[1])), (*end[0], *end[1]))
     if abs(motion[0]) < 1e-3:
         return  # half a turn has two shortest ways
-    carried = carried_points(points.astype(np.float32), shares.astype(np.float32), motion)
+    carried = deskewed_points(points.astype(np.float32), shares.astype(np.float32), motion)
     wanted = beam_by_beam(points, shares, begin, end)
     assert_allclose(in_fixed(carried, begin), wanted, atol=1e-5)
 
@@ -155,16 +155,16 @@ def group(count: int = 3, *, until_ns: int = 20) -> Placed:
 
 def test_what_stood_still_is_the_very_same_drawing():
     drawing = {"0": group()}
-    assert Carrying().carried(drawing, {"0": STILL}, {"0": STILL}) is drawing
-    assert Carrying().carried(drawing, {"0": None}, {}) is drawing
+    assert Deskewing().deskewed(drawing, {"0": STILL}, {"0": STILL}) is drawing
+    assert Deskewing().deskewed(drawing, {"0": None}, {}) is drawing
 
 
 def test_what_was_carried_before_is_not_carried_again():
-    carrying, moved = Carrying(), (STILL[0], (0.5, 0.0, 0.0))
+    carrying, moved = Deskewing(), (STILL[0], (0.5, 0.0, 0.0))
     first = group()
-    once = carrying.carried({"0": first}, {"0": STILL}, {"0": moved})
+    once = carrying.deskewed({"0": first}, {"0": STILL}, {"0": moved})
     assert once["0"].shapes["lines"] is first.shapes["lines"]
-    again = carrying.carried(
+    again = carrying.deskewed(
         {"0": first, "1": group()}, {"0": STILL, "1": STILL}, {"0": moved, "1": moved}
     )
     assert again["0"] is once["0"]
