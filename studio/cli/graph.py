@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import sys
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from studio.cli.wire import add_wire_options, opened_wire
-from studio.ros.names import check_full_name, is_hidden
+from studio.ros.names import check_full_name, full_type_name, is_hidden
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Generator, Iterable
+    from collections.abc import Callable, Generator, Iterable
 
+    from studio.cli.verbs import Verbs
     from studio.ros.graph.graph import Graph
     from studio.ros.wire.session import WireSession
 
 
+_NamesOf: TypeAlias = "Callable[[Graph], list[tuple[str, list[str]]]]"
 _FIRST_NEWS_S = 1.0
 _QUIET_S = 0.1
 
@@ -92,6 +94,39 @@ def add_hidden_option(parser: argparse.ArgumentParser, what: str) -> None:
     )
 
 
+def add_type_and_find(verbs: Verbs, noun: str, kind: str, names_of: _NamesOf) -> None:
+    """Add the verbs `type`, which prints the types of a name, and `find`, the names of a type.
+
+    Args:
+        verbs: Those of `topic`, for example.
+        noun: What has names and types: `topic`.
+        kind: Of the types: `msg`.
+        names_of: Returns each name with its types.
+    """
+
+    def print_types(options: argparse.Namespace) -> int:
+        with opened_graph(options) as graph:
+            types = dict(names_of(graph)).get(full_name(options.name), [])
+        print("".join(f"{one}\n" for one in types), end="")
+        return 0 if types else 1
+
+    def print_names(options: argparse.Namespace) -> None:
+        wanted = full_type_name(options.type, kind)
+        with opened_graph(options) as graph:
+            found = visible_names(names_of(graph), options)
+        names = [name for name, types in found if wanted in types]
+        print(f"{len(names)}\n" if options.count else "".join(f"{one}\n" for one in names), end="")
+
+    of_name = verbs.add("type", print_types, f"print the type of a {noun}")
+    of_name.add_argument("name", metavar=noun.upper())
+    add_graph_options(of_name)
+    find = verbs.add("find", print_names, f"name the {noun}s of a type")
+    find.add_argument("type", metavar="TYPE")
+    find.add_argument("-c", f"--count-{noun}s", dest="count", action="store_true")
+    add_hidden_option(find, f"{noun}s")
+    add_graph_options(find)
+
+
 def visible_names(
     found: Iterable[tuple[str, list[str]]], options: argparse.Namespace
 ) -> list[tuple[str, list[str]]]:
@@ -106,26 +141,6 @@ def print_listing(found: list[tuple[str, list[str]]], options: argparse.Namespac
         return
     for name, types in found:
         print(f"{name} [{', '.join(types)}]" if options.show_types else name)
-
-
-def print_names_of_type(
-    found: list[tuple[str, list[str]]], type_name: str, options: argparse.Namespace
-) -> None:
-    """Print the names that have a type, or how many, as `ros2`'s `find` verbs do."""
-    names = [name for name, types in found if type_name in types]
-    if options.count:
-        print(len(names))
-    else:
-        print("".join(f"{name}\n" for name in names), end="")
-
-
-def print_types_of(found: list[tuple[str, list[str]]], name: str) -> int:
-    """Print the types of a name, as `ros2`'s `type` verbs do; 1 when nobody has it."""
-    types = dict(found).get(name)
-    if types is None:
-        return 1
-    print(*types, sep="\n")
-    return 0
 
 
 def say_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]]]) -> None:

@@ -6,13 +6,10 @@ Try: `studio run joint_state_publisher joint_state_publisher robot.urdf`, then
 
 from __future__ import annotations
 
-import sys
-from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
-import studio.ros.client as rclpy
-from studio.errors import ExternalShutdownException, RobotError, SettingsError
-from studio.nodes.robot_state_publisher import LATCHED, read_urdf
+from studio.errors import RobotError, SettingsError
+from studio.nodes.robot_state_publisher import LATCHED, run_with_urdf
 from studio.robot.kinematics import Kinematics
 from studio.robot.urdf_text import robot_from_urdf
 from studio.ros.client import Node
@@ -91,10 +88,7 @@ def _at_zero(urdf: str) -> dict[str, float]:
 
 def main(args: Sequence[str] | None = None) -> None:
     """Run until the process is told to end."""
-    given = sys.argv[1:] if args is None else list(args)
-    urdf = read_urdf(given)
-    with rclpy.init(args=given), suppress(KeyboardInterrupt, ExternalShutdownException):
-        rclpy.spin(JointStateNode(urdf))
+    run_with_urdf(JointStateNode, args)
 
 
 if __name__ == "__main__":

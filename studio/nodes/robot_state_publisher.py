@@ -26,7 +26,7 @@ from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.tf.transforms import TransformColumns
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from studio.nodes.link_transforms import LinkTransform
     from studio.robot.kinematics import Kinematics
@@ -212,7 +212,7 @@ class RobotStateNode(Node):
         self._publisher.describe(values[_DESCRIPTION], robot)
 
 
-def read_urdf(arguments: Sequence[str]) -> str:
+def _read_urdf(arguments: Sequence[str]) -> str:
     """The text of the file that the first argument names; empty: none does.
 
     Raises:
@@ -225,12 +225,17 @@ def read_urdf(arguments: Sequence[str]) -> str:
         raise UnreadableFileError(named, f"cannot be read ({error}).") from error
 
 
+def run_with_urdf(node: Callable[[str], Node], args: Sequence[str] | None) -> None:
+    """Run a node, made of the URDF that the first word names, until the process is told to end."""
+    given = sys.argv[1:] if args is None else list(args)
+    urdf = _read_urdf(given)
+    with rclpy.init(args=given), suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.spin(node(urdf))
+
+
 def main(args: Sequence[str] | None = None) -> None:
     """Run until the process is told to end."""
-    given = sys.argv[1:] if args is None else list(args)
-    urdf = read_urdf(given)
-    with rclpy.init(args=given), suppress(KeyboardInterrupt, ExternalShutdownException):
-        rclpy.spin(RobotStateNode(urdf))
+    run_with_urdf(RobotStateNode, args)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from studio.cli.own_node import named_node, nodes_serving, own_node, print_error
@@ -13,6 +14,7 @@ from studio.errors import WireError
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Generator
 
     from studio.cli.own_node import OwnNode
     from studio.ros.lifecycle.client import LifecycleClient
@@ -77,29 +79,33 @@ def _get(options: argparse.Namespace) -> int:
 
 
 def _list(options: argparse.Namespace) -> int:
-    from studio.ros.lifecycle.client import LifecycleClient
-
-    with own_node(options) as own:
-        node = named_node(own, options)
-        if node is None:
+    with _named_client(options) as remote:
+        if remote is None:
             return 1
-        with LifecycleClient(own.node, node) as remote:
-            found = remote.transition_graph() if options.all else remote.available_transitions()
-        for one in found:
-            print(f"- {harmless(one.transition.label)} [{one.transition.id}]")
-            print(f"\tStart: {one.start_state.label}\n\tGoal: {one.goal_state.label}")
+        found = remote.transition_graph() if options.all else remote.available_transitions()
+    for one in found:
+        print(f"- {harmless(one.transition.label)} [{one.transition.id}]")
+        print(f"\tStart: {one.start_state.label}\n\tGoal: {one.goal_state.label}")
     return 0
 
 
 def _set(options: argparse.Namespace) -> int:
+    with _named_client(options) as remote:
+        return 1 if remote is None else _change(remote, options.transition.strip())
+
+
+@contextmanager
+def _named_client(options: argparse.Namespace) -> Generator[LifecycleClient | None]:
+    """Give a client of the node that is named; None, after words on stderr, if it is not there."""
     from studio.ros.lifecycle.client import LifecycleClient
 
     with own_node(options) as own:
         node = named_node(own, options)
         if node is None:
-            return 1
+            yield None
+            return
         with LifecycleClient(own.node, node) as remote:
-            return _change(remote, options.transition.strip())
+            yield remote
 
 
 def _change(remote: LifecycleClient, wanted: str) -> int:

@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING
 
 from studio.cli.graph import (
     add_graph_options,
-    add_hidden_option,
     add_listing_options,
+    add_type_and_find,
     full_name,
     opened_graph,
     print_listing,
-    print_names_of_type,
-    print_types_of,
     say_other_types,
     say_unknown,
     visible_names,
@@ -40,31 +38,13 @@ def add(parser: argparse.ArgumentParser) -> None:
     info = verbs.add("info", _info, "say the type of a service and how many serve and call it")
     info.add_argument("service_name", metavar="SERVICE")
     add_graph_options(info)
-    kind = verbs.add("type", _type, "print the type of a service")
-    kind.add_argument("service_name", metavar="SERVICE")
-    add_graph_options(kind)
-    find = verbs.add("find", _find, "name the services of a type")
-    find.add_argument("type", metavar="TYPE")
-    find.add_argument("-c", "--count-services", dest="count", action="store_true")
-    add_hidden_option(find, "services")
-    add_graph_options(find)
+    add_type_and_find(verbs, "service", "srv", lambda graph: graph.services())
     _add_call(verbs)
 
 
 def _list(options: argparse.Namespace) -> None:
     with opened_graph(options) as graph:
         print_listing(visible_names(graph.services(), options), options)
-
-
-def _type(options: argparse.Namespace) -> int:
-    with opened_graph(options) as graph:
-        return print_types_of(graph.services(), full_name(options.service_name))
-
-
-def _find(options: argparse.Namespace) -> None:
-    wanted = full_type_name(options.type, "srv")
-    with opened_graph(options) as graph:
-        print_names_of_type(visible_names(graph.services(), options), wanted, options)
 
 
 def _info(options: argparse.Namespace) -> int:

@@ -6,18 +6,15 @@ from typing import TYPE_CHECKING
 
 from studio.cli.graph import (
     add_graph_options,
-    add_hidden_option,
     add_listing_options,
+    add_type_and_find,
     full_name,
     opened_graph,
     print_listing,
-    print_names_of_type,
-    print_types_of,
     say_unknown,
     visible_names,
 )
 from studio.cli.terminal import harmless
-from studio.ros.names import full_type_name
 
 if TYPE_CHECKING:
     import argparse
@@ -39,14 +36,7 @@ def add(verbs: Verbs) -> None:
         "-v", "--verbose", action="store_true", help="each end with its node, QoS and type hash"
     )
     add_graph_options(info)
-    kind = verbs.add("type", _type, "print the type of a topic")
-    kind.add_argument("topic_name", metavar="TOPIC")
-    add_graph_options(kind)
-    find = verbs.add("find", _find, "name the topics of a type")
-    find.add_argument("type", metavar="TYPE")
-    find.add_argument("-c", "--count-topics", dest="count", action="store_true")
-    add_hidden_option(find, "topics")
-    add_graph_options(find)
+    add_type_and_find(verbs, "topic", "msg", lambda graph: graph.topics())
 
 
 def _list(options: argparse.Namespace) -> None:
@@ -71,18 +61,6 @@ def _counts(graph: Graph, found: list[tuple[str, list[str]]]) -> str:
                 lines.append(f" * {name} [{', '.join(types)}] {ends}\n")
         blocks.append("".join(lines))
     return "\n".join(blocks)
-
-
-def _type(options: argparse.Namespace) -> int:
-    with opened_graph(options) as graph:
-        return print_types_of(graph.topics(), full_name(options.topic_name))
-
-
-def _find(options: argparse.Namespace) -> None:
-    with opened_graph(options) as graph:
-        print_names_of_type(
-            visible_names(graph.topics(), options), full_type_name(options.type), options
-        )
 
 
 def _info(options: argparse.Namespace) -> int:
