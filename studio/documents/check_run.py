@@ -322,16 +322,16 @@ def _findings(files: Sequence[CheckedFile]) -> Iterator[tuple[str, Problem]]:
 
     What robots share may have another prefix in the names of its links and joints in each.
     """
-    told: set[object] = set()
+    listed: set[object] = set()
     told_by_others: set[object] = set()
     for file in files:
         shared: set[object] = set()
         for problem in file.problems:
             where = problem.place or file.path
             mark, nameless = ((problem.code, one, where) for one in _sentences(problem))
-            if mark in told or nameless in told_by_others:
+            if mark in listed or nameless in told_by_others:
                 continue
-            told.add(mark)
+            listed.add(mark)
             shared.add(nameless)
             yield str(file.path), problem
         told_by_others |= shared

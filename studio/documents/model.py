@@ -64,12 +64,12 @@ class JointPositions:
     def follow(self, positions: Mapping[str, float]) -> None:
         """Stand where a robot that runs says it does, be it beyond the limits of the model."""
         free = set(self.kinematics.free)
-        told = {
+        reported = {
             name: value
             for name, value in positions.items()
             if name in free and abs(value) < _POSITION_LIMIT
         }
-        self._set_all(self.kinematics.positions_with_mimic(self.by_name() | told))
+        self._set_all(self.kinematics.positions_with_mimic(self.by_name() | reported))
 
     def zero(self) -> None:
         """All to zero, or to the nearest position within the limits."""

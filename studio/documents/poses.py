@@ -97,7 +97,7 @@ class NamedPoses:
         if not positions:
             title = self._workspace.title
             raise CommandError(f"{title} has no joint that moves: there is no pose to keep.")
-        self._shelf.look()
+        self._shelf.refresh()
         names = [pose.name for pose in self._shelf.items]
         if command.replace and command.name in names:
             made = NamedPose(command.name, positions)
@@ -128,14 +128,14 @@ class NamedPoses:
     async def _changed_on_disk(self, files: set[str]) -> None:
         if files - {str(self._shelf.path)}:
             self._search.invalidate()
-        self._shelf.look()
+        self._shelf.refresh()
         self.trigger()
 
     async def _refresh(self) -> None:
         if await self._search.search():
             found = self._search.found
             self._watch.watch({str(self._shelf.path), *found.files}, found.folders)
-            self._shelf.look()
+            self._shelf.refresh()
         self._tell()
 
     def _fitting(self) -> Iterator[tuple[_Kind, NamedPose]]:

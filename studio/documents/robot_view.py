@@ -30,8 +30,8 @@ class RobotView:
         self.animating = False
         self._links: dict[str, tuple[Link, Part | None, LinkView]] = {}
         self._joints: dict[str, tuple[Joint, Part | None, JointView]] = {}
-        self._robot_told: RobotState | None = None
-        self._joints_told: JointPositions | None = None
+        self._robot_sent: RobotState | None = None
+        self._joints_sent: JointPositions | None = None
 
     def tell(self) -> bool:
         """Tell the robot's tree and where its joints stand, as far as that is news.
@@ -40,13 +40,13 @@ class RobotView:
             Whether the tree is another one.
         """
         robot, joints = self.robot_event(), self.joints_event()
-        is_new = robot != self._robot_told
+        is_new = robot != self._robot_sent
         if is_new:
-            self._robot_told, self._joints_told = robot, None
+            self._robot_sent, self._joints_sent = robot, None
             self._audience.tell(robot)
-        if joints != self._joints_told:
+        if joints != self._joints_sent:
             self._audience.tell(joints)
-        self._joints_told = joints
+        self._joints_sent = joints
         return is_new
 
     def tell_joints(self) -> None:

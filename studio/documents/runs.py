@@ -239,7 +239,7 @@ class Runs:
             self._questions.run_ended()
 
     def _check_later(self, outcome: Outcome) -> None:
-        """When it is quiet for a while, have a full run look at what edits have patched."""
+        """When it is quiet for a while, have a full run check what edits have patched."""
         self._check.cancel()
         if isinstance(outcome, Expansion) and outcome.is_patch:
             self._check.trigger()
@@ -253,7 +253,7 @@ class Runs:
         try:
             await self._check_once()
         except Exception:  # noqa: BLE001 - those who wait for a turn must get it
-            _log.exception("A look at what was patched failed.")
+            _log.exception("The check of what was patched failed.")
         if not self._waiters:
             gc.collect(1)  # what edits left: now nobody waits for it
         await self._take_turns()

@@ -100,7 +100,7 @@ class NamedItems(Generic[Item]):
         self.items: tuple[Item, ...] = ()
         self._fault: DescriptionError | PackageError | None = None
         """What is wrong with the file; the last good items stay."""
-        self.look()
+        self.refresh()
 
     @property
     def only_here(self) -> str:
@@ -112,7 +112,7 @@ class NamedItems(Generic[Item]):
         """What is wrong with the file, in a sentence."""
         return str(self._fault or "")
 
-    def look(self) -> None:
+    def refresh(self) -> None:
         """Read the file."""
         if self._here is not None:
             return
@@ -130,7 +130,7 @@ class NamedItems(Generic[Item]):
         Raises:
             CommandError: There is none.
         """
-        self.look()
+        self.refresh()
         for one in self.items:
             if one.name == name:
                 return one
@@ -145,7 +145,7 @@ class NamedItems(Generic[Item]):
         name, noun = wanted.strip(), self._kind.noun
         if not name or len(name) > NAME_LIMIT or not name.isprintable():
             raise CommandError(f"A {noun} needs a name of one line, up to {NAME_LIMIT} letters.")
-        self.look()
+        self.refresh()
         if any(one.name == name for one in self.items):
             raise CommandError(f'There is a {noun} "{name}" already: choose another name.')
         return name
@@ -158,11 +158,11 @@ class NamedItems(Generic[Item]):
             PackageError: It leads out of the opened folders, or is no file.
             NotSavedError: The disk refused it.
         """
-        self.look()
+        self.refresh()
         if self._fault is not None:
             raise self._fault
         if self._here is not None or self.only_here:
             self._here = self.items = tuple(items)
             return
         self._file.write(self._kind.write(str(self.path), self._entry.name, self._data, items))
-        self.look()
+        self.refresh()

@@ -74,14 +74,14 @@ def test_a_broken_file_is_told_leaves_the_last_good_ones_and_is_not_overwritten(
     shelf = shelf_at(entry)
     shelf.put((ONE,))
     shelf.path.write_text("variants: 7\n")
-    shelf.look()
+    shelf.refresh()
     assert shelf.items == (ONE,)
     assert "line 1 must be a list" in shelf.trouble
     with pytest.raises(VariantsFileError):
         shelf.put((ONE, TWO))
     assert shelf.path.read_text() == "variants: 7\n"
     shelf.path.unlink()
-    shelf.look()
+    shelf.refresh()
     assert (shelf.items, shelf.trouble) == ((), "")
 
 
@@ -89,7 +89,7 @@ def test_a_folder_that_is_only_read_keeps_them_for_the_session(entry: Path):
     shelf = shelf_at(entry, read_only=True)
     shelf.put((ONE,))
     assert shelf.only_here == f"the folder {entry.parent} may only be read here."
-    shelf.look()
+    shelf.refresh()
     assert shelf.items == (ONE,)
     assert not shelf.path.exists()
 
@@ -108,7 +108,7 @@ def test_a_link_out_of_the_folders_is_neither_read_nor_written(entry: Path, tmp_
 def test_a_folder_in_its_place_is_told(entry: Path):
     shelf = shelf_at(entry)
     shelf.path.mkdir()
-    shelf.look()
+    shelf.refresh()
     assert shelf.trouble
     with pytest.raises(UnreadableFileError):
         shelf.put((ONE,))

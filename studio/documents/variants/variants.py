@@ -199,7 +199,7 @@ class NamedVariants:
 
     async def _changed_on_disk(self, files: set[str]) -> None:
         if str(self._shelf.path) in files:
-            self._shelf.look()
+            self._shelf.refresh()
         if files & self._comparison.files:
             self._comparison.remake()
         self.trigger()
