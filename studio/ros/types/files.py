@@ -159,11 +159,14 @@ def _holds_types(folder: Path) -> bool:
 def _name_of(folder: Path) -> str:
     """Return the name in the package.xml, else that of the folder.
 
+    A package.xml that is a link out of the folder is passed over.
+
     Raises:
         UnreadableFileError: The package.xml is too large, no regular file, or cannot be read.
     """
     manifest = folder / _MANIFEST
-    return (_name_in(read_text(manifest)) if manifest.is_file() else "") or folder.name
+    is_here = manifest.is_file() and manifest.resolve().is_relative_to(folder.resolve())
+    return (_name_in(read_text(manifest)) if is_here else "") or folder.name
 
 
 def _name_in(manifest: str) -> str:

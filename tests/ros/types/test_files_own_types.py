@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
@@ -30,6 +31,14 @@ def test_a_package_a_folder_of_packages_and_a_file_are_read_alike(package: Path)
     told = {CELL: "float32 voltage\n"}
     for path in (package, package.parent, package / "msg" / "Cell.msg"):
         assert texts_at(path).texts == told
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no links there")
+def test_a_manifest_that_is_a_link_out_of_its_folder_is_passed_over(package: Path, tmp_path: Path):
+    manifest = package / "package.xml"
+    manifest.rename(tmp_path / "package.xml")
+    manifest.symlink_to(tmp_path / "package.xml")
+    assert texts_at(package).texts == {"checkout/msg/Cell": "float32 voltage\n"}
 
 
 def test_what_holds_no_types_is_one_sentence(tmp_path: Path, package: Path):
