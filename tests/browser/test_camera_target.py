@@ -1,4 +1,4 @@
-"""The camera goes with a frame, and what is fitted is all that is drawn."""
+"""The camera follows a frame, and what is fitted is all that is drawn."""
 
 from __future__ import annotations
 

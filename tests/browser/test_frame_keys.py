@@ -97,7 +97,7 @@ def test_a_panel_moves_by_keys_and_the_layout_comes_back_by_its_name(tab: Studio
     wait_until("its focus kept", lambda: tab.page.evaluate(focused) == "Variants")
     search(tab, ">layouts")
     tab.page.keyboard.press("Enter")
-    tab.page.get_by_label("Name of the present layout").fill("Variants <b>aside</b>")
+    tab.page.get_by_label("Name of the current layout").fill("Variants <b>aside</b>")
     tab.page.keyboard.press("Enter")
     tab.page.get_by_role("button", name="Variants <b>aside</b>", pressed=True).wait_for()
     tab.page.keyboard.press("Escape")
@@ -116,7 +116,7 @@ def test_a_panel_whose_words_come_with_it_stays_the_one_that_keys_are_for(tab: S
     search(tab, "diagnostics")
     tab.page.keyboard.press("Enter")
     panel = tab.page.get_by_role("tabpanel", name="Diagnostics")
-    panel.get_by_text("Not connected with ROS 2.").wait_for()
+    panel.get_by_text("Not connected to ROS 2.").wait_for()
     active = tab.page.locator(".dv-active-group .dv-active-tab")
     assert active.inner_text() == "Diagnostics"
 
@@ -127,7 +127,7 @@ def test_layouts_travel_as_a_file_and_what_is_no_such_file_is_refused(
 ):
     search(tab, ">layouts")
     tab.page.keyboard.press("Enter")
-    tab.page.get_by_label("Name of the present layout").fill("Mine")
+    tab.page.get_by_label("Name of the current layout").fill("Mine")
     tab.page.keyboard.press("Enter")
     with tab.page.expect_download() as download:
         tab.page.get_by_role("button", name="Save Mine as a file").click()

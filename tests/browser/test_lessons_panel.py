@@ -43,7 +43,7 @@ def lessons_of(tab: StudioPage) -> Locator:
 
 
 def start_both(panel: Locator) -> None:
-    panel.get_by_text("Not connected with ROS 2.").wait_for()
+    panel.get_by_text("Not connected to ROS 2.").wait_for()
     assert panel.get_by_role("button", name="Start listener").is_disabled()
     panel.get_by_role("button", name="Connect").click()
     panel.get_by_role("button", name="Start all 2").click()

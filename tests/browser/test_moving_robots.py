@@ -200,7 +200,7 @@ def test_r2d2_goes_its_round_and_the_scan_of_the_rover_lies_on_the_walls(
         stands_still_in_axis(scene, robot)
         scan_lies_on_the_walls(scene, node)
         offers_to_follow(tab, "map", "Follow base_footprint")
-        tab.page.get_by_role("button", name="The camera goes with base_footprint").wait_for()
+        tab.page.get_by_role("button", name="The camera follows base_footprint").wait_for()
         scene.draw_in("odom")
         wait_until("the robot in odom", lambda: "robot" in scene.poses(""), _PATIENCE_S)
         assert not tab.page.get_by_text(_MAY_DRIVE_OUT).is_visible()

@@ -47,7 +47,7 @@ def test_a_missing_package_is_pointed_at_and_the_robot_appears(browser: Browser,
         tab = StudioPage(context.new_page())
         tab.page.goto(studio.url)
         tab.page.get_by_role("button", name="Choose its folder").first.click()
-        tab.page.get_by_label("Or write its folder").fill(str(elsewhere))
+        tab.page.get_by_label("Or type the path of its folder").fill(str(elsewhere))
         tab.page.get_by_role("button", name="Use this folder").click()
         wait_until("the robot to be drawn", tab.has_drawn_robot)
         assert tab.errors == []

@@ -69,7 +69,7 @@ def look_around(window: Locator, alone: str, humble: str) -> None:
     for place, said, remedy in (
         (free_endpoint(), "No router answers at", "ros2 run rmw_zenoh_cpp rmw_zenohd"),
         (alone, "is there, but no node is", "export RMW_IMPLEMENTATION=rmw_zenoh_cpp"),
-        (humble, "neither hears the other", "Speak humble"),
+        (humble, "neither side receives the other's", "Speak humble"),
     ):
         address.fill(place)
         domain.fill("0")

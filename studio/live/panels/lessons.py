@@ -302,7 +302,7 @@ class CourseDemos:
     def _connected(self) -> WireLink:
         link = self._wire.current
         if self._closed or link is None:
-            raise CommandError("Not connected with ROS 2: connect first.")
+            raise CommandError("Not connected to ROS 2: connect first.")
         if not link.is_connected:
             raise CommandError(
                 f"The router at {link.endpoint} is gone: a demo would meet nobody until it is back."

@@ -31,7 +31,7 @@ _CHANGE_S: Final = 30.0
 _KEPT_S: Final = 20.0
 """Clients stay so long after the last question: whoever looks asks every second."""
 _AT_ONCE: Final = 8
-_LEFT: Final = "Not connected with ROS 2: connect first."
+_LEFT: Final = "Not connected to ROS 2: connect first."
 
 
 class LifecycleNodes:

@@ -197,7 +197,7 @@ def test_without_a_connection_or_such_a_demo_nothing_starts():
     async def run() -> None:
         desk = CourseDemos(RosConnection(WireChoice("off")))
         assert (await desk.demos(GetDemos())).elsewhere == ()
-        with pytest.raises(CommandError, match="Not connected with ROS 2: connect first"):
+        with pytest.raises(CommandError, match="Not connected to ROS 2: connect first"):
             await desk.start(StartDemo(demo="talker"))
         for name in ("os", "../talker", "studio.cli", ""):
             with pytest.raises(CommandError, match="No demo is called"):
