@@ -65,15 +65,15 @@ Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadReques
 
 
 def verified(
-    answer: Expansion | Failure, told: Expansion | None, entry: str
+    answer: Expansion | Failure, before: Expansion | None, entry: str
 ) -> Expansion | Failure:
-    """A full run's answer: news only when it corrects anything, which is told and logged.
+    """A full run's answer: news only when it corrects anything, which is a warning, and logged.
 
     One that only proves the patches right is marked as they are.
     """
     if isinstance(answer, Failure):
         return _unproven(answer, entry)
-    found = list(_corrections(answer, told))
+    found = list(_corrections(answer, before))
     if not found:
         return replace(answer, is_patch=True)
     what = f"{len(found)} of the shown values, the first {found[0]}"
@@ -91,7 +91,7 @@ def _unproven(failure: Failure, entry: str) -> Failure:
     return replace(failure, problem=problem)
 
 
-def _corrections(answer: Expansion, told: Expansion | None) -> Iterator[str]:
+def _corrections(answer: Expansion, before: Expansion | None) -> Iterator[str]:
     """What a full run says otherwise, each by its name."""
     yield from (part.key for part in answer.changed_parts)
     yield from (site.id for site in answer.changed_sites)
@@ -99,10 +99,10 @@ def _corrections(answer: Expansion, told: Expansion | None) -> Iterator[str]:
         yield "the order of parts"
     if answer.site_order is not None:
         yield "the order of texts"
-    if told is None:
+    if before is None:
         return
     for name in ("robot_name", "root_attributes", "files", "include_tree", "warnings"):
-        if getattr(answer, name) != getattr(told, name):
+        if getattr(answer, name) != getattr(before, name):
             yield name
 
 
@@ -120,9 +120,9 @@ class Session:
         self._good: GoodRun | None = None
         self._origins: Origins | None = None
         """Answers questions about the last good run, once there was one."""
-        self._doubted: set[str] = set()
+        self._touched: set[str] = set()
         """Files edited or read anew since the last full run, whose sites the other side moved."""
-        self._told: Expansion | None = None
+        self._answered: Expansion | None = None
         """The last good answer."""
         self._live: LiveRun | None = None
         """The last run, when it was a good one that can be patched."""
@@ -145,7 +145,7 @@ class Session:
             if patch is not None:
                 self._live = live
                 return self._patched(live, patch)
-            self._doubted |= live.texts.edited
+            self._touched |= live.texts.edited
             if isinstance(request, EditRequest) and live.has_edited:
                 return self.run()
         try:
@@ -170,8 +170,8 @@ class Session:
         if live is None:
             return self.run()
         self._sites.update(live.texts.moved(self._sites))
-        told = self._told
-        answer = verified(self.run(), told, self._entry)
+        before = self._answered
+        answer = verified(self.run(), before, self._entry)
         if self._live is not None:
             self._live.expect_edits_like(live)
         return answer
@@ -185,7 +185,7 @@ class Session:
         self._parts.update((part.key, part.element) for part in changed)
         self._sites.update((site.id, site) for site in sites)
         self._keep_good(root, record, "studio")
-        self._told = Expansion(
+        self._answered = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
             part_order=None,
@@ -198,7 +198,7 @@ class Session:
             evaluator="studio",
             is_patch=True,
         )
-        return self._told
+        return self._answered
 
     def query(self, query: Query) -> Reply:
         """Answer a question from the last good run; nothing changes.
@@ -234,11 +234,11 @@ class Session:
         match request:
             case EditRequest(edits=edits):
                 self._store.edit(edits)
-                self._doubted.update(self._store.resolve(edit.file) for edit in edits)
+                self._touched.update(self._store.resolve(edit.file) for edit in edits)
             case ArgumentsRequest(arguments=arguments):
                 self._arguments = dict(arguments)
             case ReloadRequest(files=files, overlay=overlay):
-                self._doubted.update(files, overlay)
+                self._touched.update(files, overlay)
                 self._store.reload(files, overlay)
             case OpenRequest() | VerifyRequest():
                 pass
@@ -293,13 +293,13 @@ class Session:
         """Answer the robot that broken texts come to."""
         parts = plain_parts(root)
         part_order, files = tuple(part.key for part in parts), tuple(run.store.asked)
-        is_same = self._told is not None and part_order == tuple(self._parts)
+        is_same = self._answered is not None and part_order == tuple(self._parts)
         expansion = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
             part_order=None if is_same else part_order,
             changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.element),
-            site_order=None if self._told else (),
+            site_order=None if self._answered else (),
             changed_sites=(),
             files=tuple(dict.fromkeys((*self._store.asked, *files))),
             include_tree=tuple(run.evaluation.includes),
@@ -308,7 +308,7 @@ class Session:
             is_recovered=True,
         )
         self._parts = {part.key: part.element for part in parts}
-        self._told = expansion
+        self._answered = expansion
         return expansion
 
     def _fall_back(self) -> tuple[Evaluation, OutputElement]:
@@ -330,9 +330,9 @@ class Session:
         expansion = Expansion(
             robot_name=root.attributes.get("name", ""),
             root_attributes=tuple(root.attributes.items()),
-            part_order=None if self._told and part_order == tuple(self._parts) else part_order,
+            part_order=None if self._answered and part_order == tuple(self._parts) else part_order,
             changed_parts=tuple(part_of(p) for p in parts if self._parts.get(p.key) != p.element),
-            site_order=None if self._told and site_order == tuple(self._sites) else site_order,
+            site_order=None if self._answered and site_order == tuple(self._sites) else site_order,
             changed_sites=tuple(s for s in sites if self._is_new(s)),
             files=record.files,
             include_tree=record.includes,
@@ -340,10 +340,10 @@ class Session:
             evaluator="xacro" if reason else "studio",
             fallback_reason=reason,
         )
-        self._doubted.clear()
+        self._touched.clear()
         self._parts = {part.key: part.element for part in parts}
         self._sites = {site.id: site for site in sites}
-        self._told = expansion
+        self._answered = expansion
         self._keep_good(root, record, expansion.evaluator)
         self._fault, self._chain_to = "", evaluation.chain_to
         if not reason:
@@ -365,9 +365,9 @@ class Session:
         self._origins = None
 
     def _is_new(self, site: Site) -> bool:
-        """Whether a site is told: it changed, or who moved it with the edits may have it wrong."""
+        """Whether a site is sent: it changed, or the other side may have moved it wrongly."""
         before = self._sites.get(site.id)
-        return site.place.file in self._doubted or (before is not site and before != site)
+        return site.place.file in self._touched or (before is not site and before != site)
 
     def _record(self, evaluation: Evaluation, index: OutputIndex) -> RunRecord:
         files = tuple(self._store.asked)

@@ -53,14 +53,14 @@ def _nameless(run: CheckedRun) -> Problem:
 
 def _differing_materials(run: CheckedRun) -> Iterator[Problem]:
     first: dict[str, OutputElement] = {}
-    told: set[str] = set()
+    reported: set[str] = set()
     for element in run.keys:
         name = element.attributes.get("name", "")
-        if element.tag != "material" or not name or name in told or not element.children:
+        if element.tag != "material" or not name or name in reported or not element.children:
             continue
         known = first.setdefault(name, element)
         if known is not element and _look(known) != _look(element):
-            told.add(name)
+            reported.add(name)
             sentence = (
                 f"The material {quoteattr(name)} is defined in line {known.origin.line} with "
                 "another look, which counts for both: give one of them a name of its own."

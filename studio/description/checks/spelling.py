@@ -73,11 +73,11 @@ _URDF: Final = {
 
 def misspelt_names(run: CheckedRun) -> Iterator[Problem]:
     """Each element and attribute that is likely misspelt, once, however often it came out."""
-    told: set[tuple[SourceElement, str]] = set()
+    reported: set[tuple[SourceElement, str]] = set()
     for part, key in run.keys.items():
         for problem, mark in _within(run, "robot", part, (key,)):
-            if mark not in told and len(told) < _LIMIT:
-                told.add(mark)
+            if mark not in reported and len(reported) < _LIMIT:
+                reported.add(mark)
                 yield problem
 
 

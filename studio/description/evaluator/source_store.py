@@ -225,8 +225,8 @@ def _unreadable(path: str, sentence: str) -> Fault:
         names = []
     if not names or name in names:
         return Fault("file-unreadable", sentence, unreadable=True)
-    told = sentence.removesuffix(".")
-    fault = misnamed("file-unreadable", told, name, names, "look for it there.")
+    reason = sentence.removesuffix(".")
+    fault = misnamed("file-unreadable", reason, name, names, "look for it there.")
     if fault.misnamed is None:
         fault = Fault("file-unreadable", sentence)
     fault.unreadable = True

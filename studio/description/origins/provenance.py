@@ -80,7 +80,7 @@ class _Collector:
         attributes = tuple(islice(self._attributes(top), ATTRIBUTES_KEPT + 1))
         calls = tuple(self._call(frame) for frame in _frames(top.calls))
         causes = tuple(self._cause(one) for one in _governors(self._trace.governors.get(top)))
-        inputs = self._told()
+        inputs = self._all_inputs()
         place = top.origin.place
         return PartOrigin(
             part=part,
@@ -158,7 +158,7 @@ class _Collector:
         )
 
     def _all(self, inputs: Iterable[Input]) -> tuple[int, ...]:
-        """The numbers of inputs, which are told from now on; what is no text is left out."""
+        """The numbers of inputs, which are listed from now on; what is no text is left out."""
         numbers = (self._number(one) for one in inputs)
         return tuple(dict.fromkeys(number for number in numbers if number is not None))
 
@@ -174,13 +174,13 @@ class _Collector:
             return None
         return self._numbers.setdefault(one, len(self._numbers))
 
-    def _told(self) -> tuple[OriginInput, ...]:
+    def _all_inputs(self) -> tuple[OriginInput, ...]:
         """All that was numbered, and what is behind it, which gets its number on the way."""
-        told: list[OriginInput] = []
-        while len(told) < len(self._numbers):
-            waiting = list(self._numbers)[len(told) :]
-            told += [self._input(one) for one in waiting]
-        return tuple(told)
+        found: list[OriginInput] = []
+        while len(found) < len(self._numbers):
+            waiting = list(self._numbers)[len(found) :]
+            found += [self._input(one) for one in waiting]
+        return tuple(found)
 
     def _input(self, one: Input) -> OriginInput:
         match one:
