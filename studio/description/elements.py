@@ -40,12 +40,15 @@ class Element(NamedTuple):
     def elements(self, tag: str | None = None) -> Iterator[Element]:
         """Yield the child elements in order, or those of one tag."""
         for child in self.children:
-            if not isinstance(child, str) and tag in {None, child.tag}:
+            if not isinstance(child, str) and (tag is None or child.tag == tag):
                 yield child
 
     def find(self, tag: str) -> Element | None:
         """Return the first child element of a tag."""
-        return next(self.elements(tag), None)
+        for child in self.children:
+            if not isinstance(child, str) and child.tag == tag:
+                return child
+        return None
 
     @property
     def xml(self) -> str:
