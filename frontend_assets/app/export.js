@@ -41,8 +41,8 @@ async function download(what) {
 
 /** @param {Response} answer @returns {string} as its header says (RFC 6266) */
 function nameOf(answer) {
-  const told = answer.headers.get("content-disposition") ?? "";
-  const coded = told.split("filename*=UTF-8''")[1];
+  const disposition = answer.headers.get("content-disposition") ?? "";
+  const coded = disposition.split("filename*=UTF-8''")[1];
   return coded ? decodeURIComponent(coded) : "robot";
 }
 

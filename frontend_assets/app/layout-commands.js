@@ -8,7 +8,7 @@ import { effect } from "vendor/preact.js";
 import { addCommands, replaceCommands } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { openMenu } from "../lib/ui.js";
-import { dialog, isFree, layoutDesk, size } from "../model/view.js";
+import { dialog, isFree, layoutControl, size } from "../model/view.js";
 import { helpTitle, openHelp } from "./help.js";
 import { LIVE, layoutInUse, ownLayouts } from "./layouts.js";
 import { PANELS, panelTitle } from "./panels.js";
@@ -83,7 +83,7 @@ function placeCommands(dock) {
       enabled: shown,
       run: () => dock.close(dock.active() ?? ""),
     },
-    { id: "reset_layout", icon: "reset", enabled: wide, run: () => layoutDesk.value?.reset() },
+    { id: "reset_layout", icon: "reset", enabled: wide, run: () => layoutControl.value?.reset() },
     {
       id: "layouts",
       icon: "layout",
@@ -117,7 +117,7 @@ function layoutCommands() {
     label: () => t("layouts.use", { name: layoutName(name) }),
     ...(at < KEYS_MOST ? { keys: [`Mod+${at + 1}`], inText: true } : {}),
     enabled: () => size.value !== "phone" && isFree(),
-    run: () => layoutDesk.value?.use(name),
+    run: () => layoutControl.value?.use(name),
   }));
 }
 
@@ -133,7 +133,7 @@ export function layoutItems() {
   return layoutNames().map((name) => ({
     label: layoutName(name),
     checked: layoutInUse.value === name,
-    run: () => layoutDesk.value?.use(name),
+    run: () => layoutControl.value?.use(name),
   }));
 }
 

@@ -6,7 +6,7 @@ import { html, useRef, useSignal } from "vendor/preact.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, Icon, IconButton } from "../lib/ui.js";
-import { layoutDesk, notify } from "../model/view.js";
+import { layoutControl, notify } from "../model/view.js";
 import { layoutName } from "./layout-commands.js";
 import {
   addLayouts,
@@ -38,7 +38,7 @@ export function LayoutsDialog({ onClose }) {
       <button type="button" class="button" disabled=${own.length === 0} onClick=${() => saveAsFile(FILE, layoutFile(own))}>
         <${Icon} name="download" />${t("layouts.export_all")}</button>
       <span class="push"></span>
-      <button type="button" class="button" onClick=${() => layoutDesk.value?.reset()}><${Icon} name="reset" />${t("command.reset_layout")}</button></footer>
+      <button type="button" class="button" onClick=${() => layoutControl.value?.reset()}><${Icon} name="reset" />${t("command.reset_layout")}</button></footer>
   <//>`;
 }
 
@@ -47,9 +47,9 @@ function SaveForm() {
   /** @param {Event} event */
   const save = (event) => {
     event.preventDefault();
-    const desk = layoutDesk.value;
-    if (!desk || name.value.trim() === "") return;
-    const kept = saveLayout(name.value, desk.present());
+    const control = layoutControl.value;
+    if (!control || name.value.trim() === "") return;
+    const kept = saveLayout(name.value, control.present());
     notify(t(kept ? "layouts.saved" : "layouts.full", { name: name.value.trim() }), { bad: !kept });
     if (kept) name.value = "";
   };
@@ -68,7 +68,7 @@ function Row({ name, layout, onClose }) {
   const shown = layoutName(name);
   const inUse = layoutInUse.value === name;
   const use = () => {
-    layoutDesk.value?.use(name);
+    layoutControl.value?.use(name);
     onClose();
   };
   if (naming.value) {

@@ -11,7 +11,7 @@
 import { effect, signal, untracked } from "vendor/preact.js";
 import { readArrangement } from "../lib/arrangement.js";
 import { recall, remember, remembered } from "../lib/remembered.js";
-import { layoutDesk, size } from "../model/view.js";
+import { layoutControl, size } from "../model/view.js";
 
 const PHONE_BELOW_PX = 700;
 const LOW_BELOW_PX = 480;
@@ -90,7 +90,7 @@ export function followSize(dock, element, panels) {
   addEventListener("resize", measure);
   effect(arrange);
   effect(dock.nameAll);
-  layoutDesk.value = deskFor(dock, arrange);
+  layoutControl.value = controlFor(dock, arrange);
   return {
     keep() {
       if (size.peek() !== "phone") remember(storeName(size.peek()), dock.arrangement());
@@ -113,8 +113,8 @@ function givenLayout(kind, width, height, panels) {
   return modelLayout(kind, width, height, panels);
 }
 
-/** @param {Dock} dock @param {() => void} arrange @returns {import("../model/view.js").LayoutDesk} */
-function deskFor(dock, arrange) {
+/** @param {Dock} dock @param {() => void} arrange @returns {import("../model/view.js").LayoutControl} */
+function controlFor(dock, arrange) {
   const forget = () => {
     for (const kind of /** @type {const} */ (["wide", "medium"]))
       remember(storeName(kind), undefined);

@@ -26,14 +26,14 @@ import { panelTitle } from "./panels.js";
  *   `does`: what Enter does, in words
  */
 
-/** The robots that come with the studio; null: not told yet. @type {Signal<readonly ExampleEntry[] | null>} */
+/** The robots that come with the studio; null: not known yet. @type {Signal<readonly ExampleEntry[] | null>} */
 export const examples = signal(null);
 
 /** Ask for them, once. */
 export async function askExamples() {
   if (examples.peek()) return;
-  const told = await ask({ type: "list_examples" });
-  if (told?.type === "examples") examples.value = told.examples;
+  const answer = await ask({ type: "list_examples" });
+  if (answer?.type === "examples") examples.value = answer.examples;
 }
 
 /** @returns {Choice[]} */

@@ -43,13 +43,13 @@ export function LeftWorkBar() {
 const discard = () => ask({ type: "discard_restored" });
 
 export function RestoredBar() {
-  const told = restored.value;
-  if (!told) return null;
+  const work = restored.value;
+  if (!work) return null;
   const hide = () => {
     restored.value = null;
   };
   return html`<div class="bar restored" role="status"><${Icon} name="reset" />
-    <span>${t("restored", { time: timeText(told.at) })}</span><span class="push"></span>
+    <span>${t("restored", { time: timeText(work.at) })}</span><span class="push"></span>
     ${mayEdit.value && html`<button type="button" class="button small" onClick=${discard}>${t("restored.discard")}</button>`}
     <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${hide} /></div>`;
 }

@@ -34,7 +34,7 @@ const placeNow = () => ({
 });
 
 /** What the window keeps, and what can be done in it. */
-function useDesk() {
+function useConnecting() {
   const draft = useSignal(placeNow());
   const busy = useSignal(/** @type {"" | "look" | "connect"} */ (""));
   const error = useSignal("");
@@ -42,10 +42,10 @@ function useDesk() {
   const look = async () => {
     if (!mayEdit.value) return;
     busy.value = "look";
-    const told = await examineAt(draft.value);
+    const answer = await examineAt(draft.value);
     busy.value = "";
-    error.value = typeof told === "string" ? told : "";
-    report.value = typeof told === "string" ? null : told;
+    error.value = typeof answer === "string" ? answer : "";
+    report.value = typeof answer === "string" ? null : answer;
   };
   const connect = async (/** @type {Place} */ place) => {
     draft.value = place;
@@ -68,32 +68,32 @@ function useDesk() {
 
 /** @param {{onClose: () => void}} props */
 export function RosDialog({ onClose }) {
-  const desk = useDesk();
-  const trouble = desk.error.value || ros.value.trouble;
+  const connecting = useConnecting();
+  const trouble = connecting.error.value || ros.value.trouble;
   const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
-    desk.connect(desk.draft.value);
+    connecting.connect(connecting.draft.value);
   };
   return html`<${Dialog} title=${t("ros")} closeLabel=${t("close")} class="ros-dialog" onClose=${onClose}>
     <form class="open-form" onSubmit=${submit}>
       <div class="form-scroll">
         <${Standing} />
-        <${PlaceFields} place=${desk.draft} />
+        <${PlaceFields} place=${connecting.draft} />
         <${RecentPlaces} onChoose=${(/** @type {Place} */ place) => {
-          desk.draft.value = place;
-          desk.look();
+          connecting.draft.value = place;
+          connecting.look();
         }} />
         ${trouble && html`<p class="dialog-text bad" role="alert">${trouble}</p>`}
-        ${desk.report.value && html`<${Report} report=${desk.report.value} onConnect=${desk.connect} />`}
+        ${connecting.report.value && html`<${Report} report=${connecting.report.value} onConnect=${connecting.connect} />`}
         <${Recipes} />
       </div>
-      <${Foot} desk=${desk} />
+      <${Foot} connecting=${connecting} />
     </form>
   <//>`;
 }
 
-/** @param {{desk: ReturnType<typeof useDesk>}} props */
-function Foot({ desk: { draft, busy, look, leave } }) {
+/** @param {{connecting: ReturnType<typeof useConnecting>}} props */
+function Foot({ connecting: { draft, busy, look, leave } }) {
   const { state } = ros.value;
   const stands = state === "connected" || state === "lost";
   const isElsewhere = !isSamePlace(draft.value, placeNow());

@@ -13,7 +13,7 @@ import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { documentId, mayEdit, role } from "../model/connection.js";
 import { documents, history, title, unsaved } from "../model/document.js";
 import { ask, closeDocument, goTo, redo, reload, save, undo } from "../model/requests.js";
-import { dialog, languageChoice, layoutDesk, size, theme, themeChoice } from "../model/view.js";
+import { dialog, languageChoice, layoutControl, size, theme, themeChoice } from "../model/view.js";
 import { ExportMenu, exportItems } from "./export.js";
 import { graphicsItems } from "./graphics.js";
 import { layoutItems, layoutName } from "./layout-commands.js";
@@ -170,7 +170,7 @@ function LayoutSwitch() {
   return html`<div class="layout-switch" role="group" aria-label=${t("layouts.title")}>
     ${["", LIVE].map(
       (name) => html`<button key=${name} type="button" aria-pressed=${layoutInUse.value === name}
-      title=${t("layouts.use", { name: layoutName(name) })} onClick=${() => layoutDesk.value?.use(name)}>${layoutName(name)}</button>`,
+      title=${t("layouts.use", { name: layoutName(name) })} onClick=${() => layoutControl.value?.use(name)}>${layoutName(name)}</button>`,
     )}
   </div>`;
 }

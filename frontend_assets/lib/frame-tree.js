@@ -135,8 +135,8 @@ export function isOwnWay(frames, from, way) {
   const byName = new Map(frames.map((frame) => [frame.name, frame]));
   let before = from;
   for (const { at, up } of way) {
-    const told = byName.get(up ? before : at);
-    if (!told || !isOwn(told)) return false;
+    const known = byName.get(up ? before : at);
+    if (!known || !isOwn(known)) return false;
     before = at;
   }
   return true;
@@ -145,7 +145,7 @@ export function isOwnWay(frames, from, way) {
 /**
  * TF has no word for a link that no joint holds and that holds none, as in a robot of one link.
  *
- * @param {Pick<TfFrames, "frames" | "fixed" | "more">} told
+ * @param {Pick<TfFrames, "frames" | "fixed" | "more">} answer
  * @param {readonly string[]} links of the robot
  * @returns {readonly FrameView[]} with such links as roots
  */

@@ -91,7 +91,7 @@ export function askWhenBuilt(ask, restMs = 0) {
  * @param {() => () => void} begin to ask; gives the end of it
  * @returns {() => () => void} begin to look; gives the end of looking
  */
-export function sharedLook(begin) {
+export function sharedFollowing(begin) {
   let lookers = 0;
   /** @type {() => void} */
   let stop = () => {};
@@ -115,7 +115,7 @@ export function sharedLook(begin) {
  * @returns {() => () => void} begin to look; gives the end of looking
  */
 export const polled = (ask, everyMs, isOn = () => true) =>
-  sharedLook(() => {
+  sharedFollowing(() => {
     let end = () => {};
     const forget = effect(() => {
       end();
@@ -157,18 +157,18 @@ export function useLooking(follow) {
  * @returns {Signal<T>}
  */
 export function useTold(first, ask, everyMs, of = []) {
-  const told = useSignal(first);
+  const reply = useSignal(first);
   useEffect(() => {
-    told.value = first;
+    reply.value = first;
     let over = false;
     const end = polled(async () => {
       const answer = await ask();
-      if (answer !== null && !over) told.value = answer;
+      if (answer !== null && !over) reply.value = answer;
     }, everyMs)();
     return () => {
       over = true;
       end();
     };
   }, of);
-  return told;
+  return reply;
 }

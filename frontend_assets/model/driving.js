@@ -129,8 +129,8 @@ function isLimits(stored) {
 }
 
 async function askTopics() {
-  const told = await askOrKeepWhy({ type: "list_topics" }, signal(""));
-  if (told?.type === "topic_table") topics.value = told.topics;
+  const reply = await askOrKeepWhy({ type: "list_topics" }, signal(""));
+  if (reply?.type === "topic_table") topics.value = reply.topics;
 }
 /** Know the topics that take speeds while somebody looks; gives the end of looking. */
 export const followDrivable = polled(askTopics, EVERY_MS);

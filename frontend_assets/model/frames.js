@@ -10,12 +10,12 @@
 
 import { computed, signal } from "vendor/preact.js";
 import { rootFromLinks } from "../lib/kinematics.js";
-import { askOrKeepWhy, askWhenBuilt, sharedLook } from "./asking.js";
+import { askOrKeepWhy, askWhenBuilt, sharedFollowing } from "./asking.js";
 import { movable, position, robot } from "./document.js";
 
 /** @type {Signal<Frames["origins"] | null>} */
 const origins = signal(null);
-/** Why they were not told at last; empty: they were. */
+/** Why the last request for them failed; empty: it did not. */
 export const framesRefused = signal("");
 const moving = computed(() => new Set(movable.value.map(({ name }) => name)));
 
@@ -42,7 +42,7 @@ export const linkPoses = computed(() => {
 });
 
 /** Keep `linkPoses` true while somebody looks. @type {() => () => void} gives the end of looking */
-export const followFrames = sharedLook(() => askWhenBuilt(askFrames));
+export const followFrames = sharedFollowing(() => askWhenBuilt(askFrames));
 
 /** Ask for the frames of the joints again. */
 export async function askFrames() {

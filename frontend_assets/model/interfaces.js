@@ -28,8 +28,8 @@ export const draft = signal(null);
 
 /** Ask which types there are. */
 export async function askInterfaces() {
-  const told = await askOrKeepWhy({ type: "list_interfaces" }, interfacesRefused);
-  if (told?.type === "interfaces") interfaces.value = told;
+  const reply = await askOrKeepWhy({ type: "list_interfaces" }, interfacesRefused);
+  if (reply?.type === "interfaces") interfaces.value = reply;
 }
 
 /** Look at a type. @param {string} name */
@@ -37,13 +37,13 @@ export async function showInterface(name) {
   interfaceName.value = name;
   interfaceShown.value = null;
   if (name === "") return;
-  const told = await askOrKeepWhy(
+  const reply = await askOrKeepWhy(
     { type: "get_interface", name, with_text: true },
     interfaceRefused,
   );
   // Another one may be looked at since.
-  if (told?.type !== "interface" || told.name !== interfaceName.value) return;
-  interfaceShown.value = told;
+  if (reply?.type !== "interface" || reply.name !== interfaceName.value) return;
+  interfaceShown.value = reply;
   // A node may just have told it.
   if (interfaces.value && !interfaces.value.names.includes(name)) await askInterfaces();
 }

@@ -37,7 +37,7 @@ import { goalForm, publishForm, serviceForm } from "./message-forms.js";
 import { chooseNode } from "./parameters.js";
 import { ask, openNamed } from "./requests.js";
 import { chosenTopic } from "./topics.js";
-import { layoutDesk } from "./view.js";
+import { layoutControl } from "./view.js";
 
 /** As many lines as the studio keeps. */
 const LINES_MAX = 200;
@@ -46,16 +46,16 @@ const LINES_MAX = 200;
 /** @type {Output} */
 export const NOTHING_PRINTED = { run: 0, lines: [], last: 0 };
 
-/** @param {Output} known @param {Output} told since then; of another run it takes the place of all @returns {Output} */
-export function withPrinted(known, told) {
-  if (told.run !== known.run) return told;
-  if (told.lines.length === 0) return known;
-  return { ...told, lines: [...known.lines, ...told.lines].slice(-LINES_MAX) };
+/** @param {Output} known @param {Output} answer since then; of another run it takes the place of all @returns {Output} */
+export function withPrinted(known, answer) {
+  if (answer.run !== known.run) return answer;
+  if (answer.lines.length === 0) return known;
+  return { ...answer, lines: [...known.lines, ...answer.lines].slice(-LINES_MAX) };
 }
 
 const EVERY_MS = 500;
 
-/** In the order in which they are taught. @type {Signal<readonly LessonView[] | null>} null: not told yet */
+/** In the order in which they are taught. @type {Signal<readonly LessonView[] | null>} null: not known yet */
 export const lessons = signal(null);
 /** Those that were started from a page, by name. @type {Signal<ReadonlyMap<string, DemoView>>} */
 export const demos = signal(new Map());
@@ -86,13 +86,13 @@ export const followLessons = polled(askLessons, EVERY_MS);
 /** Ask how all of it stands. */
 export async function askLessons() {
   if (lessons.value === null) {
-    const told = await askOrKeepWhy({ type: "get_lessons" }, lessonsRefused);
-    if (told?.type === "lessons") lessons.value = told.lessons;
+    const answer = await askOrKeepWhy({ type: "get_lessons" }, lessonsRefused);
+    if (answer?.type === "lessons") lessons.value = answer.lessons;
   }
-  const told = await askOrKeepWhy({ type: "get_demos" }, lessonsRefused);
-  if (told?.type === "demos") {
-    demos.value = new Map(told.demos.map((one) => [one.demo, one]));
-    elsewhere.value = told.elsewhere;
+  const answer = await askOrKeepWhy({ type: "get_demos" }, lessonsRefused);
+  if (answer?.type === "demos") {
+    demos.value = new Map(answer.demos.map((one) => [one.demo, one]));
+    elsewhere.value = answer.elsewhere;
   }
   await askOutput();
 }
@@ -101,10 +101,10 @@ async function askOutput() {
   const [demo, known] = [heard, output.peek()];
   if (!demos.peek().has(demo)) return;
   const { run, last: after } = known;
-  const told = await askOrKeepWhy({ type: "get_demo_output", demo, run, after }, lessonsRefused);
+  const answer = await askOrKeepWhy({ type: "get_demo_output", demo, run, after }, lessonsRefused);
   // Another question was quicker, or another demo is looked at.
-  if (told?.type !== "demo_output" || output.peek() !== known) return;
-  output.value = withPrinted(known, told);
+  if (answer?.type !== "demo_output" || output.peek() !== known) return;
+  output.value = withPrinted(known, answer);
 }
 
 /** Have what a demo prints be told. @param {string} demo empty: of none */
@@ -163,12 +163,13 @@ export async function fetchLessons(language, demos) {
 /** Have the code of a demo, once. @param {string} demo */
 export async function fetchCode(demo) {
   if (demoCode.peek().has(demo)) return;
-  const told = await ask({ type: "get_demo_code", demo });
-  if (told?.type === "demo_code") demoCode.value = new Map(demoCode.peek()).set(demo, told.files);
+  const answer = await ask({ type: "get_demo_code", demo });
+  if (answer?.type === "demo_code")
+    demoCode.value = new Map(demoCode.peek()).set(demo, answer.files);
 }
 
 /** @param {Asked<Command>} command and look what became of it */
-async function askAndLook(command) {
+async function askAndRefresh(command) {
   await ask(command);
   await askLessons();
 }
@@ -180,7 +181,7 @@ export async function startDemos(demos) {
 }
 
 /** @param {string} demo */
-export const stopDemo = (demo) => askAndLook({ type: "stop_demo", demo });
+export const stopDemo = (demo) => askAndRefresh({ type: "stop_demo", demo });
 
 /** All that run. */
 export async function stopAllDemos() {
@@ -204,7 +205,7 @@ export function followLink(panel, [name = "", type = "", ...more]) {
   if (name !== "" && panel === "topics") chosenTopic.value = name;
   if (name !== "" && panel === "parameters") chooseNode(name);
   if (type !== "") void FORMS[panel]?.open({ name, type });
-  layoutDesk.value?.showBeside(panel, "lessons");
+  layoutControl.value?.showBeside(panel, "lessons");
 }
 
 /** @param {readonly string[]} words each `name:=value` @returns {Record<string, string>} */

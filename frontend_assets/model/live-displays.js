@@ -15,17 +15,17 @@ import { ask } from "./requests.js";
 import { send, subscribe } from "./wire.js";
 
 /** @type {Signal<LiveDisplays>} */
-const told = signal({ type: "live_displays", displays: [], groups_off: [], fixed_frame: "" });
+const state = signal({ type: "live_displays", displays: [], groups_off: [], fixed_frame: "" });
 /** @type {Signal<DisplayStates>} */
 const fares = signal({ type: "display_states", states: [], fixed_frame_trouble: "" });
 
 /** Kinds of displays, once somebody asked for them. @type {Signal<ReadonlyMap<string, DisplayKindView>>} */
 export const kinds = signal(new Map());
 /** In the order in which they are listed. */
-export const liveDisplays = computed(() => told.value.displays);
-export const groupsOff = computed(() => told.value.groups_off);
+export const liveDisplays = computed(() => state.value.displays);
+export const groupsOff = computed(() => state.value.groups_off);
 /** Empty: that of the robot's root link. */
-export const fixedFrame = computed(() => told.value.fixed_frame);
+export const fixedFrame = computed(() => state.value.fixed_frame);
 /** Why nothing can be drawn in the fixed frame; empty: it can. */
 export const frameTrouble = computed(() => fares.value.fixed_frame_trouble);
 /** @type {import("vendor/preact.js").ReadonlySignal<ReadonlyMap<string, DisplayState>>} */
@@ -45,7 +45,7 @@ export const settingOf = ({ id, values }, name) =>
   (Object.hasOwn(values, name) ? values[name] : undefined);
 
 subscribe("live_displays", (event) => {
-  told.value = event;
+  state.value = event;
 });
 
 subscribe("display_states", (event) => {

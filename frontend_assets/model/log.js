@@ -99,12 +99,12 @@ export const followLog = polled(askLog, EVERY_MS);
 
 /** @returns {Promise<boolean>} there is more at once */
 async function askLog() {
-  const told = await askOrKeepWhy({ type: "get_log", after: last }, logRefused);
-  if (told?.type !== "log" || told.lines.length === 0) return false;
-  if (last > 0 && told.first > last + 1) missed.value += told.first - last - 1;
-  last = told.lines.at(-1)?.number ?? last;
-  logLines.value = withNews(logLines.value, told.lines);
-  return last < told.last;
+  const answer = await askOrKeepWhy({ type: "get_log", after: last }, logRefused);
+  if (answer?.type !== "log" || answer.lines.length === 0) return false;
+  if (last > 0 && answer.first > last + 1) missed.value += answer.first - last - 1;
+  last = answer.lines.at(-1)?.number ?? last;
+  logLines.value = withNews(logLines.value, answer.lines);
+  return last < answer.last;
 }
 
 /** @param {string} node by its path: show what it says, and nothing else */

@@ -9,7 +9,7 @@
 
 import { signal } from "vendor/preact.js";
 import { moved } from "../lib/kinematics.js";
-import { askOrKeepWhy, askWhenBuilt, sharedLook } from "./asking.js";
+import { askOrKeepWhy, askWhenBuilt, sharedFollowing } from "./asking.js";
 
 /** A drag is not slowed by what it weighs. */
 const REST_MS = 150;
@@ -17,11 +17,11 @@ const REST_MS = 150;
 /** Links that have an inertial, in the order of the robot; null until they are known. @type {Signal<readonly LinkMassView[] | null>} */
 export const masses = signal(null);
 
-/** Why they were not told at last; empty: they were. */
+/** Why the last request for them failed; empty: it did not. */
 export const massesRefused = signal("");
 
 /** Keep `masses` true while somebody looks. @type {() => () => void} gives the end of looking */
-export const followMasses = sharedLook(() => askWhenBuilt(askMasses, REST_MS));
+export const followMasses = sharedFollowing(() => askWhenBuilt(askMasses, REST_MS));
 
 /** Ask for them again. */
 export async function askMasses() {

@@ -280,14 +280,14 @@ function messageForm() {
     chosen.value = choice;
     [types.value, root.value, value.value, text.value] = [new Map(), "", {}, yaml];
     [trouble.value, inYaml.value, written] = ["", false, null];
-    const told = await ofType(choice);
+    const answer = await ofType(choice);
     if (chosen.peek() !== choice) return;
-    if (told?.type !== "interface") {
+    if (answer?.type !== "interface") {
       inYaml.value = true;
       return;
     }
-    types.value = new Map(told.messages.map((one) => [one.name, one]));
-    root.value = told.parts[0] ?? "";
+    types.value = new Map(answer.messages.map((one) => [one.name, one]));
+    root.value = answer.parts[0] ?? "";
     value.value = blank(types.value, root.value);
     if (yaml.trim()) await toFields();
   }
@@ -296,9 +296,9 @@ function messageForm() {
   async function check() {
     const choice = chosen.peek();
     const asked = { name: choice?.type ?? "", text: text.peek() };
-    const told = await askOrKeepWhy({ type: "read_values", ...asked }, trouble);
+    const answer = await askOrKeepWhy({ type: "read_values", ...asked }, trouble);
     const isOld = chosen.peek() !== choice || text.peek() !== asked.text;
-    return isOld || told?.type !== "values_read" ? null : told.values;
+    return isOld || answer?.type !== "values_read" ? null : answer.values;
   }
 
   /** Have the fields say what the text says; it stays a text where they cannot. */

@@ -9,7 +9,7 @@
 /** @import { MessageForm } from "./message-forms.js" */
 
 import { computed, effect, signal } from "vendor/preact.js";
-import { askOrKeepWhy, polled, sharedLook } from "./asking.js";
+import { askOrKeepWhy, polled, sharedFollowing } from "./asking.js";
 import { connection } from "./connection.js";
 import { callTimeout, goalForm, publishForm, publishing, serviceForm } from "./message-forms.js";
 import { ask } from "./requests.js";
@@ -136,7 +136,7 @@ export const followOperations = (operations) => FOLLOW[operations]();
 
 /** @param {FollowOperations["operations"]} operations */
 function follower(operations) {
-  return sharedLook(() => {
+  return sharedFollowing(() => {
     const tell = (/** @type {boolean} */ following) =>
       // What is in the way is seen by the page itself: a new lane begins anew.
       void send({ type: "follow_operations", operations, following }).catch(() => {});
@@ -152,8 +152,8 @@ function follower(operations) {
 
 /** @param {MessageForm} form @param {Asked<Command>} command @returns {Promise<number>} the operation's number; 0: it was refused */
 async function begin(form, command) {
-  const told = await askOrKeepWhy(command, form.trouble);
-  return told?.type === "begun" ? told.operation : 0;
+  const answer = await askOrKeepWhy(command, form.trouble);
+  return answer?.type === "begun" ? answer.operation : 0;
 }
 
 /** Call the service that is chosen, with what its form says. */
@@ -195,7 +195,7 @@ export const stopPublishing = (operation = 0) => ask({ type: "stop_publishing", 
 
 const EVERY_MS = 1500;
 
-/** Null: not told yet. @type {Signal<readonly OfferView[] | null>} */
+/** Null: not known yet. @type {Signal<readonly OfferView[] | null>} */
 export const services = signal(null);
 /** @type {Signal<readonly OfferView[] | null>} */
 export const actions = signal(null);
@@ -203,14 +203,14 @@ export const offersRefused = signal("");
 
 /** Ask now. */
 export async function askServices() {
-  const told = await askOrKeepWhy({ type: "get_services" }, offersRefused);
-  if (told?.type === "services") services.value = told.services;
+  const answer = await askOrKeepWhy({ type: "get_services" }, offersRefused);
+  if (answer?.type === "services") services.value = answer.services;
 }
 export const followServices = polled(askServices, EVERY_MS);
 
 /** Ask now. */
 export async function askActions() {
-  const told = await askOrKeepWhy({ type: "get_actions" }, offersRefused);
-  if (told?.type === "actions") actions.value = told.actions;
+  const answer = await askOrKeepWhy({ type: "get_actions" }, offersRefused);
+  if (answer?.type === "actions") actions.value = answer.actions;
 }
 export const followActions = polled(askActions, EVERY_MS);

@@ -7,14 +7,14 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, effect, signal, untracked } from "vendor/preact.js";
-import { askOrKeepWhy, polled, sharedLook } from "./asking.js";
+import { askOrKeepWhy, polled, sharedFollowing } from "./asking.js";
 import { connection } from "./connection.js";
 import { ros } from "./ros.js";
 import { send, subscribe } from "./wire.js";
 
 /** Full name; empty: none is looked at. */
 export const chosenNode = signal("");
-/** Of that node; null: not told yet. @type {Signal<readonly ParameterView[] | null>} */
+/** Of that node; null: not known yet. @type {Signal<readonly ParameterView[] | null>} */
 export const parameters = signal(null);
 /** Why a node did not set a parameter at last, by name. @type {Signal<ReadonlyMap<string, string>>} */
 export const setRefused = signal(new Map());
@@ -42,7 +42,7 @@ const bare = (name) => ({
 
 const EVERY_MS = 1500;
 
-/** Null: not told yet. @type {Signal<readonly string[] | null>} */
+/** Null: not known yet. @type {Signal<readonly string[] | null>} */
 export const parameterNodes = signal(null);
 export const nodesRefused = signal("");
 /** Why the parameters of the node were not told at last. */
@@ -50,8 +50,8 @@ export const parametersRefused = signal("");
 
 /** Ask now. */
 export async function askNodes() {
-  const told = await askOrKeepWhy({ type: "get_parameter_nodes" }, nodesRefused);
-  if (told?.type === "parameter_nodes") parameterNodes.value = told.nodes;
+  const answer = await askOrKeepWhy({ type: "get_parameter_nodes" }, nodesRefused);
+  if (answer?.type === "parameter_nodes") parameterNodes.value = answer.nodes;
 }
 export const followNodes = polled(askNodes, EVERY_MS);
 
@@ -59,14 +59,15 @@ export const followNodes = polled(askNodes, EVERY_MS);
 export async function askParameters() {
   const node = chosenNode.peek();
   if (node === "") return;
-  const told = await askOrKeepWhy({ type: "get_parameters", node }, parametersRefused);
-  if (told?.type === "parameters" && node === chosenNode.peek()) parameters.value = told.parameters;
+  const answer = await askOrKeepWhy({ type: "get_parameters", node }, parametersRefused);
+  if (answer?.type === "parameters" && node === chosenNode.peek())
+    parameters.value = answer.parameters;
 }
 
 const isJoined = computed(() => ros.value.state === "connected");
 
 /** Be told of the node that is chosen, and of what changes in it; gives the end of it. */
-export const followParameters = sharedLook(() => {
+export const followParameters = sharedFollowing(() => {
   const tell = (/** @type {string} */ node) =>
     // What is in the way is seen by the page itself: a new lane begins anew.
     void send({ type: "follow_parameters", node }).catch(() => {});

@@ -28,7 +28,7 @@ const PAIR_EVERY_MS = 200;
 /** @type {Signal<Pair>} */
 export const pair = signal({ frame: "", seen_from: "" });
 
-/** The last answer. @type {Signal<{told: TfFrames} | null>} */
+/** The last answer. @type {Signal<{answer: TfFrames} | null>} */
 export const answered = signal(null);
 /** Why there was none at last; empty: there was. */
 export const tfRefused = signal("");
@@ -37,37 +37,37 @@ export const tfRefused = signal("");
 const NONE = [];
 /** All frames; none before the first answer. */
 export const tfFrames = computed(() => {
-  const told = answered.value?.told;
-  return told ? withLooseLinks(told, robot.value?.links.map(({ name }) => name) ?? []) : NONE;
+  const answer = answered.value?.answer;
+  return answer ? withLooseLinks(answer, robot.value?.links.map(({ name }) => name) ?? []) : NONE;
 });
 const tfNames = computed(() => new Set(tfFrames.value.map(({ name }) => name)));
 /** The frame that everything is drawn in. */
-export const fixedFrame = computed(() => answered.value?.told.fixed ?? "");
+export const fixedFrame = computed(() => answered.value?.answer.fixed ?? "");
 
-/** The last pose, and of what. @type {Signal<{asked: Pair, told: TfFrames} | null>} */
+/** The last pose, and what was asked. @type {Signal<{asked: Pair, answer: TfFrames} | null>} */
 const posed = signal(null);
-/** Why none was told at last; empty: it was. */
+/** Why the last request failed; empty: it did not. */
 export const pairRefused = signal("");
 
 /** What was told of the pair that is looked at now; null: not yet. */
 export const pairAnswer = computed(() => {
   const [known, { frame, seen_from }] = [posed.value, pair.value];
   const fits = known?.asked.frame === frame && known.asked.seen_from === seen_from;
-  return known && fits ? known.told : null;
+  return known && fits ? known.answer : null;
 });
 
 /** Ask for all frames now. */
 export async function askTf() {
-  const told = await askOrKeepWhy({ type: "get_tf" }, tfRefused);
-  if (told?.type === "tf_frames") answered.value = { told };
+  const answer = await askOrKeepWhy({ type: "get_tf" }, tfRefused);
+  if (answer?.type === "tf_frames") answered.value = { answer };
 }
 
 /** Ask for the pose now. */
 export async function askPair() {
   const asked = pair.peek();
-  const told = await askOrKeepWhy({ type: "get_tf", ...asked, pose_only: true }, pairRefused);
+  const answer = await askOrKeepWhy({ type: "get_tf", ...asked, pose_only: true }, pairRefused);
   // An answer to an earlier question may come after the next was asked.
-  if (told?.type === "tf_frames" && asked === pair.peek()) posed.value = { asked, told };
+  if (answer?.type === "tf_frames" && asked === pair.peek()) posed.value = { asked, answer };
 }
 
 const followTree = polled(askTf, TREE_EVERY_MS, () => documentId.value !== "");
@@ -181,8 +181,8 @@ function ownPose() {
 
 /** @returns {Pose | null} */
 function tfPose() {
-  const told = pairAnswer.value?.pose;
-  return told ? poseOfQuaternion(told.wxyz, told.xyz) : null;
+  const answer = pairAnswer.value?.pose;
+  return answer ? poseOfQuaternion(answer.wxyz, answer.xyz) : null;
 }
 
 /** Frames from the reference to the target, both ends with it. @type {Signal<ReadonlySet<string>>} */

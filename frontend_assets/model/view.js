@@ -79,12 +79,12 @@ export function dismiss(id) {
 export const activePanel = signal(null);
 
 /**
- * @typedef {object} LayoutDesk
+ * @typedef {object} LayoutControl
  * @property {() => import("../lib/arrangement.js").Arrangement} present how the panels stand now
  * @property {(name: string) => void} use a layout; the empty name is the studio's own
  * @property {(id: string, other: string) => void} showBeside a panel, with another one kept in sight
  * @property {() => void} reset to the layout in use as it was saved
  */
 
-/** What arranges the dock; null until it stands. @type {Signal<LayoutDesk | null>} */
-export const layoutDesk = signal(null);
+/** What arranges the dock; null until it stands. @type {Signal<LayoutControl | null>} */
+export const layoutControl = signal(null);

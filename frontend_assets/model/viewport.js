@@ -200,7 +200,7 @@ function tell(view) {
 /** @param {Studio3d} view @returns {() => void} tells only of links whose look changed here */
 function tellLinks(view) {
   /** @type {Map<string, string>} */
-  let told = new Map();
+  let reply = new Map();
   return effect(() => {
     const now = new Map();
     for (const link of robot.value?.links.map(({ name }) => name) ?? []) {
@@ -208,11 +208,11 @@ function tellLinks(view) {
       const opacity = linkOpacity.value.get(link) ?? 1;
       const look = `${visible} ${opacity}`;
       now.set(link, look);
-      if (look === (told.get(link) ?? "true 1")) continue;
+      if (look === (reply.get(link) ?? "true 1")) continue;
       view.setLinkVisible(link, visible);
       view.setLinkOpacity(link, opacity);
     }
-    told = now;
+    reply = now;
   });
 }
 

@@ -72,7 +72,7 @@ export function Troubles({ troubles }) {
 export function inNamespaces(find) {
   /** The namespace that a person chose. */
   const chosen = signal("");
-  /** Null: not told yet. */
+  /** Null: not known yet. */
   const all = computed(() =>
     topics.value && services.value ? find(topics.value, services.value) : null,
   );
@@ -133,12 +133,12 @@ export async function called({ name, type }, values) {
 /** @param {string} name @param {string} type @param {string} text @returns {Promise<CallView | string>} the call at its end, or why it was not begun */
 async function outcome(name, type, text) {
   const refused = signal("");
-  const told = await askOrKeepWhy(
+  const answer = await askOrKeepWhy(
     { type: "call_service", name, service_type: type, text, timeout_s: TIMEOUT_S },
     refused,
   );
-  if (told?.type !== "begun") return refused.value || t("calling.lost");
-  return ended(told.operation);
+  if (answer?.type !== "begun") return refused.value || t("calling.lost");
+  return ended(answer.operation);
 }
 
 /** @param {number} operation @returns {Promise<CallView>} */

@@ -82,7 +82,7 @@ export function OperationPanel({ id, icon, kind, follow, onLine, children }) {
  * @typedef {object} OffersProps
  * @property {string} id of the panel
  * @property {string} icon
- * @property {readonly OfferView[] | null} offers null: not told yet
+ * @property {readonly OfferView[] | null} offers null: not known yet
  * @property {string} refused why they are not told
  * @property {() => void} again
  * @property {MessageForm} form

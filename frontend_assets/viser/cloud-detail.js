@@ -145,7 +145,7 @@ export class CloudDetail {
   #share = new Share();
   /** By node. @type {Map<string, Whole>} */
   #clouds = new Map();
-  #told = 1;
+  #answer = 1;
   #began_ms = 0;
   /** @type {WebGL2RenderingContext | null} */
   #gl = null;
@@ -187,8 +187,8 @@ export class CloudDetail {
 
   #say() {
     const oneIn = this.#clouds.size ? 1 / this.#share.value : 1;
-    if (oneIn === this.#told) return;
-    this.#told = oneIn;
+    if (oneIn === this.#answer) return;
+    this.#answer = oneIn;
     this.#tell(oneIn);
   }
 

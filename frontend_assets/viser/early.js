@@ -58,8 +58,8 @@ const recall = (key) => {
 {
   const ask = HTMLCanvasElement.prototype.getContext;
   const gl = ask.call(document.createElement("canvas"), "webgl2");
-  const told = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = told ? String(gl.getParameter(told.UNMASKED_RENDERER_WEBGL)) : "";
+  const answer = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = answer ? String(gl.getParameter(answer.UNMASKED_RENDERER_WEBGL)) : "";
   gl?.getExtension("WEBGL_lose_context")?.loseContext();
   const isSoftware = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 

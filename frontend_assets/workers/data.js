@@ -103,28 +103,28 @@ function take(data) {
   else takeData(data);
 }
 
-/** @param {SubscriptionView | {type: "not_subscribed", subscription: number, reason: string} | {type: "bulk_key", key: string}} told */
-function takeWords(told) {
-  if (told.type === "bulk_key") bulk.open(told.key);
-  else takeState(told);
+/** @param {SubscriptionView | {type: "not_subscribed", subscription: number, reason: string} | {type: "bulk_key", key: string}} answer */
+function takeWords(answer) {
+  if (answer.type === "bulk_key") bulk.open(answer.key);
+  else takeState(answer);
 }
 
-/** @param {SubscriptionView | {type: "not_subscribed", subscription: number, reason: string}} told */
-function takeState(told) {
-  const one = subscriptions.get(told.subscription);
+/** @param {SubscriptionView | {type: "not_subscribed", subscription: number, reason: string}} answer */
+function takeState(answer) {
+  const one = subscriptions.get(answer.subscription);
   if (!one) return;
-  const view = told.type === "subscription" ? told : refused(told);
-  if (told.type === "subscription") {
-    const others = channels.get(told.channel) ?? [];
-    if (!others.includes(told.subscription))
-      channels.set(told.channel, [...others, told.subscription]);
-    one.typeName = told.type_name;
+  const view = answer.type === "subscription" ? answer : refused(answer);
+  if (answer.type === "subscription") {
+    const others = channels.get(answer.channel) ?? [];
+    if (!others.includes(answer.subscription))
+      channels.set(answer.channel, [...others, answer.subscription]);
+    one.typeName = answer.type_name;
     one.show();
   }
-  post({ kind: "state", subscription: told.subscription, view });
+  post({ kind: "state", subscription: answer.subscription, view });
 }
 
-/** @param {{subscription: number, reason: string}} told @returns {SubscriptionView} */
+/** @param {{subscription: number, reason: string}} answer @returns {SubscriptionView} */
 const refused = ({ subscription, reason }) => ({
   type: "subscription",
   subscription,
@@ -197,10 +197,10 @@ function subscribe({ command }) {
   if (isSeen || command.mode === "every") say({ type: "subscribe", ...command });
 }
 
-/** @param {Seen} told */
-function see(told) {
-  if (isSeen === told.isSeen) return;
-  isSeen = told.isSeen;
+/** @param {Seen} answer */
+function see(answer) {
+  if (isSeen === answer.isSeen) return;
+  isSeen = answer.isSeen;
   for (const one of subscriptions.values()) {
     if (one.command.mode === "every") continue;
     if (isSeen) subscribe(one);
@@ -269,7 +269,7 @@ function leave(subscription) {
   closing?.close();
 }
 
-/** @param {Learn} told */
+/** @param {Learn} answer */
 function learn({ typeName, messages, reason }) {
   types.learn(typeName, messages, reason);
   for (const one of subscriptions.values()) if (one.typeName === typeName) one.show();
@@ -286,7 +286,7 @@ function carryOut(asked) {
   else carryOutEcho(asked);
 }
 
-/** @param {AskOfPicture} told */
+/** @param {AskOfPicture} answer */
 function carryOutPicture({ subscription, asked }) {
   const one = subscriptions.get(subscription);
   if (one instanceof Pictures) one.carryOut(asked);

@@ -31,10 +31,7 @@ const lessonOf = (language, demo) =>
 
 /** @param {string} demo @returns {string} all that it is written in */
 function codeOf(demo) {
-  const [file, folder] = [
-    `studio/course/${demo}.py`,
-    `studio/course/${demo.split("_")[0]}/`,
-  ];
+  const [file, folder] = [`studio/course/${demo}.py`, `studio/course/${demo.split("_")[0]}/`];
   const inFolder = existsSync(new URL(folder, ROOT)) ? readdirSync(new URL(folder, ROOT)) : [];
   const files = inFolder.filter((name) => name.endsWith(".py")).map((name) => folder + name);
   return [file, ...files]

@@ -133,9 +133,9 @@ function Cancel({ goal }) {
 /** @param {{goal: GoalView}} props a bar while it is under way, as far as its feedback tells */
 function Progress({ goal }) {
   if (isGoalOver(goal)) return null;
-  const told = progressOf(goal.feedback.map(({ values }) => plainOf(values)));
-  const percent = told && Math.round(told.share * 100);
-  return html`<div class="goal-progress"><${ProgressBar} label=${t("actions.progress")} done=${told?.share ?? 0} total=${told ? 1 : 0} />
+  const answer = progressOf(goal.feedback.map(({ values }) => plainOf(values)));
+  const percent = answer && Math.round(answer.share * 100);
+  return html`<div class="goal-progress"><${ProgressBar} label=${t("actions.progress")} done=${answer?.share ?? 0} total=${answer ? 1 : 0} />
     ${percent !== null && html`<span class="goal-percent">${percent} %</span>`}</div>`;
 }
 
@@ -163,8 +163,8 @@ let action = "";
 
 const follow = polled(async () => {
   const name = action;
-  const told = await askOrKeepWhy({ type: "get_goal_statuses", name }, refused);
-  if (told?.type === "goal_statuses" && name === action) goalStatuses.value = told.goals;
+  const answer = await askOrKeepWhy({ type: "get_goal_statuses", name }, refused);
+  if (answer?.type === "goal_statuses" && name === action) goalStatuses.value = answer.goals;
 }, EVERY_MS);
 
 /** @param {string} name of the action @returns {() => void} the end of looking */
@@ -188,8 +188,8 @@ const DEPTH_MAX = 3;
  */
 export function progressOf(log) {
   const newest = leavesOf(log.at(-1), "", 0);
-  const told = newest.find(({ name }) => SHARE.test(name));
-  if (told) return { name: told.name, share: within(told.value / scaleOf(log, told.name)) };
+  const answer = newest.find(({ name }) => SHARE.test(name));
+  if (answer) return { name: answer.name, share: within(answer.value / scaleOf(log, answer.name)) };
   const left = newest.find(({ name }) => LEFT.test(name));
   if (!left) return null;
   const most = Math.max(...valuesOf(log, left.name));

@@ -14,25 +14,25 @@ const ICONS = { ok: "check", warn: "alert", error: "error", stale: "help" };
 
 export function DiagnosticsPanel() {
   const { panel } = useLooking(followDiagnostics);
-  const told = diagnostics.value;
-  const isEmpty = (told?.parts.length ?? 0) === 0;
+  const answer = diagnostics.value;
+  const isEmpty = (answer?.parts.length ?? 0) === 0;
   return html`<section ref=${panel} class="panel-body diagnostics" aria-label=${t("panel.diagnostics")}>
     <${RouterAway} />
-    ${isEmpty && isUnconnected() ? html`<${ConnectFirst} icon="diagnostics" />` : html`<${Content} told=${told} />`}
+    ${isEmpty && isUnconnected() ? html`<${ConnectFirst} icon="diagnostics" />` : html`<${Content} answer=${answer} />`}
   </section>`;
 }
 
-/** @param {{told: DiagnosticsAnswer | null}} props */
-function Content({ told }) {
+/** @param {{answer: DiagnosticsAnswer | null}} props */
+function Content({ answer }) {
   const filter = useSignal(/** @type {Filter} */ ({ least: "ok", words: "" }));
   const open = useSignal(/** @type {ReadonlySet<string>} */ (new Set()));
   if (diagnosticsRefused.value)
     return html`<p class="note bad padded" role="alert">${diagnosticsRefused.value}</p>`;
-  if (!told) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
-  if (told.parts.length === 0)
+  if (!answer) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
+  if (answer.parts.length === 0)
     return html`<${NothingThere} icon="diagnostics" title=${t("diagnostics.none")}><p>${t("diagnostics.none.hint")}</p><//>`;
-  const shown = shownParts(told.parts, filter.value);
-  return html`<${Bar} parts=${told.parts} filter=${filter} />
+  const shown = shownParts(answer.parts, filter.value);
+  return html`<${Bar} parts=${answer.parts} filter=${filter} />
     <div class="scroll diagnostics-list">
       ${[...byHardware(shown)].map(
         ([
@@ -42,8 +42,8 @@ function Content({ told }) {
         <h3>${hardware || t("diagnostics.no_hardware")}</h3>
         ${parts.map((part) => html`<${Part} key=${part.name} part=${part} open=${open} />`)}</section>`,
       )}
-      ${shown.length === 0 && html`<p class="nothing">${t("diagnostics.filtered", { count: told.parts.length })}</p>`}
-      ${told.more > 0 && html`<p class="note padded">${t("diagnostics.more", { count: told.more })}</p>`}
+      ${shown.length === 0 && html`<p class="nothing">${t("diagnostics.filtered", { count: answer.parts.length })}</p>`}
+      ${answer.more > 0 && html`<p class="note padded">${t("diagnostics.more", { count: answer.more })}</p>`}
     </div>`;
 }
 
@@ -98,8 +98,8 @@ const diagnosticsRefused = signal("");
 
 /** Keep them true while somebody looks; gives the end of looking. */
 const followDiagnostics = polled(async () => {
-  const told = await askOrKeepWhy({ type: "get_diagnostics" }, diagnosticsRefused);
-  if (told?.type === "diagnostics") diagnostics.value = told;
+  const answer = await askOrKeepWhy({ type: "get_diagnostics" }, diagnosticsRefused);
+  if (answer?.type === "diagnostics") diagnostics.value = answer;
 }, EVERY_MS);
 
 /** By their numbers. */

@@ -100,7 +100,7 @@ function Waiting() {
 
 /** How many frames there are, and how many of them are in trouble. */
 function Summary() {
-  const count = tfFrames.value.length + (answered.value?.told.more ?? 0);
+  const count = tfFrames.value.length + (answered.value?.answer.more ?? 0);
   const { stale, broken } = troubleOf(tfFrames.value);
   return html`<p class="tf-summary" role="status">
     <span>${t("tf.count", { count })}</span>
@@ -111,7 +111,7 @@ function Summary() {
 
 /** What is to be said below the tree: what was left out or refused, and how to see more. */
 function Notes() {
-  const { more = 0, refused = [] } = answered.value?.told ?? {};
+  const { more = 0, refused = [] } = answered.value?.answer ?? {};
   const isOff = ros.value.state !== "connected";
   return html`<div class="tf-notes">
     ${more > 0 && html`<p class="note">${t("tf.more", { count: more })}</p>`}

@@ -82,19 +82,19 @@ function SpaceParts({ name, chosen, opened }) {
 
 /** @param {{name: string, rates: ReadonlyMap<string, TopicRate>}} props */
 function NodeParts({ name, rates }) {
-  const told = useSignal(/** @type {NodeAnswer | null} */ (null));
+  const reply = useSignal(/** @type {NodeAnswer | null} */ (null));
   const refused = useSignal("");
   const { version } = graph.value;
   useEffect(() => {
     let over = false;
     askOrKeepWhy({ type: "get_node", name }, refused).then((answer) => {
-      if (!over && answer?.type === "node") told.value = answer;
+      if (!over && answer?.type === "node") reply.value = answer;
     });
     return () => {
       over = true;
     };
   }, [name, version]);
-  const node = told.value;
+  const node = reply.value;
   if (refused.value) return html`<p class="note bad">${refused.value}</p>`;
   if (node?.name !== name) return html`<p class="note">${t("loading")}</p>`;
   if (node.count === 0) return html`<p class="note">${t("graph.gone")}</p>`;
@@ -164,8 +164,8 @@ const graphRefused = signal("");
 /** Keep it true while somebody looks; gives the end of looking. */
 const followGraph = polled(async () => {
   const known = graph.peek().version;
-  const told = await askOrKeepWhy({ type: "get_graph", known }, graphRefused);
-  if (told?.type === "graph" && told.version !== known) graph.value = told;
+  const reply = await askOrKeepWhy({ type: "get_graph", known }, graphRefused);
+  if (reply?.type === "graph" && reply.version !== known) graph.value = reply;
 }, EVERY_MS);
 
 // A studio that was started anew counts from the beginning.

@@ -59,12 +59,12 @@ function Watched({ topic, type, choices, chosen }) {
     if (!canvas.current) return;
     const given = canvas.current.transferControlToOffscreen();
     watching.current = watch(topic, { typeName: type }, given, {
-      onState: (told) => {
-        subscription.value = told;
+      onState: (answer) => {
+        subscription.value = answer;
       },
-      onPicture: (told) => {
-        if (told.painted !== pictured.value?.painted) silence.came();
-        pictured.value = told;
+      onPicture: (answer) => {
+        if (answer.painted !== pictured.value?.painted) silence.came();
+        pictured.value = answer;
       },
       onSaved: (file) => saveAsFile(`${topic.slice(1).replaceAll("/", "_")}.png`, file, file.type),
     });

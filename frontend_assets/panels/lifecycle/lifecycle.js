@@ -23,15 +23,15 @@ export function LifecyclePanel() {
 }
 
 function Content() {
-  const told = managed.value;
+  const answer = managed.value;
   if (managedRefused.value)
     return html`<${Refusal} sentence=${managedRefused.value} again=${askManaged} />`;
-  if (!told) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
-  if (told.nodes.length === 0)
+  if (!answer) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
+  if (answer.nodes.length === 0)
     return html`<${NothingThere} icon="lifecycle" title=${t("lifecycle.none")}><p>${t("lifecycle.none.hint")}</p><//>`;
   return html`<div class="scroll lifecycle-list">
-    ${told.nodes.map((node) => html`<${ManagedNode} key=${node.name} node=${node} />`)}
-    ${told.more > 0 && html`<p class="note padded">${t("lifecycle.more", { count: told.more })}</p>`}
+    ${answer.nodes.map((node) => html`<${ManagedNode} key=${node.name} node=${node} />`)}
+    ${answer.more > 0 && html`<p class="note padded">${t("lifecycle.more", { count: answer.more })}</p>`}
     ${!mayEdit.value && html`<p class="note padded">${t("lifecycle.viewer")}</p>`}
   </div>`;
 }
@@ -75,8 +75,8 @@ export const managed = signal(null);
 const managedRefused = signal("");
 
 async function askManaged() {
-  const told = await askOrKeepWhy({ type: "get_managed" }, managedRefused);
-  if (told?.type === "managed_nodes") managed.value = told;
+  const answer = await askOrKeepWhy({ type: "get_managed" }, managedRefused);
+  if (answer?.type === "managed_nodes") managed.value = answer;
 }
 
 /** Keep them true while somebody looks; gives the end of looking. */

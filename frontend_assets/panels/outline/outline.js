@@ -247,7 +247,7 @@ function defaultWords(text, forwards) {
 /** @type {Signal<Outline | null>} */
 export const outline = signal(null);
 
-/** Why it was not told at last; empty: it was. */
+/** Why the last request for it failed; empty: it did not. */
 const outlineRefused = signal("");
 
 /** Ask for it again. */

@@ -127,14 +127,14 @@ function AsFile({ node }) {
     text.value = "";
   }, [node]);
   const dump = async () => {
-    const told = await ask({ type: "dump_parameters", node });
-    if (told?.type === "parameter_dump") text.value = told.text;
+    const answer = await ask({ type: "dump_parameters", node });
+    if (answer?.type === "parameter_dump") text.value = answer.text;
   };
   const load = async () => {
-    const told = await ask({ type: "load_parameters", node, text: text.value });
-    if (told?.type !== "parameters_loaded") return;
-    refused.value = told.refused;
-    notify(t("parameters.loaded", { count: told.count }), { bad: told.refused.length > 0 });
+    const answer = await ask({ type: "load_parameters", node, text: text.value });
+    if (answer?.type !== "parameters_loaded") return;
+    refused.value = answer.refused;
+    notify(t("parameters.loaded", { count: answer.count }), { bad: answer.refused.length > 0 });
     await askParameters();
   };
   const save = () =>

@@ -245,13 +245,15 @@ export function EffectLine() {
 /** @param {Effects} known @returns {string} */
 function effectWords(known) {
   const { counts, decisions } = known;
-  const told = countedAspects(counts).map(({ aspect, count }) => t(`effects.${aspect}`, { count }));
+  const answer = countedAspects(counts).map(({ aspect, count }) =>
+    t(`effects.${aspect}`, { count }),
+  );
   const there = thereWords(known);
-  if (there) told.unshift(there);
+  if (there) answer.unshift(there);
   // A condition that is not met has nothing to show for itself, and yet is decided here.
   else if (!counts.presence && decisions > 0)
-    told.push(t("effects.decisions", { count: decisions }));
-  return told.length > 0 ? told.join(", ") : t("effects.none");
+    answer.push(t("effects.decisions", { count: decisions }));
+  return answer.length > 0 ? answer.join(", ") : t("effects.none");
 }
 
 /** @param {Effects} effects @returns {string} what is there as a whole because of it; empty: nothing */

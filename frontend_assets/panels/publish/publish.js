@@ -29,15 +29,15 @@ import {
 
 const EVERY_MS = 1500;
 
-/** Null: not told yet. @type {Signal<readonly OfferView[] | null>} */
+/** Null: not known yet. @type {Signal<readonly OfferView[] | null>} */
 const publishable = signal(null);
 const publishableRefused = signal("");
 
 /** Ask now. */
 async function askPublishable() {
-  const told = await askOrKeepWhy({ type: "list_topics" }, publishableRefused);
-  if (told?.type === "topic_table")
-    publishable.value = told.topics.map(({ name, types }) => ({ name, types, nodes: [] }));
+  const answer = await askOrKeepWhy({ type: "list_topics" }, publishableRefused);
+  if (answer?.type === "topic_table")
+    publishable.value = answer.topics.map(({ name, types }) => ({ name, types, nodes: [] }));
 }
 const followPublishable = polled(askPublishable, EVERY_MS);
 

@@ -234,9 +234,9 @@ const setFollowed = StateEffect.define();
 const MARK = StateField.define({
   create: () => Decoration.none,
   update(mark, { effects, docChanged }) {
-    const told = effects.findLast((one) => one.is(setFollowed));
-    if (!told) return docChanged ? Decoration.none : mark;
-    const { value } = told;
+    const answer = effects.findLast((one) => one.is(setFollowed));
+    if (!answer) return docChanged ? Decoration.none : mark;
+    const { value } = answer;
     return value ? Decoration.set([FOLLOWED.range(value.start, value.end)]) : Decoration.none;
   },
   provide: (field) => EditorView.decorations.from(field),

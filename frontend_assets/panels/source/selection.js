@@ -57,9 +57,9 @@ const setChosen = StateEffect.define();
 const MARK = StateField.define({
   create: () => Decoration.none,
   update(mark, { effects, changes, state: { doc } }) {
-    const told = effects.findLast((one) => one.is(setChosen));
-    if (!told) return mark.map(changes);
-    const { value: line } = told;
+    const answer = effects.findLast((one) => one.is(setChosen));
+    if (!answer) return mark.map(changes);
+    const { value: line } = answer;
     return line >= 1 && line <= doc.lines
       ? Decoration.set([CHOSEN.range(doc.line(line).from)])
       : Decoration.none;

@@ -204,11 +204,11 @@ function joined(first, second) {
 /** @param {ChangeSet} changes @returns {TextChange[]} */
 export function onWire(changes) {
   /** @type {TextChange[]} */
-  const told = [];
+  const reply = [];
   changes.iterChanges((start, end, _, __, text) => {
-    told.push({ start, end, text: text.toString() });
+    reply.push({ start, end, text: text.toString() });
   });
-  return told;
+  return reply;
 }
 
 /** @param {readonly TextChange[]} changes @param {number} length of the text before @returns {ChangeSet} */

@@ -40,8 +40,8 @@ export function TopicEcho({ topic, row }) {
       topic,
       { reliable, latched, pace: "at_once" },
       {
-        onState: (told) => {
-          subscription.value = told;
+        onState: (answer) => {
+          subscription.value = answer;
         },
         onMessage: (came) => {
           if (came.received_s !== newest_s.current) silence.came();
@@ -241,13 +241,13 @@ const LOOK_EVERY_MS = 2000;
  */
 export function TopicEnds({ topic, listed }) {
   const first = /** @type {Ends | null} */ (null);
-  const told = useTold(first, () => topicEnds(topic), LOOK_EVERY_MS, [topic]).value;
-  if (!told) return listed && html`<p class="note padded">${t("loading")}</p>`;
-  if (!listed && told.misfits.length === 0) return null;
+  const answer = useTold(first, () => topicEnds(topic), LOOK_EVERY_MS, [topic]).value;
+  if (!answer) return listed && html`<p class="note padded">${t("loading")}</p>`;
+  if (!listed && answer.misfits.length === 0) return null;
   return html`<div class="topics-ends scroll">
-    ${listed && html`<${Side} title=${t("topics.publishers", { count: told.publishers.length })} ends=${told.publishers} />`}
-    ${listed && html`<${Side} title=${t("topics.subscribers", { count: told.subscribers.length })} ends=${told.subscribers} />`}
-    ${told.misfits.map((one) => html`<${Apart} key=${one.publisher + one.subscriber} misfit=${one} />`)}
+    ${listed && html`<${Side} title=${t("topics.publishers", { count: answer.publishers.length })} ends=${answer.publishers} />`}
+    ${listed && html`<${Side} title=${t("topics.subscribers", { count: answer.subscribers.length })} ends=${answer.subscribers} />`}
+    ${answer.misfits.map((one) => html`<${Apart} key=${one.publisher + one.subscriber} misfit=${one} />`)}
   </div>`;
 }
 

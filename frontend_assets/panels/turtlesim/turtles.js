@@ -151,9 +151,9 @@ export function followBackground(node, tell) {
 
 /** @param {string} node @returns {Promise<number | null>} null: it does not tell */
 async function backgroundOf(node) {
-  const told = await askOrKeepWhy({ type: "get_parameters", node }, signal(""));
-  if (told?.type !== "parameters") return null;
-  const known = new Map(told.parameters.map(({ name, value }) => [name, plainOf(value)]));
+  const answer = await askOrKeepWhy({ type: "get_parameters", node }, signal(""));
+  if (answer?.type !== "parameters") return null;
+  const known = new Map(answer.parameters.map(({ name, value }) => [name, plainOf(value)]));
   const bytes = NAMES.map((name) => known.get(name));
   const isColor = bytes.every((one) => typeof one === "number" && one >= 0 && one <= 255);
   return isColor ? colorOf(.../** @type {[number, number, number]} */ (bytes)) : null;
