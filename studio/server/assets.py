@@ -1,8 +1,8 @@
 """The files of the page: read once, hashed as a tree, compressed once, served as written.
 
 Three things are added to what is written: a stylesheet holds those that it imports, so that they
-come in one answer; the words of a language hold those of the panels; and the page names the modules
-that its first ones import, so that they come at once.
+come in one answer; the words of a language hold those of the panels and checks; and the page names
+the modules that its first ones import, so that they come at once.
 """
 
 from __future__ import annotations
@@ -58,7 +58,9 @@ _IMPORT: Final = re.compile(
 )
 _CSS_IMPORT: Final = re.compile(r'^@import "([^"]+)";\n?', re.MULTILINE)
 _LANGUAGE: Final = re.compile(r"i18n/(\w+)\.json")
-_WORDS_OF_PANEL: Final = re.compile(r"panels/\w+/words\.json")
+WORDS_OF_CHECKS: Final = "checks/words.json"
+"""A file that is made in memory, by `words_of_checks`."""
+_MORE_WORDS: Final = re.compile(r"(?:panels/\w+|checks)/words\.json")
 _FALLBACK: Final = "en"
 _GZIP_LEVEL, _ZSTD_LEVEL = 6, 15
 
@@ -216,12 +218,21 @@ def _with_imports(path: str, contents: Mapping[str, bytes]) -> str:
     return _CSS_IMPORT.sub(imported, contents[path].decode())
 
 
+def words_of_checks(whys: Mapping[str, Mapping[str, str]]) -> bytes:
+    """Write as a file of words why findings matter, which is given by code and language."""
+    words: dict[str, dict[str, str]] = {}
+    for code, texts in whys.items():
+        for language, text in texts.items():
+            words.setdefault(language, {})[f"why.{code}"] = text
+    return json.dumps(words, ensure_ascii=False).encode()
+
+
 def _all_words(language: str, contents: Mapping[str, bytes]) -> bytes:
-    """The words of the page and of each panel; in English what the language lacks."""
+    """The words of page, panels and checks; in English what the language lacks."""
     words: dict[str, str] = {}
     for spoken in dict.fromkeys((_FALLBACK, language)):
         words |= json.loads(contents.get(f"i18n/{spoken}.json", b"{}"))
         for path, content in contents.items():
-            if _WORDS_OF_PANEL.fullmatch(path):
+            if _MORE_WORDS.fullmatch(path):
                 words |= json.loads(content).get(spoken, {})
     return json.dumps(words, ensure_ascii=False, separators=(",", ":")).encode()

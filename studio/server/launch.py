@@ -24,9 +24,10 @@ from studio.documents.engine import Engine
 from studio.errors import SettingsError
 from studio.files import write_whole
 from studio.protocol.roles import Role
+from studio.robot.checks.robot_checks import whys
 from studio.scene import CLIENT_PATH, viser_client
 from studio.server.app import make_app
-from studio.server.assets import Assets
+from studio.server.assets import WORDS_OF_CHECKS, Assets, words_of_checks
 from studio.server.credentials import Credentials, cookie_key
 from studio.server.origin import is_loopback
 from studio.server.ports import address, bind, code_address, port_of
@@ -201,7 +202,10 @@ class _Visit:
         self._settings, self._credentials = settings, credentials
         self._port = port_of(listener)
         bound = (settings.host, self._port)
-        assets = Assets(repository_or_wheel("frontend_assets"), {CLIENT_PATH: viser_client()})
+        assets = Assets(
+            repository_or_wheel("frontend_assets"),
+            {CLIENT_PATH: viser_client(), WORDS_OF_CHECKS: words_of_checks(whys())},
+        )
         app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
         self._server = Server(app, self)
         self._server.run(sockets=[listener])

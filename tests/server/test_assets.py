@@ -11,7 +11,7 @@ import pytest
 import zstandard
 
 from studio.protocol.roles import Role
-from studio.server.assets import Assets, accepted_coding
+from studio.server.assets import WORDS_OF_CHECKS, Assets, accepted_coding, words_of_checks
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -175,6 +175,17 @@ def test_the_words_of_a_language_hold_those_of_the_panels_and_english_ones_that_
     english, german = (json.loads(files[f"i18n/{one}.json"].content) for one in ("en", "de"))
     assert english == {"close": "Close", "open": "Open", "log": "Log", "a": "A"}
     assert german == {"close": "Schließen", "open": "Open", "log": "Protokoll", "a": "A"}
+
+
+def test_the_words_hold_why_a_finding_matters(tmp_path: Path):
+    written = tmp_path / "i18n"
+    written.mkdir()
+    for language in ("en", "de"):
+        (written / f"{language}.json").write_text("{}")
+    made = words_of_checks({"bad-mass": {"en": "Forces divide by it.", "de": "Kräfte."}})
+    files = Assets(tmp_path, {WORDS_OF_CHECKS: made}).current().files
+    assert json.loads(files["i18n/en.json"].content) == {"why.bad-mass": "Forces divide by it."}
+    assert json.loads(files["i18n/de.json"].content) == {"why.bad-mass": "Kräfte."}
 
 
 def test_the_page_names_all_modules_that_its_own_import_but_not_those_that_come_later(

@@ -1,7 +1,7 @@
 """The robot that a check gets, the findings it returns, and how a finding can be mended.
 
 A file of this folder with a function `findings(checked: CheckedRobot) -> Iterator[Finding]` is a
-check: `robot_checks` finds it by that name.
+check: `robot_checks` finds it by that name. Its `WHY` explains each of its codes to the user.
 """
 
 from __future__ import annotations

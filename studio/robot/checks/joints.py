@@ -160,3 +160,38 @@ def _meant(written: str) -> str:
     if word in _OTHER_NAMES:
         return _OTHER_NAMES[word].value
     return next(iter(get_close_matches(word, [*JointType], 1, _LIKENESS)), "")
+
+
+WHY: Final = {
+    "missing-limit": {
+        "en": "Revolute and prismatic joints need a limit with lower, upper, effort and velocity; "
+        "readers of URDF refuse the robot without it.",
+        "de": "Dreh- und Schubgelenke brauchen ein limit mit lower, upper, effort und velocity; "
+        "URDF-Leser lehnen den Roboter sonst ab.",
+    },
+    "reversed-limits": {
+        "en": "With lower above upper no position is allowed: controllers clamp to one end or "
+        "refuse to move.",
+        "de": "Liegt lower über upper, ist keine Stellung erlaubt: Regler bleiben an einem Ende "
+        "oder bewegen sich nicht.",
+    },
+    "equal-limits": {
+        "en": 'With lower and upper alike the joint cannot move. If that is meant, type="fixed" '
+        "says it better.",
+        "de": "Sind lower und upper gleich, kann sich das Gelenk nicht bewegen. Ist das gemeint, "
+        'sagt es type="fixed" besser.',
+    },
+    "zero-axis": {
+        "en": "An axis of no length has no direction: the joint would not know around or along "
+        "what it moves.",
+        "de": "Eine Achse ohne Länge hat keine Richtung: Das Gelenk weiß nicht, worum oder wohin "
+        "es sich bewegt.",
+    },
+    "joint-type": {
+        "en": "URDF knows revolute, continuous, prismatic, fixed, floating and planar; any other "
+        "word is refused by its readers.",
+        "de": "URDF kennt revolute, continuous, prismatic, fixed, floating und planar; jedes "
+        "andere Wort lehnen seine Leser ab.",
+    },
+}
+"""By code and language: why a finding matters, as the page explains it."""

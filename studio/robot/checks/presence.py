@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.problems import Severity
 from studio.robot.checks.finding import Finding
@@ -116,3 +116,34 @@ def _heavy_roots(bodies: list[Body]) -> Iterator[Finding]:
 def _at(link: Link, severity: Severity, code: str, sentence: str, mover: Joint) -> Finding:
     others = (f"joint:{mover.name}",)
     return Finding(severity, code, sentence, f"link:{link.name}", others=others)
+
+
+WHY: Final = {
+    "no-inertials": {
+        "en": "The robot can be drawn without masses, but no simulator can move it.",
+        "de": "Ohne Massen lässt sich der Roboter zeichnen, aber kein Simulator kann ihn bewegen.",
+    },
+    "no-collisions": {
+        "en": "Without collision shapes planners and simulators take the whole robot for air.",
+        "de": "Ohne Kollisionsformen ist der ganze Roboter für Planer und Simulatoren Luft.",
+    },
+    "missing-inertial": {
+        "en": "A link that a joint moves needs mass and inertia: simulators drop a link without "
+        "them, or weld it to its parent.",
+        "de": "Ein Glied, das ein Gelenk bewegt, braucht Masse und Trägheit: Simulatoren lassen "
+        "es sonst weg oder verschweißen es mit dem vorigen.",
+    },
+    "missing-collision": {
+        "en": "What has only a visual is seen, but nothing can touch it: planners and simulators "
+        "go through it.",
+        "de": "Was nur ein Visual hat, wird gesehen, aber nichts stößt daran: Planer und "
+        "Simulatoren gehen hindurch.",
+    },
+    "root-inertial": {
+        "en": "KDL, which robot_state_publisher uses, ignores the inertia of the root link and "
+        "warns. An empty root link with a fixed joint to this one avoids that.",
+        "de": "KDL, das robot_state_publisher benutzt, lässt die Trägheit der Wurzel außer Acht "
+        "und warnt. Ein leeres Wurzelglied mit festem Gelenk zu diesem vermeidet das.",
+    },
+}
+"""By code and language: why a finding matters, as the page explains it."""

@@ -14,6 +14,8 @@ from studio.robot import checks
 from studio.robot.checks.mending import Mender
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     from studio.robot.checks.finding import CheckedRobot, Finding
 
 Check: TypeAlias = Callable[["CheckedRobot"], Iterator["Finding"]]
@@ -56,8 +58,16 @@ def robot_findings(checked: CheckedRobot) -> Iterator[Finding]:
 @cache
 def _checks() -> tuple[Check, ...]:
     """Return the function `findings` of every file in this folder that has one."""
-    modules = (import_module(f"{__package__}.{one.name}") for one in iter_modules(checks.__path__))
-    return tuple(module.findings for module in modules if hasattr(module, "findings"))
+    return tuple(module.findings for module in _modules() if hasattr(module, "findings"))
+
+
+def whys() -> dict[str, dict[str, str]]:
+    """Return why a finding matters, by its code and by language: the `WHY` of every check."""
+    return {code: why for one in _modules() for code, why in getattr(one, "WHY", {}).items()}
+
+
+def _modules() -> Iterator[ModuleType]:
+    return (import_module(f"{__package__}.{one.name}") for one in iter_modules(checks.__path__))
 
 
 def _problem(finding: Finding, checked: CheckedRobot, mender: Mender) -> Problem:

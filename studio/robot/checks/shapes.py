@@ -134,3 +134,32 @@ def _finding(link: Link, mesh: Mesh | None, size_m: float, factor: float) -> Fin
         where=("filename", mesh.uri),
     )
     return Finding(Severity.WARNING, "mesh-scale", sentence, key, mend)
+
+
+WHY: Final = {
+    "collision-apart": {
+        "en": "The collision shape lies beside what is seen, so contacts happen where nothing is. "
+        "Often an origin was forgotten in one of the two.",
+        "de": "Die Kollisionsform liegt neben dem Sichtbaren; Berührungen geschehen dann, wo "
+        "nichts ist. Oft fehlt in einem von beiden der Ursprung.",
+    },
+    "collision-size": {
+        "en": "Collision and visual differ much in size. Often one mesh is in millimetres or one "
+        "scale was forgotten.",
+        "de": "Kollision und Visual sind sehr verschieden groß. Oft ist ein Netz in Millimetern "
+        "oder eine Skalierung vergessen.",
+    },
+    "shape-scale": {
+        "en": "URDF counts in metres: a shape of this size is likely meant in millimetres or "
+        "centimetres.",
+        "de": "URDF rechnet in Metern: Eine Form dieser Größe ist wohl in Millimetern oder "
+        "Zentimetern gemeint.",
+    },
+    "mesh-scale": {
+        "en": "URDF counts in metres. A mesh drawn in millimetres comes out a thousand times too "
+        'large without scale="0.001 0.001 0.001".',
+        "de": 'URDF rechnet in Metern. Ein Netz in Millimetern wird ohne scale="0.001 0.001 '
+        '0.001" tausendmal zu groß.',
+    },
+}
+"""By code and language: why a finding matters, as the page explains it."""

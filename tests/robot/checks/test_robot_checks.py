@@ -4,7 +4,7 @@ import time
 from itertools import pairwise
 
 from studio.robot.checks.finding import CheckedRobot
-from studio.robot.checks.robot_checks import ALIKE_AT_MOST, check_robot
+from studio.robot.checks.robot_checks import ALIKE_AT_MOST, check_robot, whys
 from studio.robot.values import (
     Box,
     Collision,
@@ -82,3 +82,11 @@ def test_of_many_alike_the_first_are_told_and_the_others_counted():
     assert len(found) == ALIKE_AT_MOST + 1
     assert "101 more parts" in found[-1].sentence
     assert found[-1].severity is found[0].severity
+
+
+def test_every_code_that_a_check_explains_is_explained_in_both_languages():
+    found = whys()
+    assert len(found) >= 18
+    for code, texts in found.items():
+        assert set(texts) == {"en", "de"}, code
+        assert all(text.endswith((".", "?")) for text in texts.values()), code
