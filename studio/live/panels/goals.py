@@ -218,13 +218,12 @@ class ActionGoals:
 
     async def _find_why(self, goal: Goal) -> None:
         """Look for what its server logged: its answer holds no reason."""
-        since_s = goal.began_s - _CLOCKS_APART_S
-        end_s = time.monotonic() + _LOG_PATIENCE_S
-        while goal.server_said is None and time.monotonic() < end_s:
-            goal.server_said = self._logs.newest_warning(
-                goal.servers, after=goal.log_from, since_s=since_s
-            )
-            await asyncio.sleep(_LOOK_S)
+        goal.server_said = await self._logs.newest_warning(
+            goal.servers,
+            after=goal.log_from,
+            since_s=goal.began_s - _CLOCKS_APART_S,
+            patience_s=_LOG_PATIENCE_S,
+        )
         if goal.server_said is not None:
             self.operations.changed(goal)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import itertools
 import threading
 from collections import deque
@@ -15,10 +16,11 @@ from studio.ros.duration import NANOSECONDS
 from studio.ros.names import logger_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from studio.live.topics.source import TopicSource
     from studio.live.topics.subscription import Subscription
+    from studio.ros.node.samples import RawSample
     from studio.ros.types.classes import MessageValue
 
 KEPT_MAX: Final = 10_000
@@ -116,7 +118,10 @@ class NodeLogs:
     def __init__(self, source: TopicSource) -> None:
         self._source = source
         self._ring = LogRing()
+        self._decode = decoder(source, _TYPE)
         self._subscription: Subscription | None = None
+        self._waiting: tuple[Callable[[], object], ...] = ()
+        """Called with each line, in a thread of the source."""
 
     def log(self, command: GetLog) -> LogAnswer:
         """Return the lines after one; no new ones come while there is no connection."""
@@ -133,16 +138,43 @@ class NodeLogs:
     def listen(self) -> int:
         """Receive lines from now on, and return the number of the newest, 0 without one."""
         if self._subscription is None:
-            decode = decoder(self._source, _TYPE)
-            self._subscription = self._source.subscribe(
-                _REQUEST, take=lambda sample: self._ring.take(decode(sample))
-            )
+            self._subscription = self._source.subscribe(_REQUEST, take=self._take)
         return self._ring.last
 
-    def newest_warning(self, nodes: Iterable[str], *, after: int, since_s: float) -> LogLine | None:
-        """Return the newest warning or error of some nodes, by their paths, as `LogRing` does."""
+    async def newest_warning(
+        self, nodes: Iterable[str], *, after: int, since_s: float, patience_s: float
+    ) -> LogLine | None:
+        """Return the newest warning or error of some nodes, by their paths, as `LogRing` does.
+
+        It is waited for; None: none came in time.
+        """
         loggers = [logger_name(path) for path in nodes]
-        return self._ring.newest_warning(loggers, after=after, since_s=since_s)
+        loop, came = asyncio.get_running_loop(), asyncio.Event()
+
+        def wake() -> None:
+            if not came.is_set() and not loop.is_closed():
+                loop.call_soon_threadsafe(came.set)
+
+        self._waiting = (*self._waiting, wake)
+        try:
+            async with asyncio.timeout(patience_s):
+                while True:
+                    came.clear()  # before it is looked for: what comes from now on wakes again
+                    last = self._ring.last
+                    found = self._ring.newest_warning(loggers, after=after, since_s=since_s)
+                    if found is not None:
+                        return found
+                    after = last
+                    await came.wait()
+        except TimeoutError:
+            return None
+        finally:
+            self._waiting = tuple(one for one in self._waiting if one is not wake)
+
+    def _take(self, sample: RawSample) -> None:
+        self._ring.take(self._decode(sample))
+        for wake in self._waiting:
+            wake()
 
 
 COMMANDS: Final = Commands[NodeLogs](Scope.ROS)

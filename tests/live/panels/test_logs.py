@@ -10,7 +10,10 @@ import pytest
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.logs import NodeLogs
 from studio.protocol.logs import GetLog
+from studio.ros.cdr import Codec
+from studio.ros.messages import message
 from studio.settings import WireChoice
+from tests.support.memory_source import MemorySource
 from tests.support.wire import PATIENCE_S
 
 if TYPE_CHECKING:
@@ -27,6 +30,38 @@ async def until_said(logs: NodeLogs, text: str) -> LogAnswer:
             if any(one.text == text for one in answer.lines):
                 return answer
             await asyncio.sleep(0.02)
+
+
+LOG = "rcl_interfaces/msg/Log"
+
+
+def line(node: str, level: int, text: str) -> bytes:
+    said = message(LOG)(name=node, level=level, msg=text)
+    said.stamp.sec = 100
+    return bytes(Codec(message(LOG)).encode(said))
+
+
+def test_a_warning_of_a_node_is_waited_for():
+    async def run() -> None:
+        source = MemorySource()
+        out = source.offer("/rosout", LOG)
+        logs = NodeLogs(source)
+        begin = logs.listen()
+        waiting = asyncio.create_task(
+            logs.newest_warning(["/dock"], after=begin, since_s=50.0, patience_s=PATIENCE_S)
+        )
+        await asyncio.sleep(0)
+        out.say(line("dock", 20, "as usual"))
+        await asyncio.sleep(0)
+        out.say(line("other", 40, "not this one"))
+        out.say(line("dock", 30, "this one"))
+        found = await waiting
+        assert found is not None
+        assert found.text == "this one"
+        later = logs.newest_warning(["/dock"], after=found.number, since_s=50.0, patience_s=0.01)
+        assert await later is None
+
+    asyncio.run(run())
 
 
 def test_it_is_heard_from_the_first_question_on_with_what_was_said_before(
