@@ -3,15 +3,15 @@
  * after each build. Why it refused is kept for the panel to show.
  */
 
-/** @import { Command } from "../types/wire.d.ts" */
+/** @import { Changed, Command } from "../types/wire.d.ts" */
 /** @import { Answer, Asked } from "./wire.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { effect, untracked, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { effect, signal, untracked, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { useSeen } from "../lib/seen.js";
 import { connection } from "./connection.js";
 import { built, robot } from "./document.js";
-import { RefusedError, send } from "./wire.js";
+import { RefusedError, send, subscribe } from "./wire.js";
 
 /**
  * Ask; a refusal is kept until the next answer. When the lane is lost, nothing is said: whoever looks
@@ -128,6 +128,74 @@ export const polled = (ask, everyMs, isOn = () => true) =>
     return () => {
       forget();
       end();
+    };
+  });
+
+/** How often each was told to have changed. */
+const changes = { graph: signal(0), log: signal(0) };
+
+subscribe("changed", ({ of }) => {
+  changes[of].value += 1;
+});
+
+/** @param {Changed["of"]} of be told of its changes; gives the end of it */
+const followChanges = (of) =>
+  sharedFollowing(() => {
+    const tell = (/** @type {boolean} */ following) =>
+      // What is in the way is seen by the page itself: a new lane begins anew.
+      void send({ type: "follow_changes", of, following }).catch(() => {});
+    const end = effect(() => {
+      if (connection.value === "connected") tell(true);
+    });
+    return () => {
+      end();
+      tell(false);
+    };
+  });
+const FOLLOW = { graph: followChanges("graph"), log: followChanges("log") };
+
+/** @param {() => Promise<boolean | void>} ask gives whether there is more @returns {() => Promise<void>} asks; while that goes on, once more afterwards */
+function oneAtATime(ask) {
+  let asking = false;
+  let again = false;
+  return async () => {
+    again = true;
+    if (asking) return;
+    asking = true;
+    try {
+      while (again) {
+        again = false;
+        if (await ask()) again = true;
+      }
+    } finally {
+      asking = false;
+    }
+  };
+}
+
+/**
+ * Ask at once and whenever the studio says that something changed, never twice at a time; a page
+ * that is not seen asks once it is.
+ *
+ * @param {() => Promise<boolean | void>} ask gives whether there is more to be asked for at once
+ * @param {Changed["of"]} of what it is asked about
+ * @returns {() => () => void} begin to look; gives the end of looking
+ */
+export const askedWhenChanged = (ask, of) =>
+  sharedFollowing(() => {
+    let over = false;
+    const go = oneAtATime(async () => !over && !document.hidden && (await ask()));
+    const unfollow = FOLLOW[of]();
+    const forget = effect(() => {
+      changes[of].value;
+      if (connection.value === "connected") untracked(() => void go());
+    });
+    document.addEventListener("visibilitychange", go);
+    return () => {
+      over = true;
+      document.removeEventListener("visibilitychange", go);
+      forget();
+      unfollow();
     };
   });
 

@@ -9,7 +9,7 @@
 import { computed, signal, useRef } from "vendor/preact.js";
 import { clamp } from "../lib/numbers.js";
 import { remembered } from "../lib/remembered.js";
-import { askOrKeepWhy, polled } from "./asking.js";
+import { askedWhenChanged, askOrKeepWhy } from "./asking.js";
 import { mayEdit } from "./connection.js";
 
 /** @typedef {{x: number, y: number, turn: number}} Deflection each from -1 to 1: forward, to the left, anticlockwise */
@@ -97,7 +97,6 @@ export function drivable(topics) {
 const TWIST = "geometry_msgs/msg/Twist";
 const STAMPED = "geometry_msgs/msg/TwistStamped";
 
-const EVERY_MS = 2000;
 const ANYWAY = { name: "/cmd_vel", stamped: false };
 
 /** @type {Signal<readonly TopicRow[]>} */
@@ -133,7 +132,7 @@ async function askTopics() {
   if (reply?.type === "topic_table") topics.value = reply.topics;
 }
 /** Know the topics that take speeds while somebody looks; gives the end of looking. */
-export const followDrivable = polled(askTopics, EVERY_MS);
+export const followDrivable = askedWhenChanged(askTopics, "graph");
 
 /** @typedef {{name: string, stamped: boolean, limits: () => Limits & {rate: number}}} DriveTarget a topic, and how fast what hears it may go */
 

@@ -7,7 +7,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { effect, signal, untracked } from "vendor/preact.js";
-import { askOrKeepWhy, polled } from "./asking.js";
+import { askedWhenChanged, askOrKeepWhy } from "./asking.js";
 import { session } from "./connection.js";
 
 /** From the least to the gravest, with the number from which a line counts as such. */
@@ -82,8 +82,6 @@ export const logText = (lines) =>
     )
     .join("\n");
 
-const EVERY_MS = 300;
-
 /** @type {Signal<readonly LogLine[]>} */
 export const logLines = signal([]);
 /** How many were gone before this page could see them. */
@@ -95,7 +93,7 @@ export const logFilter = signal({ level: "info", node: "", words: "" });
 let last = 0;
 
 /** Have new lines come while somebody looks; gives the end of looking. */
-export const followLog = polled(askLog, EVERY_MS);
+export const followLog = askedWhenChanged(askLog, "log");
 
 /** @returns {Promise<boolean>} there is more at once */
 async function askLog() {

@@ -9,7 +9,7 @@
 /** @import { MessageForm } from "./message-forms.js" */
 
 import { computed, effect, signal } from "vendor/preact.js";
-import { askOrKeepWhy, polled, sharedFollowing } from "./asking.js";
+import { askedWhenChanged, askOrKeepWhy, sharedFollowing } from "./asking.js";
 import { connection } from "./connection.js";
 import { callTimeout, goalForm, publishForm, publishing, serviceForm } from "./message-forms.js";
 import { ask } from "./requests.js";
@@ -193,8 +193,6 @@ export function publish({ once }) {
 /** @param {number} [operation] without one: all */
 export const stopPublishing = (operation = 0) => ask({ type: "stop_publishing", operation });
 
-const EVERY_MS = 1500;
-
 /** Null: not known yet. @type {Signal<readonly OfferView[] | null>} */
 export const services = signal(null);
 /** @type {Signal<readonly OfferView[] | null>} */
@@ -206,11 +204,11 @@ export async function askServices() {
   const answer = await askOrKeepWhy({ type: "get_services" }, offersRefused);
   if (answer?.type === "services") services.value = answer.services;
 }
-export const followServices = polled(askServices, EVERY_MS);
+export const followServices = askedWhenChanged(askServices, "graph");
 
 /** Ask now. */
 export async function askActions() {
   const answer = await askOrKeepWhy({ type: "get_actions" }, offersRefused);
   if (answer?.type === "actions") actions.value = answer.actions;
 }
-export const followActions = polled(askActions, EVERY_MS);
+export const followActions = askedWhenChanged(askActions, "graph");

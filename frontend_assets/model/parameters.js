@@ -7,7 +7,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, effect, signal, untracked } from "vendor/preact.js";
-import { askOrKeepWhy, polled, sharedFollowing } from "./asking.js";
+import { askedWhenChanged, askOrKeepWhy, sharedFollowing } from "./asking.js";
 import { connection } from "./connection.js";
 import { ros } from "./ros.js";
 import { send, subscribe } from "./wire.js";
@@ -40,8 +40,6 @@ const bare = (name) => ({
   ...{ constraints: "", low: null, high: null, step: 0 },
 });
 
-const EVERY_MS = 1500;
-
 /** Null: not known yet. @type {Signal<readonly string[] | null>} */
 export const parameterNodes = signal(null);
 export const nodesRefused = signal("");
@@ -53,7 +51,7 @@ export async function askNodes() {
   const answer = await askOrKeepWhy({ type: "get_parameter_nodes" }, nodesRefused);
   if (answer?.type === "parameter_nodes") parameterNodes.value = answer.nodes;
 }
-export const followNodes = polled(askNodes, EVERY_MS);
+export const followNodes = askedWhenChanged(askNodes, "graph");
 
 /** Ask now for all of the node. */
 export async function askParameters() {

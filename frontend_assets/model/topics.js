@@ -10,7 +10,7 @@ import { effect, signal } from "vendor/preact.js";
 import { includesAll, rateWords } from "../lib/live-displays.js";
 import { remembered } from "../lib/remembered.js";
 import { shortTime } from "../lib/times.js";
-import { polled, useTold } from "./asking.js";
+import { askedWhenChanged, useTold } from "./asking.js";
 import { ros } from "./ros.js";
 import { send } from "./wire.js";
 
@@ -24,11 +24,9 @@ export const showsNoise = remembered("topics.noise", false);
 /** How a topic is listened to; null: as fits its publishers. @type {Signal<import("../panels/listening-menu.js").Listening>} */
 export const listening = signal({ reliable: null, latched: null });
 
-const LOOK_EVERY_MS = 1000;
-
-const look = polled(async () => {
+const look = askedWhenChanged(async () => {
   topics.value = (await topicTable()) ?? topics.value;
-}, LOOK_EVERY_MS);
+}, "graph");
 
 /** Keep the list up to date. @returns {() => void} the end of it */
 export function followTopics() {

@@ -192,6 +192,12 @@ export interface ChangeState {
   transition: number;
 }
 
+/** Something changed, once or several times since this was told last. */
+export interface Changed {
+  type: "changed";
+  of: "graph" | "log";
+}
+
 /** Answer to `get_changes`. */
 export interface Changes {
   type: "changes";
@@ -727,6 +733,16 @@ export interface FolderEntry {
   kind: "folder" | "package" | "robot" | "zip" | "file";
   openable: boolean;
   reason: string;
+}
+
+/** Be told when something changed, from now on; or no more. */
+export interface FollowChanges {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "follow_changes";
+  of: "graph" | "log";
+  following?: boolean;
 }
 
 /** Have a frame that is no link stand in the scene for some seconds, for a camera to go with. */
@@ -2795,6 +2811,7 @@ export type Command =
   | ExamineWire
   | FindTexts
   | FindWireRobots
+  | FollowChanges
   | FollowFrame
   | FollowOperations
   | FollowParameters
@@ -2896,6 +2913,7 @@ export type Event =
   | Begun
   | Built
   | Calls
+  | Changed
   | Changes
   | Collisions
   | Comparison

@@ -25,6 +25,7 @@ VIEWER_COMMANDS = {
     "follow_frame",
     "get_topic_rates",
     *("get_services", "get_actions", "read_values", "follow_operations", "get_goal_statuses"),
+    "follow_changes",
     *("get_parameter_nodes", "get_parameters", "dump_parameters", "follow_parameters"),
     *(
         "find_texts",

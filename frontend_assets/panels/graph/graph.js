@@ -19,7 +19,7 @@ import { commandById } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
 import { remembered } from "../../lib/remembered.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
-import { askOrKeepWhy, polled, useLooking } from "../../model/asking.js";
+import { askedWhenChanged, askOrKeepWhy, useLooking } from "../../model/asking.js";
 import { session } from "../../model/connection.js";
 import { showInterface } from "../../model/interfaces.js";
 import { useTopicRates } from "../../model/topics.js";
@@ -150,8 +150,6 @@ function TypeLink({ name }) {
   return html`<button type="button" class="link-button end-type" title=${t("interfaces.go", { name })} onClick=${show}>${name}</button>`;
 }
 
-const EVERY_MS = 700;
-
 /** @typedef {Pick<GraphAnswer, "version" | "nodes" | "links" | "other_count" | "more">} Graph */
 
 /** @type {Graph} */
@@ -162,11 +160,11 @@ export const graph = signal(NOBODY);
 const graphRefused = signal("");
 
 /** Keep it true while somebody looks; gives the end of looking. */
-const followGraph = polled(async () => {
+const followGraph = askedWhenChanged(async () => {
   const known = graph.peek().version;
   const reply = await askOrKeepWhy({ type: "get_graph", known }, graphRefused);
   if (reply?.type === "graph" && reply.version !== known) graph.value = reply;
-}, EVERY_MS);
+}, "graph");
 
 // A studio that was started anew counts from the beginning.
 effect(() => {

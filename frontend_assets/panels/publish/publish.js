@@ -9,7 +9,7 @@ import { t } from "../../lib/i18n.js";
 import { parseNumber } from "../../lib/numbers.js";
 import { TextBox } from "../../lib/slider.js";
 import { Icon } from "../../lib/ui.js";
-import { askOrKeepWhy, polled } from "../../model/asking.js";
+import { askedWhenChanged, askOrKeepWhy } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
 import { publishForm, publishing } from "../../model/message-forms.js";
 import {
@@ -27,8 +27,6 @@ import {
   openLine,
 } from "../operation-panel.js";
 
-const EVERY_MS = 1500;
-
 /** Null: not known yet. @type {Signal<readonly OfferView[] | null>} */
 const publishable = signal(null);
 const publishableRefused = signal("");
@@ -39,7 +37,7 @@ async function askPublishable() {
   if (answer?.type === "topic_table")
     publishable.value = answer.topics.map(({ name, types }) => ({ name, types, nodes: [] }));
 }
-const followPublishable = polled(askPublishable, EVERY_MS);
+const followPublishable = askedWhenChanged(askPublishable, "graph");
 
 const FOLLOW = [followPublishable, () => followOperations("publications")];
 const RATE_MAX_HZ = 1000;

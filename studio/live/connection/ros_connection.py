@@ -53,6 +53,8 @@ class RosConnection:
         """The topics of whatever system it is connected with."""
         self.on_link: Callable[[WireLink | None], None] = _nobody
         """Told of each connection that is made, and with None that it was ended on demand."""
+        self.on_change: Callable[[], None] = _nothing
+        """Told whenever the connection, or who is there on it, may have changed."""
         self._turn = asyncio.Lock()
         """A connection is made once the one before is ended: their router has one place."""
 
@@ -175,6 +177,7 @@ class RosConnection:
 
     def _tell(self, seen: WireState | None = None) -> None:
         self._told.tell(seen or self._state())
+        self.on_change()
         self._nearby.look()
 
     def _state(self) -> WireState:
@@ -200,6 +203,10 @@ class RosConnection:
             nearby_count=self._nearby.node_count,
             trouble=trouble,
         )
+
+
+def _nothing() -> None:
+    """Do nothing: nobody wants to know of changes."""
 
 
 def _nobody(_link: WireLink | None) -> None:

@@ -113,14 +113,19 @@ _REQUEST: Final = Request(
 
 
 class NodeLogs:
-    """Keeps the newest lines for whoever comes later, also after the connection has ended."""
+    """Keeps the newest lines for whoever comes later, also after the connection has ended.
 
-    def __init__(self, source: TopicSource) -> None:
+    Args:
+        source: Where topics come from.
+        grew: Called after each new line, in a thread of the source.
+    """
+
+    def __init__(self, source: TopicSource, grew: Callable[[], object] | None = None) -> None:
         self._source = source
         self._ring = LogRing()
         self._decode = decoder(source, _TYPE)
         self._subscription: Subscription | None = None
-        self._waiting: tuple[Callable[[], object], ...] = ()
+        self._waiting: tuple[Callable[[], object], ...] = () if grew is None else (grew,)
         """Called with each line, in a thread of the source."""
 
     def log(self, command: GetLog) -> LogAnswer:

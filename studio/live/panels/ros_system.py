@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import RouterGoneError
 from studio.live.panels import (
     calls,
+    changes,
     diagnostics,
     driving,
     goal_statuses,
@@ -37,9 +38,11 @@ class RosSystem:
 
     def __init__(self, wire: RosConnection) -> None:
         self.connection = wire
+        self.changes = changes.Changes()
+        wire.on_change = lambda: self.changes.changed("graph")
         self.interfaces = interfaces.InterfaceTypes(wire)
         self.browser_topics = BrowserTopics(wire.topics)
-        self.logs = logs.NodeLogs(wire.topics)
+        self.logs = logs.NodeLogs(wire.topics, lambda: self.changes.changed_elsewhere("log"))
         self.graph = graph.GraphViews(wire)
         self.lifecycle = lifecycle.LifecycleNodes(wire)
         self.diagnostics = diagnostics.PartDiagnostics(wire.topics)
@@ -87,6 +90,7 @@ class RosSystem:
         for operations in self._operations.values():
             operations.unfollow(listener)
         self.parameters.detach(listener)
+        self.changes.detach(listener)
         self.publishing.detach(listener)
         self.driving.detach(listener)
 
@@ -112,6 +116,7 @@ class RosSystem:
     async def close(self) -> None:
         """End all that runs."""
         await asyncio.gather(
+            self.changes.close(),
             self.browser_topics.close(),
             self.let_go_of_operations(),
             self.driving.let_go(),
@@ -125,6 +130,7 @@ class RosSystem:
 COMMANDS: Final = Commands[RosSystem](Scope.ROS)
 COMMANDS.viewer(FollowOperations, lambda ros, c, who: ros.follow(c, who))
 COMMANDS.include(calls.COMMANDS, lambda ros, _: ros.calls)
+COMMANDS.include(changes.COMMANDS, lambda ros, _: ros.changes)
 COMMANDS.include(diagnostics.COMMANDS, lambda ros, _: ros.diagnostics)
 COMMANDS.include(driving.COMMANDS, lambda ros, _: ros.driving)
 COMMANDS.include(goal_statuses.COMMANDS, lambda ros, _: ros.goal_statuses)

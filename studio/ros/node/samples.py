@@ -6,7 +6,7 @@ import inspect
 import threading
 from collections import deque
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,8 +18,6 @@ SAMPLES_MAX = 4_096
 SENDERS_MAX = 10_000
 LATE_MAX = 256
 """How many missing samples of one sender may still come late."""
-RawCallback: TypeAlias = "Callable[[bytes, MessageInfo], None]"
-"""Takes the bytes of a message and what came with it."""
 
 
 class RawSample(NamedTuple):

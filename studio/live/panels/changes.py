@@ -1,0 +1,72 @@
+"""Tells pages that the graph or the log changed, a few times a second at most."""
+
+from __future__ import annotations
+
+import asyncio
+from functools import partial
+from typing import TYPE_CHECKING, Final
+
+from studio.debounce import Throttle
+from studio.protocol.changes import Changed, FollowChanges, Subject
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.listeners import Audience
+
+if TYPE_CHECKING:
+    from studio.protocol.listeners import Listener
+
+_PAUSES_S: Final[dict[Subject, float]] = {"graph": 0.5, "log": 0.2}
+
+
+class Changes:
+    """Keeps who follows which subject; used on the event loop but for `changed_elsewhere`."""
+
+    def __init__(self) -> None:
+        self._followers: dict[Subject, Audience] = {one: Audience() for one in _PAUSES_S}
+        self._throttles: dict[Subject, Throttle] = {
+            one: Throttle(partial(self._tell, one), pause_s=pause_s)
+            for one, pause_s in _PAUSES_S.items()
+        }
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._woken: set[Subject] = set()
+        self._closed = False
+
+    def follow(self, command: FollowChanges, listener: Listener) -> None:
+        """Tell a page of changes from now on, or no more."""
+        self._loop = asyncio.get_running_loop()
+        if command.following:
+            self._followers[command.of].add(listener)
+        else:
+            self._followers[command.of].remove(listener)
+
+    def detach(self, listener: Listener) -> None:
+        """Forget a page."""
+        for followers in self._followers.values():
+            followers.remove(listener)
+
+    def changed(self, of: Subject) -> None:
+        """Tell those who follow it soon."""
+        if self._followers[of] and not self._closed:
+            self._throttles[of].trigger()
+
+    def changed_elsewhere(self, of: Subject) -> None:
+        """Do the same from any thread."""
+        loop = self._loop
+        if self._followers[of] and of not in self._woken and loop and not loop.is_closed():
+            self._woken.add(of)
+            loop.call_soon_threadsafe(self._wake, of)
+
+    async def close(self) -> None:
+        """Tell nothing more."""
+        self._closed = True
+        await asyncio.gather(*(one.close() for one in self._throttles.values()))
+
+    def _wake(self, of: Subject) -> None:
+        self._woken.discard(of)  # before it is told: what changes from now on is told again
+        self.changed(of)
+
+    async def _tell(self, of: Subject) -> None:
+        self._followers[of].tell(Changed(of=of))
+
+
+COMMANDS: Final = Commands[Changes](Scope.ROS)
+COMMANDS.viewer(FollowChanges, lambda one, c, who: one.follow(c, who))
