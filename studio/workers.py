@@ -87,18 +87,33 @@ class Worker:
         self._process: asyncio.subprocess.Process | None = None
         self._is_up = False
         """Whether the process has said that it is up."""
-        self.turn = asyncio.Lock()
-        """Held by whoever has the pipe; who waits gets it in the order of asking."""
+        self._closes = 0
+        """How often it was closed: who waited since before does not start it anew."""
+        self._lock = asyncio.Lock()
 
     @property
     def pid(self) -> int | None:
         """Process id while it runs."""
         return self._process.pid if self._process else None
 
+    @contextlib.asynccontextmanager
+    async def turn(self) -> AsyncGenerator[None]:
+        """Have the pipe; who waits gets it in the order of asking.
+
+        Raises:
+            WorkerDiedError: The worker was closed meanwhile.
+        """
+        closes = self._closes
+        async with self._lock:
+            if closes != self._closes:
+                raise WorkerDiedError(self.name, None)
+            yield
+
     async def warm(self) -> None:
         """Start the process without asking it anything."""
-        async with self.turn:
-            await self._ensure_process()
+        with contextlib.suppress(WorkerDiedError):
+            async with self.turn():
+                await self._ensure_process()
 
     async def ask(
         self, request: object, answer: type[Answer], timeout_s: float, *, starts: bool = True
@@ -117,7 +132,7 @@ class Worker:
             WorkerTimeoutError: No answer in time; the process was ended.
             WorkerDiedError: The process ended, or answered what is not `answer`.
         """
-        async with self.turn:
+        async with self.turn():
             return await self.ask_now(request, answer, timeout_s, starts=starts)
 
     async def ask_now(
@@ -150,7 +165,8 @@ class Worker:
         return message
 
     async def close(self) -> None:
-        """End the process; safe to call twice. A request under way fails."""
+        """End the process; safe to call twice. Requests under way fail, and those that wait."""
+        self._closes += 1
         await self._end()
 
     async def _ensure_process(self) -> asyncio.subprocess.Process:
@@ -165,12 +181,19 @@ class Worker:
         return self._process is not None and self._process.returncode is None
 
     async def _start(self) -> asyncio.subprocess.Process:
+        closes = self._closes
         starting = asyncio.ensure_future(self._spawn())
         try:
-            return await asyncio.shield(starting)
+            process = await asyncio.shield(starting)
         except asyncio.CancelledError:
             self._process = await starting  # else nobody would know of it and end it
+            if closes != self._closes:
+                await self._end()
             raise
+        if closes != self._closes:
+            self._process = process
+            raise WorkerDiedError(self.name, await self._end())
+        return process
 
     async def _spawn(self) -> asyncio.subprocess.Process:
         return await asyncio.create_subprocess_exec(

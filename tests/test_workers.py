@@ -38,6 +38,34 @@ def test_a_worker_that_ended_is_started_anew_by_the_next_request():
     asyncio.run(run())
 
 
+def test_a_worker_that_is_closed_while_it_starts_leaves_no_process():
+    async def run() -> None:
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        asking = [asyncio.create_task(worker.ask(REQUEST, Failure, 30)) for _ in range(2)]
+        await asyncio.sleep(0)
+        await worker.close()
+        assert worker.pid is None
+        ended = await asyncio.gather(*asking, return_exceptions=True)
+        assert [type(one) for one in ended] == [WorkerDiedError] * 2
+        assert (worker.pid, worker.generation) == (None, 0)
+
+    asyncio.run(run())
+
+
+def test_requests_that_wait_when_a_worker_is_closed_do_not_start_it_anew():
+    async def run() -> None:
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        await worker.warm()
+        asking = [asyncio.create_task(worker.ask(REQUEST, Failure, 30)) for _ in range(3)]
+        await asyncio.sleep(0)
+        await worker.close()
+        ended = await asyncio.gather(*asking, return_exceptions=True)
+        assert [type(one) for one in ended] == [WorkerDiedError] * 3
+        assert (worker.pid, worker.generation) == (None, 1)
+
+    asyncio.run(run())
+
+
 def test_requests_that_come_together_are_all_answered():
     async def run() -> None:
         worker = Worker("xacro", "studio.description.worker", CODEC)

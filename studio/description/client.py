@@ -59,7 +59,7 @@ class DescriptionWorker:
         """Start on a file; everything is in the answer."""
         self._entry = request.entry
         self.needs_reopen = False
-        async with self._worker.turn:
+        async with self._worker.turn():
             self._read((request.entry,))
             return await self._exchange(request, starts=True)
 
@@ -101,7 +101,7 @@ class DescriptionWorker:
 
     async def _question(self, query: Query) -> Reply:
         try:
-            async with self._worker.turn:
+            async with self._worker.turn():
                 if self.needs_reopen:
                     return NoReply("The robot is not open: open it again.")
                 reply = await self._worker.ask_now(query, object, self._run_time_s, starts=False)
@@ -117,7 +117,7 @@ class DescriptionWorker:
         return reply
 
     async def _ask(self, request: Request) -> Answer:
-        async with self._worker.turn:
+        async with self._worker.turn():
             # `open` started the process: another one would know nothing of this robot.
             return await self._exchange(request, starts=False)
 
