@@ -1,4 +1,4 @@
-"""`--filter`: a Python expression of a message `m`, which says whether the message is taken."""
+"""`--filter`: a Python expression of a message `m`, true for messages that are taken."""
 
 from __future__ import annotations
 

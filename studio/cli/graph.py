@@ -60,7 +60,7 @@ def why_empty(wire: WireSession) -> str:
 def settle(graph: Graph, options: argparse.Namespace) -> None:
     """Take in what stands, and for `--spin-time` what comes."""
     graph.settle()
-    # A router that was just joined tells in parts what stands, and at first perhaps nothing.
+    # A router that was just joined sends the tokens in parts, and at first perhaps none.
     graph.wait_for(lambda: graph.version > 0, _FIRST_NEWS_S)
     seen = -1
     while seen != graph.version:
@@ -151,6 +151,6 @@ def say_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]
 
 
 def say_unknown(what: str, name: str) -> int:
-    """Say that nobody has a name; answers ros2's exit code."""
+    """Print that nobody has a name; return ros2's exit code."""
     print(f"Unknown {what} '{name}'", file=sys.stderr)
     return 1

@@ -89,10 +89,10 @@ def add_type_options(parser: argparse.ArgumentParser) -> None:
     add_package_options(parser)
 
 
-def add_interfaces_option(parser: argparse.ArgumentParser, says: str) -> None:
-    """The option of types of one's own, and what the help says of it."""
+def add_interfaces_option(parser: argparse.ArgumentParser, text: str) -> None:
+    """Add the option for types of one's own, with its text in the help."""
     parser.add_argument(
-        "--interfaces", action="append", default=[], type=Path, metavar="PATH", help=says
+        "--interfaces", action="append", default=[], type=Path, metavar="PATH", help=text
     )
 
 

@@ -13,8 +13,8 @@ JOINING: Final = "ROS 2 over Zenoh"
 """The group of these options in the help."""
 
 
-def add_joining_options(add: Callable[..., object], router: str, says: str) -> None:
-    """Add them; `router` is what is done where none is named, and `says` what the help tells."""
+def add_joining_options(add: Callable[..., object], router: str, router_help: str) -> None:
+    """Add them; `router` is the default of `--router`, and `router_help` its text in the help."""
     add(
         "--connect",
         action="append",
@@ -28,7 +28,7 @@ def add_joining_options(add: Callable[..., object], router: str, says: str) -> N
         metavar="N",
         help="the domain (default: ROS_DOMAIN_ID, else 0)",
     )
-    add("--router", default=router, metavar="auto|off|ENDPOINT", help=says)
+    add("--router", default=router, metavar="auto|off|ENDPOINT", help=router_help)
 
 
 def domain_number(text: str) -> int:

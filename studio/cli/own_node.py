@@ -66,7 +66,7 @@ def own_node(
 ) -> Generator[OwnNode]:
     """Join with a node of one's own, hidden unless it is given a name; take in what stands.
 
-    One that `answers` has parameters and tells others what its types are made of.
+    One that `answers` serves its parameters and describes its types to others.
 
     Raises:
         NoRouterError: None answers, and none may be started.
@@ -91,9 +91,9 @@ def own_node(
 
 
 def learn_type(own: OwnNode, endpoints: Iterable[GraphEndpoint]) -> None:
-    """Ask the nodes of endpoints in turn until one says what its type is made of.
+    """Ask the nodes of endpoints in turn until one describes its type.
 
-    Why one did not is said on stderr; whether the type is known is seen by who needs it.
+    Failures are printed on stderr; the caller looks whether the type is known then.
     """
     from studio.ros.type_lookup import learn_from_any
 
@@ -101,12 +101,12 @@ def learn_type(own: OwnNode, endpoints: Iterable[GraphEndpoint]) -> None:
 
 
 def print_error(sentence: str) -> None:
-    """Say something on stderr."""
+    """Print a sentence on stderr."""
     print(sentence, file=sys.stderr)
 
 
 def warn_of_foreign_types(own: OwnNode, endpoints: Sequence[GraphEndpoint]) -> None:
-    """Say on stderr that others have another form of a type: they are not heard then."""
+    """Warn on stderr that others have another form of a type, so that nothing of theirs arrives."""
     from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_heard
 
     wire = own.node.wire
@@ -120,9 +120,9 @@ _ASKED = ("rcl_interfaces/srv/", "lifecycle_msgs/srv/")
 
 
 def named_node(own: OwnNode, options: argparse.Namespace) -> str | None:
-    """Give the full name of the node; None, after words on stderr, when it is not there."""
+    """Return the full name of the node; None, after a message on stderr, if it is not there."""
     path = full_name(options.node_name)
-    # On a busy machine what stands may be told late, and this one is meant by its name.
+    # On a busy machine its token may come late, and the user named this node.
     own.graph.wait_for(lambda: own.graph.node(path) is not None, _LATE_S)
     node = own.graph.node(path)
     if node is None:

@@ -44,7 +44,7 @@ _POLICIES: dict[str, type[IntEnum]] = {
 
 
 def add_qos_options(parser: argparse.ArgumentParser) -> None:
-    """Let a verb be told its quality of service, in ros2's words."""
+    """Add the options of quality of service, named as ros2 names them."""
     parser.add_argument("--qos-profile", choices=sorted(_PROFILES), help="a profile by its name")
     parser.add_argument("--qos-depth", type=int, metavar="N", help="how many samples wait")
     parser.add_argument(
@@ -57,7 +57,7 @@ def add_qos_options(parser: argparse.ArgumentParser) -> None:
 
 
 def is_given(options: argparse.Namespace) -> bool:
-    """Whether an option says a policy; the name of a profile is none."""
+    """Return whether an option sets a policy; the name of a profile does not count."""
     names = ("depth", "liveliness_lease_duration_seconds", *_POLICIES)
     return any(getattr(options, f"qos_{name}") is not None for name in names)
 

@@ -79,10 +79,10 @@ def _form_of(
         kind = _class_of(own, type_name, [*publishers, *others])
     except UnknownTypeError as error:
         return None, _unread(error, [*publishers, *others], raw=raw)
-    told = _described_form(own, publishers)
-    if told is None:
+    described = _described_form(own, publishers)
+    if described is None:
         warn_of_foreign_types(own, publishers)
-    return told or (kind, None)
+    return described or (kind, None)
 
 
 def _unread(error: UnknownTypeError, ends: list[GraphEndpoint], *, raw: bool) -> GraphEndpoint:
@@ -180,7 +180,7 @@ def _described_form(
     """Give the class of a type as one of its users has it, where nobody has it as we do.
 
     None where somebody does, where the form is only another distribution's, which is chosen by
-    name, and where nobody tells it. What is known otherwise stays as it is.
+    name, and where nobody describes it. The types that are known stay as they are.
     """
     if not ends or not _is_nobodys(own, ends):
         return None
@@ -204,7 +204,7 @@ def _is_nobodys(own: OwnNode, ends: Sequence[GraphEndpoint]) -> bool:
 
     wire = own.node.wire
     if not wire.profile.has_type_hash or any(end.type_hash == NO_HASH for end in ends):
-        return False  # Humble, here or there, where no form is told
+        return False  # Humble, here or there, where tokens hold no hash
     ours = wire.profile.type_hash(wire.types.hash_of(ends[0].type_name))
     if any(end.type_hash == ours for end in ends):
         return False

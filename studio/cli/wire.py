@@ -25,7 +25,7 @@ _DISTRO = "jazzy"
 def add_wire_options(
     parser: argparse.ArgumentParser, router: str = LOOKING, *, own_types: bool = True
 ) -> None:
-    """Let a verb speak with nodes; `router` is what it does by itself where no router answers."""
+    """Add the options of a verb that joins nodes; `router` is the default of `--router`."""
     wire = parser.add_argument_group(JOINING)
     add_joining_options(
         wire.add_argument,
@@ -50,7 +50,7 @@ def add_wire_options(
 
 
 def take_wire_options(parser: argparse.ArgumentParser) -> None:
-    """Let a verb that asks nobody be told where others are: every line may say it."""
+    """Accept and ignore the options of the wire, so that any line may have them."""
     for name in ("--connect", "--domain", "--router"):
         parser.add_argument(name, action="append", help=argparse.SUPPRESS)
 
@@ -63,7 +63,7 @@ def opened_wire(options: argparse.Namespace, *, own_types: bool = True) -> Gener
 
     Raises:
         NoRouterError: None answers, and none may be started.
-        WireSettingsError: An option or the environment says what cannot be.
+        WireSettingsError: An option or the environment holds an invalid value.
     """
     from studio.ros.wire.session import open_wire
     from studio.ros.wire.settings import wire_settings

@@ -40,7 +40,7 @@ class Demo:
         return self._docstring().partition("\n\n")[2].removeprefix("Try: ")
 
     def _docstring(self) -> str:
-        """Read what the module says of itself, without running it."""
+        """Return the docstring of the module, without running it."""
         found = importlib.util.find_spec(self.module)
         if found is None or found.origin is None:
             return ""

@@ -1,4 +1,4 @@
-"""JointStatePublisher: tells where the joints of a robot stand, on `joint_states`.
+"""JointStatePublisher: publishes the positions of a robot's joints on `joint_states`.
 
 Try: `studio run joint_state_publisher joint_state_publisher robot.urdf`, then
 `studio topic hz /joint_states`.

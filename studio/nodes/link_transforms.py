@@ -28,7 +28,7 @@ class LinkTransform(NamedTuple):
 
 
 class LinkTransforms:
-    """The transforms of one robot, as robot_state_publisher tells them.
+    """The transforms of one robot, as robot_state_publisher publishes them.
 
     Fixed and planar joints are of the first kind, `fixed`; a joint that moves has a transform once
     its position is known; of floating joints somebody else knows where they are.
@@ -131,7 +131,7 @@ class _Reading(NamedTuple):
 class JointReading:
     """Reads revolute, continuous and prismatic joints; what does not fit their axis is left out.
 
-    Frames may have a prefix, as `r1/wheel`. Of several robots the first that is heard is read, but
+    Frames may have a prefix, as `r1/wheel`. Of several robots the first that comes is read, but
     frames without a prefix are the robot's own before all others.
     """
 

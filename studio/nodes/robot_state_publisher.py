@@ -1,4 +1,4 @@
-"""RobotStatePublisher: tells a robot's description and the transforms of its tree, as upstream.
+"""RobotStatePublisher: publishes a robot's description and its transforms, as upstream does.
 
 Try: `studio run robot_state_publisher robot_state_publisher robot.urdf`, then
 `studio topic echo --once /tf_static`.
@@ -41,7 +41,7 @@ _NANOSECONDS = 1_000_000_000
 class StatePace:
     """Lets each joint through at most at a frequency, by the stamps of the messages.
 
-    A message passes when its least recently told joint is due, and then whole, as upstream does it.
+    A message passes whole when its least recently published joint is due, as upstream does it.
 
     Args:
         frequency_hz: Above 0.
@@ -54,7 +54,7 @@ class StatePace:
         self._last_now_ns = 0
 
     def is_due(self, joints: Iterable[str], stamp_ns: int, now_ns: int) -> bool:
-        """Whether a message is to be told; it counts as told then.
+        """Return whether a message is to be published; it counts as published then.
 
         A clock that went back, as a simulation's does when it begins anew, forgets all before.
         """

@@ -229,7 +229,7 @@ def _library_with(options: argparse.Namespace, name: str) -> TypeLibrary:
 
 
 def _asked(options: argparse.Namespace, name: str) -> TypeLibrary | None:
-    """Ask the nodes that use a type; None when there are none, or none says what it is."""
+    """Ask the nodes that use a type; None if there are none, or none describes it."""
     from studio.cli.own_node import learn_type, own_node
     from studio.ros.type_lookup import users_of
 

@@ -106,7 +106,7 @@ def _module_of(options: argparse.Namespace, package_path: list[str]) -> str:
 
     Raises:
         SettingsError: The studio has no such node, or the workspace has a package of that name;
-            the sentence says what there is instead.
+            the sentence names what there is instead.
     """
     package, name = options.package_name, options.executable_name
     own = demo_executables().get(package, {})

@@ -1,4 +1,4 @@
-"""`studio topic list`, `info`, `type` and `find`: what the graph says of topics."""
+"""`studio topic list`, `info`, `type` and `find`: topics in the graph and their ends."""
 
 from __future__ import annotations
 

@@ -165,7 +165,7 @@ class MessageSource:
 
 
 def source_of(options: argparse.Namespace, kind: type[MessageValue]) -> MessageSource:
-    """Give the messages that a line asks for; the first is made at once: mistakes are told early.
+    """Return the messages that a line asks for; the first is made at once, to find mistakes early.
 
     Raises:
         MessageValueError: A text is no YAML, or no such message.
@@ -183,7 +183,7 @@ def source_of(options: argparse.Namespace, kind: type[MessageValue]) -> MessageS
 def _again_and_again(
     kind: type[MessageValue], text: str, first: MessageValue
 ) -> Iterator[MessageValue]:
-    """Give one message without end; where it tells the time, that of each moment."""
+    """Yield one message without end; where it holds the time, that of each moment."""
     has_time = "now" in text or "auto" in text
     while True:
         yield _message(kind, text) if has_time else first
