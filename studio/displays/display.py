@@ -116,7 +116,7 @@ class Display(ABC):
     DOC: ClassVar[str]
     """One sentence on what it shows."""
     ICON: ClassVar[str] = "box"
-    """One of the page's icons, by its name in `frontend_assets/vendor/icons.js`."""
+    """One of the page's icons, by its name in `ICONS` of `frontend_assets/tools/vendor.mjs`."""
     TOPICS: ClassVar[tuple[TopicRole, ...]] = ()
     """The main one first; empty for a display without messages."""
     FIRST_TOPIC: ClassVar[str] = ""

@@ -13,6 +13,7 @@ from studio.ros.messages import message
 from studio.ros.types.convert import from_dict
 from tests.support.demos import node_at
 from tests.support.display_messages import point, pose
+from tests.support.display_samples import SAMPLES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Mapping
@@ -56,7 +57,8 @@ def _topic(kind: type[Display]) -> str:
 
 def _tell(node: Node, kind: type[Display], topic: str) -> None:
     """Publish messages of a kind, each another one, in the frame that the rover drives in."""
-    type_name, make = kind.TOPICS[0].types[0], _MAKERS[kind.KIND]
+    type_name = kind.TOPICS[0].types[0]
+    make = _MAKERS.get(kind.KIND) or _sample_of(kind.KIND, type_name)
     made = message(type_name)
     publisher = node.create_publisher(made, topic, 5)
     count = 0
@@ -69,6 +71,13 @@ def _tell(node: Node, kind: type[Display], topic: str) -> None:
         publisher.publish(from_dict(made, {"header": header, **make(count)}))
 
     node.create_timer(_PERIOD_S, tell)
+
+
+def _sample_of(kind: str, type_name: str) -> Callable[[int], Fields]:
+    """The same message each time, for a display of which nothing is made here."""
+    known = (one for one in SAMPLES if (one.kind, one.type_name) == (kind, type_name))
+    fields = next(known).fields
+    return lambda _: fields
 
 
 def _around(count: int) -> tuple[float, float, float]:

@@ -40,13 +40,13 @@ GROUP_OF: dict[str, str] = dict(
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
-OF_DEEDS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
+OF_OPERATIONS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
 """Panels whose pictures `operation_pictures` and `field_pictures` take."""
 ON_THE_WIRE = sorted(
     (
         panel
         for panel, group in GROUP_OF.items()
-        if group in {"watch", "act", "learn"} and panel not in OF_DEEDS
+        if group in {"watch", "act", "learn"} and panel not in OF_OPERATIONS
     ),
     key=lambda panel: panel != "lessons",
 )
@@ -141,7 +141,7 @@ def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in GROUP_OF:
-        if wanted(panel) and panel not in {"problems", "displays", *ON_THE_WIRE, *OF_DEEDS}:
+        if wanted(panel) and panel not in {"problems", "displays", *ON_THE_WIRE, *OF_OPERATIONS}:
             camera.page.evaluate(SHOW_PANEL, panel)
             camera.take(panel, camera.page.evaluate(_DOCK_OF, panel))
 
@@ -305,10 +305,12 @@ def take_broken(browser: Browser, data: Path) -> None:
 
 def main() -> None:
     """Take them all anew."""
+    wired = (*ON_THE_WIRE, "live", "displays", "ros")
     for browser in open_browser():
-        with tempfile.TemporaryDirectory() as data:
-            take_demo(browser, Path(data))
-        if any(map(wanted, (*ON_THE_WIRE, "live", "displays", "ros"))):
+        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, ("problems",)):
+            with tempfile.TemporaryDirectory() as data:
+                take_demo(browser, Path(data))
+        if any(map(wanted, wired)):
             with tempfile.TemporaryDirectory() as data:
                 take_wired(browser, Path(data))
         if wanted("problems"):

@@ -39,7 +39,7 @@ class Health:
         array.header.stamp = stamp
         self._diagnostics.publish(array)
         battery = BatteryState(voltage=volts, percentage=charge, present=True)
-        battery.header.stamp = stamp
+        battery.header.stamp, battery.header.frame_id = stamp, "base_link"
         battery.power_supply_status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
         self._batteries.publish(battery)
 
