@@ -415,12 +415,15 @@ def serve(codec: Codec, handle: Callable[[Any], object], memory_limit_bytes: int
     requests, answers = _take_over_pipes()
     limit_memory(memory_limit_bytes)
     gc.set_threshold(_OBJECTS_WITHIN_REQUEST)
-    answers.write(_UP)
-    answers.flush()
-    while (body := _read_message(requests)) is not None:
-        answers.write(codec.pack(handle(codec.unpack(body))))
+    try:
+        answers.write(_UP)
         answers.flush()
-        _clean_up()
+        while (body := _read_message(requests)) is not None:
+            answers.write(codec.pack(handle(codec.unpack(body))))
+            answers.flush()
+            _clean_up()
+    except BrokenPipeError:  # the parent is gone; what is left to write would fail again at exit
+        os._exit(0)
 
 
 def _clean_up() -> None:

@@ -134,16 +134,16 @@ export const polled = (ask, everyMs, isOn = () => true) =>
 /** How often each was told to have changed. */
 const changes = { graph: signal(0), log: signal(0) };
 
-subscribe("changed", ({ of }) => {
-  changes[of].value += 1;
+subscribe("changed", ({ subject }) => {
+  changes[subject].value += 1;
 });
 
-/** @param {Changed["of"]} of be told of its changes; gives the end of it */
-const followChanges = (of) =>
+/** @param {Changed["subject"]} subject be told of its changes; gives the end of it */
+const followChanges = (subject) =>
   sharedFollowing(() => {
     const tell = (/** @type {boolean} */ following) =>
       // What is in the way is seen by the page itself: a new lane begins anew.
-      void send({ type: "follow_changes", of, following }).catch(() => {});
+      void send({ type: "follow_changes", subject, following }).catch(() => {});
     const end = effect(() => {
       if (connection.value === "connected") tell(true);
     });
@@ -178,16 +178,16 @@ function oneAtATime(ask) {
  * that is not seen asks once it is.
  *
  * @param {() => Promise<boolean | void>} ask gives whether there is more to be asked for at once
- * @param {Changed["of"]} of what it is asked about
+ * @param {Changed["subject"]} subject what it is asked about
  * @returns {() => () => void} begin to look; gives the end of looking
  */
-export const askedWhenChanged = (ask, of) =>
+export const askedWhenChanged = (ask, subject) =>
   sharedFollowing(() => {
     let over = false;
     const go = oneAtATime(async () => !over && !document.hidden && (await ask()));
-    const unfollow = FOLLOW[of]();
+    const unfollow = FOLLOW[subject]();
     const forget = effect(() => {
-      changes[of].value;
+      changes[subject].value;
       if (connection.value === "connected") untracked(() => void go());
     });
     document.addEventListener("visibilitychange", go);

@@ -195,7 +195,7 @@ export interface ChangeState {
 /** Something changed, once or several times since this was told last. */
 export interface Changed {
   type: "changed";
-  of: "graph" | "log";
+  subject: "graph" | "log";
 }
 
 /** Answer to `get_changes`. */
@@ -741,7 +741,7 @@ export interface FollowChanges {
   document?: string;
   id?: string;
   type: "follow_changes";
-  of: "graph" | "log";
+  subject: "graph" | "log";
   following?: boolean;
 }
 

@@ -14,7 +14,7 @@ class FollowChanges(Command):
     """Be told when something changed, from now on; or no more."""
 
     type: Literal["follow_changes"] = "follow_changes"
-    of: Subject
+    subject: Subject
     following: bool = True
 
 
@@ -22,4 +22,4 @@ class Changed(Event):
     """Something changed, once or several times since this was told last."""
 
     type: Literal["changed"] = "changed"
-    of: Subject
+    subject: Subject

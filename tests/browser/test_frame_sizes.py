@@ -118,7 +118,7 @@ def test_where_the_processor_draws_it_is_said_once_and_drawn_lightly(
     browser: Browser, studio: RunningStudio
 ):
     with opened(browser, studio, (1280, 720), device_scale_factor=2) as tab:
-        note = tab.page.get_by_text("the 3D view is drawn lightly here")
+        note = tab.page.get_by_text("the 3D view is drawn with less detail here")
         note.wait_for()
         wait_until("it to be drawn lightly", lambda: draws(tab, light=True))
         assert tab.page.evaluate(_GRAPHICS)["software"]
@@ -141,7 +141,7 @@ def test_a_view_that_proves_slow_is_drawn_lightly_until_one_undoes_it(
     with opened(browser, studio, (900, 700), _UNNAMED_CARD) as tab:
         assert draws(tab, light=False)
         tab.page.evaluate(_SPIN)
-        tab.page.get_by_text("the 3D view is drawn lightly here").wait_for(timeout=90_000)
+        tab.page.get_by_text("the 3D view is drawn with less detail here").wait_for(timeout=90_000)
         wait_until("it to be drawn lightly", lambda: draws(tab, light=True))
         wait_until("the shadows to go", lambda: tab.page.evaluate(_SHADOWS) == 0)
         tab.page.get_by_role("region", name="3D view").get_by_role(

@@ -131,7 +131,7 @@ def test_a_pasted_text_is_drawn_at_once_and_gets_a_place_by_saving_it(tab: Studi
     tab.page.get_by_role("menuitem", name="Save as").click()
     name = tab.page.get_by_role("textbox", name="Package")
     name.fill("My Ball")
-    tab.page.get_by_text("of small letters only").wait_for()
+    tab.page.get_by_text("has lower-case letters only").wait_for()
     name.fill("ball_description")
     tab.page.get_by_text("A good name").wait_for()
     tab.page.keyboard.press("Enter")

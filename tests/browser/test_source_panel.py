@@ -134,7 +134,7 @@ def test_what_one_types_another_sees_and_a_viewer_cannot_change(
     viewer.page.keyboard.type("x")
     viewer.page.keyboard.press("Backspace")
     assert text_of(viewer) == seen
-    assert viewer.page.get_by_text("the text can be read only").is_visible()
+    assert viewer.page.get_by_text("the text is read-only").is_visible()
     assert viewer.errors == []
     watching.close()
 

@@ -97,6 +97,7 @@ FIELDS: dict[str, object] = {
     "used_by": "topic",
     "operations": "calls",
     "demo": "talker",
+    "subject": "graph",
     "pressed": "up",
 }
 """A value for each field that a command needs."""

@@ -34,38 +34,43 @@ class Changes:
         """Tell a page of changes from now on, or no more."""
         self._loop = asyncio.get_running_loop()
         if command.following:
-            self._followers[command.of].add(listener)
+            self._followers[command.subject].add(listener)
         else:
-            self._followers[command.of].remove(listener)
+            self._followers[command.subject].remove(listener)
 
     def detach(self, listener: Listener) -> None:
         """Forget a page."""
         for followers in self._followers.values():
             followers.remove(listener)
 
-    def changed(self, of: Subject) -> None:
+    def changed(self, subject: Subject) -> None:
         """Tell those who follow it soon."""
-        if self._followers[of] and not self._closed:
-            self._throttles[of].trigger()
+        if self._followers[subject] and not self._closed:
+            self._throttles[subject].trigger()
 
-    def changed_elsewhere(self, of: Subject) -> None:
+    def changed_elsewhere(self, subject: Subject) -> None:
         """Do the same from any thread."""
         loop = self._loop
-        if self._followers[of] and of not in self._woken and loop and not loop.is_closed():
-            self._woken.add(of)
-            loop.call_soon_threadsafe(self._wake, of)
+        if (
+            self._followers[subject]
+            and subject not in self._woken
+            and loop
+            and not loop.is_closed()
+        ):
+            self._woken.add(subject)
+            loop.call_soon_threadsafe(self._wake, subject)
 
     async def close(self) -> None:
         """Tell nothing more."""
         self._closed = True
         await asyncio.gather(*(one.close() for one in self._throttles.values()))
 
-    def _wake(self, of: Subject) -> None:
-        self._woken.discard(of)  # before it is told: what changes from now on is told again
-        self.changed(of)
+    def _wake(self, subject: Subject) -> None:
+        self._woken.discard(subject)  # before it is told: what changes from now on is told again
+        self.changed(subject)
 
-    async def _tell(self, of: Subject) -> None:
-        self._followers[of].tell(Changed(of=of))
+    async def _tell(self, subject: Subject) -> None:
+        self._followers[subject].tell(Changed(subject=subject))
 
 
 COMMANDS: Final = Commands[Changes](Scope.ROS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Final
 
@@ -40,6 +41,7 @@ _LIST_TYPE: Final = "rcl_interfaces/srv/ListParameters"
 _REMOTES_KEPT: Final = 16
 _EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
 _EVENTS: Final = Request("/parameter_events", (_EVENT_TYPE,), depth=1_000, as_known_here=True)
+_SUBSCRIBED_WITHIN_S: Final = 2.0
 _PAUSE_S: Final = 0.1
 _NEWS_MAX: Final = 2_000
 """Of one node between two words about it."""
@@ -54,6 +56,7 @@ class NodeParameters:
         self._turn = asyncio.Lock()
         self._followed: dict[Listener, str] = {}
         self._events: Subscription | None = None
+        self._subscribed = asyncio.Event()
         self._news: dict[str, dict[str, ParameterView | None]] = {}
         self._throttle = Throttle(self._tell, pause_s=_PAUSE_S)
 
@@ -100,13 +103,20 @@ class NodeParameters:
             request=command.request, node=remote.node, count=count, refused=refused
         )
 
-    def follow(self, command: FollowParameters, listener: Listener) -> None:
-        """Tell a page when parameters of a node change; of one node at a time."""
+    async def follow(self, command: FollowParameters, listener: Listener) -> None:
+        """Tell a page when parameters of a node change; of one node at a time.
+
+        Where a ROS system is connected, changes are received once this is done.
+        """
         if command.node:
             self._followed[listener] = f"/{command.node.removeprefix('/')}"
         else:
             self._followed.pop(listener, None)
         self._follow_events()
+        if command.node and self._wire.topics.connection == "there":
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(_SUBSCRIBED_WITHIN_S):
+                    await self._subscribed.wait()
 
     def detach(self, listener: Listener) -> None:
         """A page is gone."""
@@ -150,10 +160,19 @@ class NodeParameters:
                 if not loop.is_closed():
                     loop.call_soon_threadsafe(self._take, event)
 
-            self._events = self._wire.topics.subscribe(_EVENTS, take=take)
+            def changed() -> None:  # in a thread of the source
+                if not loop.is_closed():
+                    loop.call_soon_threadsafe(self._note_subscribed)
+
+            self._events = self._wire.topics.subscribe(_EVENTS, take=take, changed=changed)
         elif not self._followed and self._events is not None:
             self._events.close()
             self._events = None
+            self._subscribed.clear()
+
+    def _note_subscribed(self) -> None:
+        if self._events is not None and self._events.state.fit is not None:
+            self._subscribed.set()
 
     def _take(self, event: MessageValue) -> None:
         from studio.live.panels.parameter_work import changed_view  # noqa: PLC0415 - zenoh

@@ -14,6 +14,7 @@ from studio.ros.parameters.parameter import Parameter
 from tests.support.meshes import stl
 from tests.support.open_documents import until
 from tests.support.viser_frames import joined
+from tests.support.wire import PATIENCE_S
 from tests.support.wired_studio import STRING, Studio, studio
 
 if TYPE_CHECKING:
@@ -227,7 +228,9 @@ def test_a_mesh_that_is_not_there_is_told_and_one_beside_the_document_is_drawn(
         async with studio(endpoint, tmp_path) as one:
             display = await add(one)
             await until(lambda: any("gone" in said for said in remarks(one, display)))
-            drawn = (await nodes(one)).keys()
-            assert {f"/live/{display}/base/link.visual-{at}" for at in (0, 1)} <= drawn
+            both = {f"/live/{display}/base/link.visual-{at}" for at in (0, 1)}
+            async with asyncio.timeout(PATIENCE_S):
+                while not both <= (await nodes(one)).keys():  # noqa: ASYNC110 - nothing tells us when
+                    await asyncio.sleep(0.01)
 
     asyncio.run(run())

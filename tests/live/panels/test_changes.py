@@ -19,16 +19,16 @@ if TYPE_CHECKING:
     from studio.ros.client import Node
 
 
-def told(ear: Ear, of: str) -> int:
+def told(ear: Ear, subject: str) -> int:
     """How often a page was told of changes."""
-    return sum(one["type"] == "changed" and one["of"] == of for one in ear.events)
+    return sum(one["type"] == "changed" and one["subject"] == subject for one in ear.events)
 
 
 def test_who_follows_is_told_from_any_thread_and_nobody_else():
     async def run() -> None:
         changes, follower, other = Changes(), Ear(), Ear()
-        changes.follow(FollowChanges(of="log"), follower)
-        changes.follow(FollowChanges(of="graph"), other)
+        changes.follow(FollowChanges(subject="log"), follower)
+        changes.follow(FollowChanges(subject="graph"), other)
         for _ in range(50):
             thread = threading.Thread(target=changes.changed_elsewhere, args=("log",))
             thread.start()
@@ -36,7 +36,7 @@ def test_who_follows_is_told_from_any_thread_and_nobody_else():
         await until(lambda: told(follower, "log") > 0)
         assert told(follower, "log") == 1  # however much changed
         assert not other.events
-        changes.follow(FollowChanges(of="log", following=False), follower)
+        changes.follow(FollowChanges(subject="log", following=False), follower)
         changes.detach(other)
         changes.changed("graph")
         changes.changed_elsewhere("log")
@@ -50,8 +50,8 @@ def test_who_follows_is_told_from_any_thread_and_nobody_else():
 def test_a_line_of_the_log_and_a_new_topic_are_told(endpoint: str, tester: Node):
     async def run() -> None:
         async with bridged(endpoint) as page:
-            await page.do(FollowChanges(of="log"))
-            await page.do(FollowChanges(of="graph"))
+            await page.do(FollowChanges(subject="log"))
+            await page.do(FollowChanges(subject="graph"))
             await page.do(GetLog())
             graph = told(page.ear, "graph")
             tester.create_publisher(message("std_msgs/msg/String"), "/new", 10)
