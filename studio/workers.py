@@ -90,6 +90,8 @@ class Worker:
         self._closes = 0
         """How often it was closed: who waited since before does not start it anew."""
         self._lock = asyncio.Lock()
+        self._starting: asyncio.Future[asyncio.subprocess.Process] | None = None
+        self._ending: asyncio.Future[int] | None = None
 
     @property
     def pid(self) -> int | None:
@@ -167,6 +169,10 @@ class Worker:
     async def close(self) -> None:
         """End the process; safe to call twice. Requests under way fail, and those that wait."""
         self._closes += 1
+        if starting := self._starting:
+            await asyncio.wait((starting,))
+            if not starting.cancelled() and starting.exception() is None:
+                self._process = starting.result()
         await self._end()
 
     async def _ensure_process(self) -> asyncio.subprocess.Process:
@@ -182,17 +188,18 @@ class Worker:
 
     async def _start(self) -> asyncio.subprocess.Process:
         closes = self._closes
-        starting = asyncio.ensure_future(self._spawn())
+        starting = self._starting = asyncio.ensure_future(self._spawn())
         try:
             process = await asyncio.shield(starting)
         except asyncio.CancelledError:
-            self._process = await starting  # else nobody would know of it and end it
-            if closes != self._closes:
-                await self._end()
+            process = await starting  # else nobody would know of it and end it
+            if closes == self._closes:
+                self._process = process
             raise
-        if closes != self._closes:
-            self._process = process
-            raise WorkerDiedError(self.name, await self._end())
+        finally:
+            self._starting = None
+        if closes != self._closes:  # `close` ends it
+            raise WorkerDiedError(self.name, None)
         return process
 
     async def _spawn(self) -> asyncio.subprocess.Process:
@@ -217,15 +224,23 @@ class Worker:
         return await process.stdout.readexactly(length)
 
     async def _end(self) -> int | None:
+        """End the process, or wait until it has ended: whoever began to end it may be cancelled."""
         process, self._process = self._process, None
-        if process is None:
+        if process is not None:
+            self._ending = asyncio.ensure_future(_killed(process))
+        if self._ending is None:
             return None
-        with contextlib.suppress(ProcessLookupError):
-            process.kill()
-        assert process.stdout is not None
-        with contextlib.suppress(RuntimeError):  # whoever asks reads it already
-            await process.stdout.read()  # to its end, or asyncio holds the pipe for open
-        return await process.wait()
+        code = await asyncio.shield(self._ending)
+        return None if process is None else code
+
+
+async def _killed(process: asyncio.subprocess.Process) -> int:
+    with contextlib.suppress(ProcessLookupError):
+        process.kill()
+    assert process.stdout is not None
+    with contextlib.suppress(RuntimeError):  # whoever asks reads it already
+        await process.stdout.read()  # to its end, or asyncio holds the pipe for open
+    return await process.wait()
 
 
 @contextlib.asynccontextmanager

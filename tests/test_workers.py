@@ -52,6 +52,23 @@ def test_a_worker_that_is_closed_while_it_starts_leaves_no_process():
     asyncio.run(run())
 
 
+def test_a_worker_is_closed_once_its_process_has_ended_whoever_began_to_end_it():
+    async def run() -> None:
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        await worker.warm()
+        pid = worker.pid
+        asking = asyncio.create_task(worker.ask(REQUEST, Failure, 30))
+        await asyncio.sleep(0)
+        for _ in range(2):  # the second time while it ends the process
+            asking.cancel()
+            await asyncio.sleep(0)
+        await worker.close()
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid or 0, 0)
+
+    asyncio.run(run())
+
+
 def test_requests_that_wait_when_a_worker_is_closed_do_not_start_it_anew():
     async def run() -> None:
         worker = Worker("xacro", "studio.description.worker", CODEC)
