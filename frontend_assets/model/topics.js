@@ -45,7 +45,7 @@ async function topicTable() {
     const answer = await send({ type: "list_topics" });
     return answer.type === "topic_table" ? answer.topics : null;
   } catch {
-    return null; // asked again and again: what is in the way says itself elsewhere
+    return null; // asked again with the next change: what is in the way says itself elsewhere
   }
 }
 
