@@ -27,39 +27,52 @@ function sizeOf(width, height) {
   return width < WIDE_FROM_PX ? "medium" : "wide";
 }
 
+/** @typedef {"left" | "middle" | "below" | "right" | "upper" | "lower" | "tabs"} Part of a layout */
+/** @typedef {Partial<Record<"wide" | "medium" | "live" | "phone", string>>} Places of a panel by layout: its part, and its number among the tabs there, as `below 4`; without a number it is the last */
+/** @typedef {Record<string, {places?: Places}>} PlacedPanels by their ids */
+
+/** @param {PlacedPanels} panels @param {keyof Places} layout @param {Part} wanted @returns {string[]} ids of those that have their place there, in order */
+export function placedPanels(panels, layout, wanted) {
+  /** @type {[number, string][]} */
+  const found = [];
+  for (const [id, { places }] of Object.entries(panels)) {
+    const [part, at = Number.MAX_VALUE] = places?.[layout]?.split(" ") ?? [];
+    if (part === wanted) found.push([Number(at), id]);
+  }
+  return found.sort(([one], [other]) => one - other).map(([, id]) => id);
+}
+
 /**
  * @param {"wide" | "medium" | "phone"} kind
  * @param {number} width px
  * @param {number} height px
- * @param {readonly string[]} panels all that there are
+ * @param {PlacedPanels} panels all that there are
  * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
  */
 function modelLayout(kind, width, height, panels) {
-  if (kind === "phone") return [{ tabs: [...panels], size: width }];
+  if (kind === "phone") return [{ tabs: Object.keys(panels), size: width }];
+  const tabsOf = (/** @type {Part} */ part) => placedPanels(panels, kind, part);
   if (kind === "medium") {
     const right = Math.round(Math.min(340, width * 0.42));
     const low = Math.round(height * LOW_SHARE);
     const left = [
-      { tabs: ["scene"], size: height - low },
-      {
-        tabs: ["source", "outline", "displays", "variants", "problems", "masses", "urdf"],
-        size: low,
-      },
+      { tabs: tabsOf("middle"), size: height - low },
+      { tabs: tabsOf("below"), size: low },
     ];
     return [
       { split: left, size: width - right },
-      { tabs: ["properties", "origin", "joints", "frames"], size: right },
+      { tabs: tabsOf("right"), size: right },
     ];
   }
   const low = Math.round(Math.min(430, height * LOW_SHARE));
-  const scene = { tabs: ["scene"], size: height - low };
-  const below = { tabs: ["source", "variants", "problems", "frames", "masses", "urdf"], size: low };
+  const middle = { tabs: tabsOf("middle"), size: height - low };
+  const below = { tabs: tabsOf("below"), size: low };
   const left = Math.round(Math.min(300, width * 0.22));
   const right = Math.round(Math.min(390, width * 0.28));
   return [
-    { tabs: ["displays", "outline"], size: left },
-    { split: [scene, below], size: width - left - right },
-    { tabs: ["properties", "origin", "joints"], size: right },
+    { tabs: tabsOf("left"), size: left },
+    { split: [middle, below], size: width - left - right },
+    { tabs: tabsOf("right"), size: right },
   ];
 }
 
@@ -71,7 +84,7 @@ const storeName = (kind) => `layout.${VERSION}.${kind}`;
  *
  * @param {Dock} dock
  * @param {HTMLElement} element that holds it
- * @param {readonly string[]} panels all that there are
+ * @param {PlacedPanels} panels all that there are
  * @returns {{keep: () => void}} to be called when a person moved something
  */
 export function followSize(dock, element, panels) {
@@ -98,18 +111,18 @@ export function followSize(dock, element, panels) {
   };
 }
 
-/** @param {"wide" | "medium" | "phone"} kind @param {HTMLElement} element @param {readonly string[]} panels @returns {Arrangement} */
+/** @param {"wide" | "medium" | "phone"} kind @param {HTMLElement} element @param {PlacedPanels} panels @returns {Arrangement} */
 function arrangementFor(kind, element, panels) {
   const given = { parts: givenLayout(kind, element.clientWidth, element.clientHeight, panels) };
   if (kind === "phone") return given;
   const chosen = recall(storeName(kind)) ?? ownArrangement(layoutInUse.value);
-  return readArrangement(chosen, (id) => panels.includes(id))?.arrangement ?? given;
+  return readArrangement(chosen, (id) => Object.hasOwn(panels, id))?.arrangement ?? given;
 }
 
-/** @param {"wide" | "medium" | "phone"} kind @param {number} width px @param {number} height px @param {readonly string[]} panels */
+/** @param {"wide" | "medium" | "phone"} kind @param {number} width px @param {number} height px @param {PlacedPanels} panels */
 function givenLayout(kind, width, height, panels) {
   if (kind !== "phone" && layoutInUse.value === LIVE)
-    return liveLayout(kind, width, height, (id) => panels.includes(id));
+    return liveLayout(kind, width, height, panels);
   return modelLayout(kind, width, height, panels);
 }
 
@@ -134,11 +147,6 @@ function controlFor(dock, arrange) {
 /** Its name among the layouts; one that a person gives never begins with a space. */
 export const LIVE = " live";
 
-const MIDDLE = ["scene", "turtlesim", "jerry"];
-const LEFT = ["displays", "frames", "joints", "lessons"];
-const BELOW = ["plot", "log", "image", "diagnostics"];
-const UPPER = ["graph", "interfaces", "lifecycle"];
-const LOWER = ["topics", "services", "actions", "parameters", "publish", "teleop"];
 const LIVE_LOW_SHARE = 0.36;
 const UPPER_SHARE = 0.4;
 
@@ -146,15 +154,14 @@ const UPPER_SHARE = 0.4;
  * @param {"wide" | "medium"} kind
  * @param {number} width px
  * @param {number} height px
- * @param {(id: string) => boolean} isPanel those that there are
+ * @param {PlacedPanels} panels all that there are
  * @returns {Split[]} a row, left to right; a split in it stacks from top to bottom
  */
-function liveLayout(kind, width, height, isPanel) {
-  const [left, below, upper, lower] = /** @type {[string[], string[], string[], string[]]} */ (
-    [LEFT, BELOW, UPPER, LOWER].map((ids) => ids.filter(isPanel))
-  );
+function liveLayout(kind, width, height, panels) {
+  const tabsOf = (/** @type {Part} */ part) => placedPanels(panels, "live", part);
+  const [left, upper, lower] = [tabsOf("left"), tabsOf("upper"), tabsOf("lower")];
   const low = Math.round(height * LIVE_LOW_SHARE);
-  const middle = [{ tabs: MIDDLE.filter(isPanel), size: height - low }, ...tabs(below, low)];
+  const middle = [{ tabs: tabsOf("middle"), size: height - low }, ...tabs(tabsOf("below"), low)];
   if (kind === "medium") {
     const right = Math.round(Math.min(380, width * 0.44));
     return [{ split: middle, size: width - right }, ...tabs([...lower, ...left, ...upper], right)];

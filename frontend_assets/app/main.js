@@ -55,7 +55,7 @@ function startDock(element) {
       activePanel.value = id;
     },
   });
-  arrangement = followSize(dock, element, Object.keys(PANELS));
+  arrangement = followSize(dock, element, PANELS);
   addLayoutCommands(dock, element);
 }
 

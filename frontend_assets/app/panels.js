@@ -1,14 +1,16 @@
 /**
- * The panels by name: their icons, and the file that draws each, loaded when first shown. The words, the
- * styles and the help of a panel are in its folder.
+ * The panels by name, as the server found them in their folders: what `panel.json` says of each, and
+ * its component, which is loaded when it is first shown.
  */
 
 /** @import { Panel } from "../lib/dock.js" */
+/** @import { Shapes } from "../lib/ui.js" */
+/** @import { Places } from "./layouts.js" */
 
 import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { until, untilIdle, untilViewFetched } from "../lib/loading.js";
-import { Icon, ProgressBar } from "../lib/ui.js";
+import { addIcons, Icon, ProgressBar } from "../lib/ui.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";
 
@@ -18,157 +20,52 @@ export const PANEL_GROUPS = /** @type {const} */ (["robot", "files", "watch", "a
 /** @typedef {typeof PANEL_GROUPS[number]} PanelGroup */
 
 /**
- * @typedef {{icon: string, group: PanelGroup, keepsFrame?: boolean, heavy?: boolean, badge?: () => {text: string, tone: string, label: string} | null,
- *   load: () => Promise<() => import("vendor/preact.js").VNode>}} PanelEntry
+ * @typedef {object} PanelFile what `panels/<id>/panel.json` says, besides the panel's words
+ * @property {PanelGroup} group
+ * @property {string | Shapes} icon name of one that several use, or the shapes of its own, which is then named by its id
+ * @property {number} [order] in menus and in the help; without it comes last
+ * @property {Places} [places] in the first layouts
+ * @property {keyof typeof BADGES} [badge] what is counted on its tab
+ * @property {boolean} [keepsFrame] its element is never moved: a frame in it would load anew
+ * @property {boolean} [heavy] takes long, so it is loaded once the rest of the page stands
  */
 
+/** @typedef {() => import("vendor/preact.js").VNode} Component */
+/** @typedef {Omit<PanelFile, "icon" | "badge"> & {icon: string, badge: () => Badge | null, load: () => Promise<Component>}} PanelEntry */
+/** @typedef {{text: string, tone: string, label: string}} Badge */
+
+const BADGES = { changed: changedBadge, problems: problemsBadge };
+const noBadge = () => null;
+const LAST = Number.MAX_VALUE;
+
 /** @type {Record<string, PanelEntry>} */
-export const PANELS = {
-  scene: {
-    group: "robot",
-    icon: "scene",
-    keepsFrame: true,
-    load: async () => (await import("../panels/scene/scene.js")).ScenePanel,
-  },
-  displays: {
-    group: "robot",
-    icon: "list",
-    load: async () => (await import("../panels/displays/displays.js")).DisplaysPanel,
-  },
-  properties: {
-    group: "robot",
-    icon: "properties",
-    badge: changedBadge,
-    load: async () => (await import("../panels/properties/properties.js")).PropertiesPanel,
-  },
-  joints: {
-    group: "robot",
-    icon: "joints",
-    load: async () => (await import("../panels/joints/joints.js")).JointsPanel,
-  },
-  variants: {
-    group: "robot",
-    icon: "variants",
-    load: async () => (await import("../panels/variants/variants.js")).VariantsPanel,
-  },
-  source: {
-    group: "files",
-    icon: "source",
-    heavy: true,
-    load: async () => (await import("../panels/source/source.js")).SourcePanel,
-  },
-  outline: {
-    group: "files",
-    icon: "includes",
-    load: async () => (await import("../panels/outline/outline.js")).OutlinePanel,
-  },
-  problems: {
-    group: "files",
-    icon: "problems",
-    badge: problemsBadge,
-    load: async () => (await import("../panels/problems/problems.js")).ProblemsPanel,
-  },
-  origin: {
-    group: "robot",
-    icon: "origin",
-    load: async () => (await import("../panels/origin/origin.js")).OriginPanel,
-  },
-  masses: {
-    group: "robot",
-    icon: "masses",
-    load: async () => (await import("../panels/masses/masses.js")).MassesPanel,
-  },
-  plot: {
-    group: "watch",
-    icon: "plot",
-    load: async () => (await import("../panels/plot/plot.js")).PlotPanel,
-  },
-  image: {
-    group: "watch",
-    icon: "camera",
-    load: async () => (await import("../panels/image/image.js")).ImagePanel,
-  },
-  topics: {
-    group: "watch",
-    icon: "topics",
-    load: async () => (await import("../panels/topics/topics.js")).TopicsPanel,
-  },
-  frames: {
-    group: "robot",
-    icon: "frames",
-    load: async () => (await import("../panels/frames/frames.js")).FramesPanel,
-  },
-  graph: {
-    group: "watch",
-    icon: "graph",
-    load: async () => (await import("../panels/graph/graph.js")).GraphPanel,
-  },
-  interfaces: {
-    group: "watch",
-    icon: "interfaces",
-    load: async () => (await import("../panels/interfaces/interfaces.js")).InterfacesPanel,
-  },
-  lessons: {
-    group: "learn",
-    icon: "lessons",
-    load: async () => (await import("../panels/lessons/lessons.js")).LessonsPanel,
-  },
-  lifecycle: {
-    group: "act",
-    icon: "lifecycle",
-    load: async () => (await import("../panels/lifecycle/lifecycle.js")).LifecyclePanel,
-  },
-  diagnostics: {
-    group: "watch",
-    icon: "diagnostics",
-    load: async () => (await import("../panels/diagnostics/diagnostics.js")).DiagnosticsPanel,
-  },
-  log: {
-    group: "watch",
-    icon: "log",
-    load: async () => (await import("../panels/log/log.js")).LogPanel,
-  },
-  services: {
-    group: "act",
-    icon: "services",
-    load: async () => (await import("../panels/services/services.js")).ServicesPanel,
-  },
-  actions: {
-    group: "act",
-    icon: "goal",
-    load: async () => (await import("../panels/actions/actions.js")).ActionsPanel,
-  },
-  parameters: {
-    group: "act",
-    icon: "parameters",
-    load: async () => (await import("../panels/parameters/parameters.js")).ParametersPanel,
-  },
-  publish: {
-    group: "act",
-    icon: "send",
-    load: async () => (await import("../panels/publish/publish.js")).PublishPanel,
-  },
-  teleop: {
-    group: "act",
-    icon: "compass",
-    load: async () => (await import("../panels/teleop/teleop.js")).TeleopPanel,
-  },
-  turtlesim: {
-    group: "learn",
-    icon: "route",
-    load: async () => (await import("../panels/turtlesim/turtlesim.js")).TurtlesimPanel,
-  },
-  jerry: {
-    group: "learn",
-    icon: "grid",
-    load: async () => (await import("../panels/jerry/jerry.js")).JerryPanel,
-  },
-  urdf: {
-    group: "files",
-    icon: "urdf",
-    load: async () => (await import("../panels/urdf/urdf.js")).UrdfPanel,
-  },
-};
+export const PANELS = readPanels(
+  JSON.parse(globalThis.document?.getElementById("panels")?.textContent ?? "{}"),
+);
+
+/** @param {Record<string, PanelFile>} found by the names of their folders @returns {Record<string, PanelEntry>} in the order of menus */
+export function readPanels(found) {
+  const files = Object.entries(found);
+  files.sort(([, { order: one = LAST }], [, { order: other = LAST }]) => one - other);
+  return Object.fromEntries(files.map(([id, file]) => [id, panelEntry(id, file)]));
+}
+
+/** @param {string} id @param {PanelFile} file @returns {PanelEntry} */
+function panelEntry(id, { icon, badge, ...file }) {
+  if (typeof icon !== "string") addIcons({ [id]: icon });
+  return {
+    ...file,
+    icon: typeof icon === "string" ? icon : id,
+    badge: badge ? BADGES[badge] : noBadge,
+    load: () => componentOf(id),
+  };
+}
+
+/** @param {string} id @returns {Promise<Component>} for `image` the `ImagePanel` of its file */
+async function componentOf(id) {
+  const module = await import(`../panels/${id}/${id}.js`);
+  return module[`${id.charAt(0).toUpperCase()}${id.slice(1)}Panel`];
+}
 
 /** @param {string} id */
 export const panelTitle = (id) => t(`panel.${id}`);
@@ -196,7 +93,7 @@ function problemsBadge() {
 /** @param {{id: string}} props */
 function Tab({ id }) {
   const entry = PANELS[id];
-  const badge = entry?.badge?.();
+  const badge = entry?.badge();
   const face = useRef(/** @type {HTMLElement | null} */ (null));
   const name = [panelTitle(id), badge?.label].filter(Boolean).join(", ");
   // The dock names its tab after the panel, without the count that stands in it.
@@ -227,9 +124,7 @@ async function fetched(id) {
 
 /** @param {{id: string}} props draws the panel as soon as its file is here */
 function Loaded({ id }) {
-  const [drawn, setDrawn] = useState(
-    /** @type {{panel: () => import("vendor/preact.js").VNode} | null} */ (null),
-  );
+  const [drawn, setDrawn] = useState(/** @type {{panel: Component} | null} */ (null));
   useEffect(() => {
     fetched(id).then((panel) => panel && setDrawn({ panel }));
   }, [id]);

@@ -11,6 +11,7 @@ import { goTo, openPath } from "../model/requests.js";
 import { activePanel, dialog, size } from "../model/view.js";
 import { Dialogs } from "./dialogs.js";
 import { help } from "./help.js";
+import { placedPanels } from "./layouts.js";
 import { DiskBars } from "./merge-dialog.js";
 import { Notices } from "./notices.js";
 import { PANELS, panelTitle } from "./panels.js";
@@ -87,7 +88,7 @@ function GoneBar() {
     <button type="button" class="button small" onClick=${() => goTo("")}>${t("gone.home")}</button></div>`;
 }
 
-const PHONE_PANELS = ["scene", "properties", "joints", "displays"];
+const PHONE_PANELS = placedPanels(PANELS, "phone", "tabs");
 
 function PhoneTabs() {
   return html`<nav class="phone-tabs" aria-label=${t("panels")}>
@@ -128,7 +129,7 @@ function PhoneTab({ id }) {
 
 /** @param {{id: string}} props how much waits there to be seen */
 function Mark({ id }) {
-  const badge = PANELS[id]?.badge?.();
+  const badge = PANELS[id]?.badge();
   if (!badge) return null;
   return html`<span class=${`badge ${badge.tone}`} aria-label=${badge.label}>${badge.text}</span>`;
 }

@@ -13,9 +13,17 @@ import {
 
 /** @import { ComponentChildren } from "vendor/preact.js" */
 
+/** @typedef {[string, Record<string, string>][]} Shapes SVG tag and attributes of each */
+
+/** @type {Record<string, Shapes>} */
+const icons = { ...ICONS };
+
+/** @param {Record<string, Shapes>} more by their names */
+export const addIcons = (more) => void Object.assign(icons, more);
+
 /** @param {{name: string, size?: number}} props */
 export function Icon({ name, size = 16 }) {
-  const shapes = ICONS[name] ?? [];
+  const shapes = icons[name] ?? [];
   return html`<svg class="icon" width=${size} height=${size} viewBox="0 0 24 24" aria-hidden="true">
     ${shapes.map(([tag, attributes]) => html`<${tag} ...${attributes} />`)}
   </svg>`;
@@ -218,7 +226,7 @@ export function iconElement(name) {
   })) {
     svg.setAttribute(key, value);
   }
-  for (const [tag, attributes] of ICONS[name] ?? []) {
+  for (const [tag, attributes] of icons[name] ?? []) {
     const shape = document.createElementNS(space, tag);
     for (const [key, value] of Object.entries(attributes)) shape.setAttribute(key, value);
     svg.append(shape);

@@ -12,6 +12,7 @@ import { connection } from "./connection.js";
 import { typeOf, whenTypesChange } from "./interfaces.js";
 
 /** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number, pace?: "tick" | "at_once"}} Ways null: as fits its publishers; at once: between two ticks, for what somebody waits for */
+/** @typedef {ReturnType<typeof echo>} Echo */
 /** @typedef {{onState: (subscription: SubscriptionView) => void, onMessage: (message: Echoed) => void}} EchoListener */
 /** @typedef {{onState: (subscription: SubscriptionView) => void, onPoints: (points: Points) => void}} TraceListener */
 /** @typedef {{onState: (subscription: SubscriptionView) => void, onPicture: (pictured: Pictured) => void, onSaved: (file: Blob) => void}} PictureListener */

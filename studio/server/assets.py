@@ -1,8 +1,9 @@
 """The files of the page: read once, hashed as a tree, compressed once, served as written.
 
-Three things are added to what is written: a stylesheet holds those that it imports, so that they
+Four things are added to what is written: a stylesheet holds those that it imports, so that they
 come in one answer; the words of a language hold those of the panels and checks; and the page names
-the modules that its first ones import, so that they come at once.
+the panels that have a folder, and the modules that its first ones import, so that they come at
+once.
 """
 
 from __future__ import annotations
@@ -52,6 +53,7 @@ _WITHOUT_INDEX: Final = (
     "<p>The page's files are missing from this installation: install it again."
 )
 _PRELOADS: Final = "{{preloads}}"
+_PANELS: Final = "{{panels}}"
 _MODULE_OF_INDEX: Final = re.compile(r'\{\{base\}\}([^"]+\.js)"')
 _IMPORT: Final = re.compile(
     r'^(?:import|export)\s+(?:[\w*{][^;"]*?\sfrom\s+)?"([^"]+)"', re.MULTILINE
@@ -60,7 +62,8 @@ _CSS_IMPORT: Final = re.compile(r'^@import "([^"]+)";\n?', re.MULTILINE)
 _LANGUAGE: Final = re.compile(r"i18n/(\w+)\.json")
 WORDS_OF_CHECKS: Final = "checks/words.json"
 """A file that is made in memory, by `words_of_checks`."""
-_MORE_WORDS: Final = re.compile(r"(?:panels/\w+|checks)/words\.json")
+_PANEL: Final = re.compile(r"panels/(\w+)/panel\.json")
+_PANEL_WORDS: Final = "words"
 _FALLBACK: Final = "en"
 _GZIP_LEVEL, _ZSTD_LEVEL = 6, 15
 
@@ -192,6 +195,7 @@ def _read(folder: Path, stamp: Stamp, more: Mapping[str, bytes]) -> Tree:
     text = index.decode()
     modules = imported_modules(files, _MODULE_OF_INDEX.findall(text))
     filled = text.replace(_PRELOADS, preload_links(tuple(modules), "{{base}}"))
+    filled = filled.replace(_PANELS, panel_rows(contents))
     return Tree(digest.hexdigest()[:16], files, filled)
 
 
@@ -218,6 +222,19 @@ def _with_imports(path: str, contents: Mapping[str, bytes]) -> str:
     return _CSS_IMPORT.sub(imported, contents[path].decode())
 
 
+def panel_rows(contents: Mapping[str, bytes]) -> str:
+    """Return as JSON, by the name of its folder, what each `panel.json` says besides its words.
+
+    It can stand in a script element: it holds no `<`.
+    """
+    rows: dict[str, object] = {}
+    for path, content in contents.items():
+        if panel := _PANEL.fullmatch(path):
+            row: dict[str, object] = json.loads(content)
+            rows[panel[1]] = {key: one for key, one in row.items() if key != _PANEL_WORDS}
+    return json.dumps(rows, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
 def words_of_checks(whys: Mapping[str, Mapping[str, str]]) -> bytes:
     """Write as a file of words why findings matter, which is given by code and language."""
     words: dict[str, dict[str, str]] = {}
@@ -233,6 +250,8 @@ def _all_words(language: str, contents: Mapping[str, bytes]) -> bytes:
     for spoken in dict.fromkeys((_FALLBACK, language)):
         words |= json.loads(contents.get(f"i18n/{spoken}.json", b"{}"))
         for path, content in contents.items():
-            if _MORE_WORDS.fullmatch(path):
+            if path == WORDS_OF_CHECKS:
                 words |= json.loads(content).get(spoken, {})
+            elif _PANEL.fullmatch(path):
+                words |= json.loads(content).get(_PANEL_WORDS, {}).get(spoken, {})
     return json.dumps(words, ensure_ascii=False, separators=(",", ":")).encode()

@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { OF_DIALOG, OTHER_PAGES } from "../../frontend_assets/app/help.js";
 import { searchHelp } from "../../frontend_assets/app/help-sheet.js";
 import { partsOf, plainHelp, readHelp } from "../../frontend_assets/lib/help-text.js";
-import { ICONS } from "../../frontend_assets/vendor/icons.js";
+import { ICON_NAMES, PANEL_IDS as PANELS } from "./support/panels.js";
 import { wordsOf } from "./support/words.js";
 
 const ASSETS = new URL("../../frontend_assets/", import.meta.url);
@@ -14,9 +14,6 @@ const PICTURES_LARGEST = 1_500_000;
 /** @param {string} path */
 const textOf = (path) => readFileSync(new URL(path, ASSETS), "utf8");
 
-/** What stands between the braces of the table of panels. */
-const TABLE = /export const PANELS = \{\n(.*?)\n\};/s.exec(textOf("app/panels.js"))?.[1] ?? "";
-const PANELS = [...TABLE.matchAll(/^ {2}(\w+): \{/gm)].map(([, id]) => id ?? "");
 const PAGES = [...PANELS, ...Object.values(OTHER_PAGES).flat()];
 /** These explain words; every other page shows what it is about. */
 const WITHOUT_PICTURE = OTHER_PAGES.words;
@@ -52,7 +49,7 @@ function isKnown(part) {
     case "link":
       return PAGES.includes(part.page);
     case "icon":
-      return part.text in ICONS;
+      return ICON_NAMES.includes(part.text);
     case "mark":
       return MARKS.includes(`.help-mark.${part.text}`);
     case "text":

@@ -5,7 +5,7 @@ import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { partsOf } from "../../frontend_assets/lib/help-text.js";
 import { readLesson } from "../../frontend_assets/model/lessons.js";
-import { ICONS } from "../../frontend_assets/vendor/icons.js";
+import { ICON_NAMES, PANEL_IDS as PANELS } from "./support/panels.js";
 
 const ROOT = new URL("../../", import.meta.url);
 /** @param {string} path */
@@ -15,8 +15,6 @@ const CHAPTERS = textOf("studio/course/demos.py");
 const FOUND = [...CHAPTERS.matchAll(/Lesson\("(\w+)", "(\/\w+)"/g)];
 const DEMOS = FOUND.map(([, demo = ""]) => demo);
 const NODES = FOUND.map(([, , node = ""]) => node);
-const TABLE = textOf("frontend_assets/app/panels.js").matchAll(/^ {2}(\w+): \{/gm);
-const PANELS = [...TABLE].map(([, id = ""]) => id);
 /** How many words a link may have after the panel. @type {Record<string, readonly number[]>} */
 const ABOUT = {
   ...{ topics: [0, 1], parameters: [0, 1], lessons: [0, 1] },
@@ -43,7 +41,7 @@ function codeOf(demo) {
 /** @param {Part} part @returns {boolean} it leads somewhere, or is drawn */
 function isKnown(part) {
   if (part.kind === "link") return leadsSomewhere(part);
-  if (part.kind === "icon") return part.text in ICONS;
+  if (part.kind === "icon") return ICON_NAMES.includes(part.text);
   // What the reader did not understand would be shown as it was written.
   return part.kind !== "text" || !/\*\*|\]\(|\{|`|^#|!\[/.test(part.text);
 }

@@ -169,12 +169,28 @@ def test_the_words_of_a_language_hold_those_of_the_panels_and_english_ones_that_
     texts = {
         "i18n/en.json": '{"close": "Close", "open": "Open"}',
         "i18n/de.json": '{"close": "Schließen"}',
-        "panels/log/words.json": '{"en": {"log": "Log", "a": "A"}, "de": {"log": "Protokoll"}}',
+        "panels/log/panel.json": json.dumps(
+            {"words": {"en": {"log": "Log", "a": "A"}, "de": {"log": "Protokoll"}}}
+        ),
     }
     files = write_all(tmp_path, texts).current().files
     english, german = (json.loads(files[f"i18n/{one}.json"].content) for one in ("en", "de"))
     assert english == {"close": "Close", "open": "Open", "log": "Log", "a": "A"}
     assert german == {"close": "Schließen", "open": "Open", "log": "Protokoll", "a": "A"}
+
+
+def test_the_page_holds_what_each_folder_of_a_panel_says_of_it(tmp_path: Path):
+    battery = {"group": "watch", "icon": [["path", {"d": "</script>"}]]}
+    texts = {
+        "index.html": '<script id="panels">{{panels}}</script>',
+        "panels/battery/panel.json": json.dumps({**battery, "words": {"en": {"a": "A"}}}),
+        "panels/log/panel.json": '{"group": "watch", "icon": "log"}',
+        "panels/parts.js": "",
+    }
+    index = write_all(tmp_path, texts).current().index
+    rows = index.removeprefix('<script id="panels">').removesuffix("</script>")
+    assert "<" not in rows
+    assert json.loads(rows) == {"battery": battery, "log": {"group": "watch", "icon": "log"}}
 
 
 def test_the_words_hold_why_a_finding_matters(tmp_path: Path):

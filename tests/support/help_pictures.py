@@ -7,7 +7,7 @@ Names take only those.
 from __future__ import annotations
 
 import io
-import re
+import json
 import sys
 import tempfile
 from pathlib import Path
@@ -31,11 +31,10 @@ if TYPE_CHECKING:
     from tests.support.studio_page import StudioPage
 
 ASSETS = Path(__file__).resolve().parents[2] / "frontend_assets"
-GROUP_OF: dict[str, str] = dict(
-    re.findall(
-        r'^  (\w+): \{\n    group: "(\w+)"', (ASSETS / "app/panels.js").read_text(), re.MULTILINE
-    )
-)
+GROUP_OF: dict[str, str] = {
+    path.parent.name: json.loads(path.read_text())["group"]
+    for path in sorted(ASSETS.glob("panels/*/panel.json"))
+}
 """What each panel is for, by its id."""
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""

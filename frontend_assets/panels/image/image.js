@@ -1,11 +1,11 @@
 /** What a camera sees: the newest image of a topic, its numbers, and a copy of it. */
 
-/** @import { TopicRow } from "../../types/wire.d.ts" */
 /** @import { Numbers, Range } from "../../lib/image-encodings.js" */
 /** @import { SubscriptionView } from "../../workers/subscriptions.js" */
 /** @import { PictureAsked, Pictured } from "../../workers/pictures.js" */
 /** @import { Signal } from "vendor/preact.js" */
 /** @import { Size, View } from "../../lib/pan-zoom.js" */
+/** @import { Chosen } from "../topic-panel.js" */
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { saveAsFile } from "../../lib/files.js";
@@ -14,40 +14,21 @@ import { CLOSEST, FARTHEST, filling, pixelUnder, ratioFor } from "../../lib/imag
 import { allDigits, shownNumber } from "../../lib/numbers.js";
 import { zoomed } from "../../lib/pan-zoom.js";
 import { useSilence } from "../../lib/times.js";
-import { Icon, IconButton, MenuButton, ProgressBar, Switch } from "../../lib/ui.js";
-import { useLooking } from "../../model/asking.js";
+import { IconButton, Switch } from "../../lib/ui.js";
 import { laneOpen, watch } from "../../model/data-lane.js";
-import { followTopics, topics } from "../../model/topics.js";
-import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../parts.js";
+import { TopicPanel, whyNothing } from "../topic-panel.js";
 
 const TYPES = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];
 
 export function ImagePanel() {
-  const { panel, looking } = useLooking(followTopics);
-  const chosen = useSignal("");
-  return html`<section ref=${panel} class="panel-body image" aria-label=${t("panel.image")}>
-    <${RouterAway} />
-    ${isUnconnected() ? html`<${ConnectFirst} icon="camera" />` : looking && html`<${Content} chosen=${chosen} />`}
-  </section>`;
+  return html`<${TopicPanel} title=${t("panel.image")} icon="camera" name="image" types=${TYPES} label=${t("image.topic")}
+    none=${t("image.none")} hint=${t("image.none.hint")} shown=${Watched} />`;
 }
 
-/** @param {{chosen: Signal<string>}} props */
-function Content({ chosen }) {
-  if (!topics.value) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
-  const choices = topics.value.filter(({ types }) => types.some((type) => TYPES.includes(type)));
-  const topic = chosen.value || (choices[0]?.name ?? "");
-  if (!topic)
-    return html`<${NothingThere} icon="camera" title=${t("image.none")}><p>${t("image.none.hint")}</p><//>`;
-  const type = choices.find(({ name }) => name === topic)?.types.find((one) => TYPES.includes(one));
-  // A canvas is given away once: what is looked at otherwise has another one.
-  return html`<${Watched} key=${`${topic} ${type}`} topic=${topic} type=${type ?? ""} choices=${choices} chosen=${chosen} />`;
-}
-
-/** @typedef {{topic: string, choices: readonly TopicRow[], chosen: Signal<string>}} Choice */
 /** @typedef {(asked: PictureAsked) => void} Ask of the worker, which has the picture */
 
-/** @param {Choice & {type: string}} props */
-function Watched({ topic, type, choices, chosen }) {
+/** @param {Chosen} props a canvas is given away once: another topic has another one */
+function Watched({ topic, type, menu }) {
   const subscription = useSignal(/** @type {SubscriptionView | null} */ (null));
   const pictured = useSignal(/** @type {Pictured | null} */ (null));
   const range = useSignal(/** @type {Range | null} */ (null));
@@ -74,7 +55,7 @@ function Watched({ topic, type, choices, chosen }) {
   const isSilent = silence.silent_s > 0 && !subscription.value?.latched;
   const isStill = isSilent || subscription.value?.state !== "receiving" || !laneOpen.value;
   const numbers = pictured.value?.numbers;
-  return html`<${Bar} topic=${topic} choices=${choices} chosen=${chosen} isThere=${size !== null} ask=${ask} />
+  return html`<${Bar} menu=${menu} isThere=${size !== null} ask=${ask} />
     ${numbers && html`<${RangeRow} numbers=${numbers} range=${range} ask=${ask} />`}
     <${ImageCanvas} canvas=${canvas} size=${size} label=${t("image.of", { topic })} ask=${ask} />
     ${
@@ -84,18 +65,10 @@ function Watched({ topic, type, choices, chosen }) {
     }`;
 }
 
-/** @param {Choice & {isThere: boolean, ask: Ask}} props */
-function Bar({ topic, choices, chosen, isThere, ask }) {
-  const items = () =>
-    choices.map(({ name }) => ({
-      label: name,
-      checked: name === topic,
-      run: () => {
-        chosen.value = name;
-      },
-    }));
+/** @param {{menu: Chosen["menu"], isThere: boolean, ask: Ask}} props */
+function Bar({ menu, isThere, ask }) {
   return html`<div class="panel-bar image-bar">
-    <${MenuButton} label=${t("image.topic")} value=${topic} hint=${topic} class="button" items=${items}><span class="image-topic">${topic}</span><${Icon} name="chevronDown" size=${12} /><//>
+    ${menu}
     <span class="push"></span>
     <${IconButton} icon="download" label=${t("image.save")} disabled=${!isThere} onClick=${() => ask({ kind: "save" })} />
   </div>`;
@@ -143,14 +116,8 @@ function pointedWords({ pointed, numbers }) {
 
 /** @param {SubscriptionView | null} subscription @param {Pictured | null} pictured @returns {string} why there is no picture, and what to do */
 function stateWords(subscription, pictured) {
-  if (!laneOpen.value) return t("topics.state.lane");
-  if (pictured?.trouble) return t(pictured.trouble.key, pictured.trouble.words);
-  if (!subscription) return t("loading");
-  if (subscription.state === "receiving") return t("image.waiting");
-  return (
-    subscription.reason ||
-    t(`topics.state.${subscription.state}`, { types: subscription.types.join(", ") })
-  );
+  if (laneOpen.value && pictured?.trouble) return t(pictured.trouble.key, pictured.trouble.words);
+  return whyNothing(subscription) || t("image.waiting");
 }
 
 const STEP = 1.5;

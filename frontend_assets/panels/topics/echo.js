@@ -4,55 +4,34 @@
  */
 
 /** @import { Misfit, TopicEnd, TopicEnds as Ends, TopicRow } from "../../types/wire.d.ts" */
-/** @import { SubscriptionView, Echoed } from "../../workers/subscriptions.js" */
+/** @import { Echo } from "../../model/data-lane.js" */
+/** @import { SubscriptionView } from "../../workers/subscriptions.js" */
+/** @import { Newest } from "../topic-panel.js" */
 
-import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
+import { html, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
 import { t } from "../../lib/i18n.js";
 import { LongList, siblingPlaces } from "../../lib/long-list.js";
 import { shownNumber } from "../../lib/numbers.js";
-import { shortTime, useSilence } from "../../lib/times.js";
 import { Icon, IconButton } from "../../lib/ui.js";
 import { useTold } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
-import { echo, laneOpen } from "../../model/data-lane.js";
 import { addDisplay } from "../../model/live-displays.js";
 import { plot } from "../../model/plotting.js";
 import { chosenTopic, listening, topicEnds } from "../../model/topics.js";
 import { notify } from "../../model/view.js";
 import { ListeningMenu } from "../listening-menu.js";
 import { beginDrag, endDrag } from "../topic-drag.js";
-
-/** @typedef {ReturnType<typeof echo>} Echo */
+import { useNewest } from "../topic-panel.js";
 
 /** @param {{topic: string, row: TopicRow | undefined}} props */
 export function TopicEcho({ topic, row }) {
-  const subscription = useSignal(/** @type {SubscriptionView | null} */ (null));
-  const message = useSignal(/** @type {Echoed | null} */ (null));
   const paused = useSignal(false);
   const showsEnds = useSignal(false);
-  const look = useRef(/** @type {Echo | null} */ (null));
-  const silence = useSilence();
-  const newest_s = useRef(0);
   const { reliable, latched } = listening.value;
-  useEffect(() => {
-    const made = echo(
-      topic,
-      { reliable, latched, pace: "at_once" },
-      {
-        onState: (answer) => {
-          subscription.value = answer;
-        },
-        onMessage: (came) => {
-          if (came.received_s !== newest_s.current) silence.came();
-          newest_s.current = came.received_s;
-          if (!paused.value) message.value = came;
-        },
-      },
-    );
-    look.current = made;
-    return made.leave;
-  }, [topic, reliable, latched]);
+  const ways = /** @type {const} */ ({ reliable, latched, pace: "at_once" });
+  const newest = useNewest(topic, ways, () => !paused.value);
+  const { subscription, message, lane } = newest;
   return html`<section class="topics-echo" aria-label=${t("topics.echo.of", { topic })}>
     <div class="panel-bar topics-head">
       <strong title=${topic}>${topic}</strong>
@@ -60,9 +39,9 @@ export function TopicEcho({ topic, row }) {
       <${IconButton} icon="info" label=${t("topics.connections")} pressed=${showsEnds.value} onClick=${() => {
         showsEnds.value = !showsEnds.value;
       }} />
-      <${ListeningMenu} label=${t("topics.qos")} listening=${listening} hint=${subscription.value ? qosWords(subscription.value) : undefined} />
+      <${ListeningMenu} label=${t("topics.qos")} listening=${listening} hint=${subscription ? qosWords(subscription) : undefined} />
       ${row?.kind && mayEdit.value && html`<${IconButton} icon="scene" label=${t("topics.show", { kind: row.kind })} onClick=${() => addDisplay(row.kind, topic)} />`}
-      <${IconButton} icon="copy" label=${t("topics.copy_message")} disabled=${!message.value} onClick=${() => copyAt(look.current, "")} />
+      <${IconButton} icon="copy" label=${t("topics.copy_message")} disabled=${!message} onClick=${() => copyAt(lane.current, "")} />
       <${IconButton} icon=${paused.value ? "animate" : "pause"} label=${t(paused.value ? "topics.go_on" : "topics.pause")} pressed=${paused.value} onClick=${() => {
         paused.value = !paused.value;
       }} />
@@ -71,20 +50,20 @@ export function TopicEcho({ topic, row }) {
       }} />
     </div>
     <${TopicEnds} topic=${topic} listed=${showsEnds.value} />
-    <${Said} subscription=${subscription.value} message=${message.value} silent_s=${silence.silent_s} />
+    <${Said} newest=${newest} />
     ${
-      message.value?.value &&
-      html`<${EchoTree} topic=${topic} type=${subscription.value?.type_name ?? ""} value=${message.value.value}
-      onMore=${(/** @type {string} */ path, /** @type {number} */ count) => look.current?.unfold(path, count)}
-      onCopy=${(/** @type {string} */ path) => copyAt(look.current, path)} />`
+      message?.value &&
+      html`<${EchoTree} topic=${topic} type=${subscription?.type_name ?? ""} value=${message.value}
+      onMore=${(/** @type {string} */ path, /** @type {number} */ count) => lane.current?.unfold(path, count)}
+      onCopy=${(/** @type {string} */ path) => copyAt(lane.current, path)} />`
     }
-    ${message.value?.hex && html`<pre class="topics-hex scroll" tabindex=${0}>${message.value.hex}</pre>`}
+    ${message?.hex && html`<pre class="topics-hex scroll" tabindex=${0}>${message.hex}</pre>`}
   </section>`;
 }
 
-/** @param {Echo | null} look @param {string} path */
-async function copyAt(look, path) {
-  const text = (await look?.text(path)) ?? "";
+/** @param {Echo | null} lane @param {string} path */
+async function copyAt(lane, path) {
+  const text = (await lane?.text(path)) ?? "";
   const done = await copyText(text);
   notify(done ? t("topics.copied") : t("copy.failed"), { bad: !done });
 }
@@ -98,32 +77,17 @@ const qosWords = ({ reliable, latched }) =>
     .filter(Boolean)
     .join(", ");
 
-/** @param {{subscription: SubscriptionView | null, message: Echoed | null, silent_s: number}} props the message, or what is in the way and what to do */
-function Said({ subscription, message, silent_s }) {
+/** @param {{newest: Newest}} props the message, or what is in the way and what to do */
+function Said({ newest: { subscription, message, why } }) {
   if (subscription === null)
     return html`<p class="topics-said muted" role="status">${t("loading")}</p>`;
-  const trouble = troubleOf(subscription, message, silent_s);
   const words = [
     subscription.type_name,
     message ? t("topics.bytes", { count: message.bytes }) : "",
     message && message.lost > 0 ? t("topics.lost", { count: message.lost }) : "",
   ];
   return html`<p class="topics-said" role="status"><span class="muted">${words.filter(Boolean).join(" · ")}</span>
-    ${trouble && html`<span class="topics-trouble"><${Icon} name="alert" size=${13} /><span>${trouble}</span></span>`}</p>`;
-}
-
-/** @param {SubscriptionView} subscription @param {Echoed | null} message @param {number} silent_s @returns {string} empty: all is well */
-function troubleOf(subscription, message, silent_s) {
-  if (!laneOpen.value) return t("topics.state.lane");
-  if (subscription.state === "refused") return subscription.reason;
-  if (subscription.state !== "receiving")
-    return t(`topics.state.${subscription.state}`, { types: subscription.types.join(", ") });
-  if (message?.trouble) return t("topics.unread", { reason: message.trouble.replace(/\.$/, "") });
-  if (!message) return t("topics.state.waiting");
-  // What is latched is said once and holds.
-  return silent_s > 0 && !subscription.latched
-    ? t("topics.state.silent", { time: shortTime(silent_s) })
-    : "";
+    ${why && html`<span class="topics-trouble"><${Icon} name="alert" size=${13} /><span>${why}</span></span>`}</p>`;
 }
 
 const MORE = 500;
