@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import OrderedDict, deque
 from typing import TYPE_CHECKING, Final
 
-from studio.live.topics.frames import Chunk, frame_of
+from studio.live.topics.frames import Chunk, frame_of, no_head
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
 KEPT_BYTES: Final = 8 << 20
 """Of channels that keep every message, together; then the oldest are given up and counted."""
@@ -62,9 +62,9 @@ class Backlog:
         self._bytes = self._newest_bytes = 0
         return chunks
 
-    def frame(self) -> bytes:
-        """Take all out, as one frame."""
-        return frame_of(self.take_all(), self.dropped)
+    def frame(self, head: Callable[[int], bytes] = no_head) -> bytes:
+        """Take all out, as one frame with what `head` makes of its length before it."""
+        return frame_of(self.take_all(), self.dropped, head)
 
     def _replace(self, chunk: Chunk) -> None:
         if (before := self._newest.pop(chunk.channel, None)) is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from pydantic import ValidationError
@@ -17,7 +18,7 @@ from studio.protocol.subscriptions import (
 )
 from studio.server.backlog import Backlog
 from studio.server.commands import malformed
-from studio.server.websocket import FrameTransport, binary_frame, text_frame
+from studio.server.websocket import FrameTransport, binary_head, text_frame
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,7 +76,7 @@ class DataLane:
 
     def _send(self, tick: Tick) -> None:
         if not self._outlet.holds_back and not self._backlog.dropped:
-            if self._outlet.post(binary_frame(tick.frame), _TICK, late=self._late):
+            if self._outlet.post(partial(tick.frame, binary_head), _TICK, late=self._late):
                 return
             self._backlog.add(tick.chunks)
         else:
@@ -113,4 +114,4 @@ class DataLane:
             topics.carry_out(self, command)
 
     def _late(self) -> bytes:
-        return binary_frame(self._backlog.frame()) if self._backlog else b""
+        return self._backlog.frame(binary_head) if self._backlog else b""

@@ -270,6 +270,11 @@ def binary_frame(payload: bytes) -> bytes:
     return _FRAMER.frame(payload, binary=True)
 
 
+def binary_head(length: int) -> bytes:
+    """Return what goes before the bytes of one binary message, for who writes both at once."""
+    return _head(length, binary=True)
+
+
 class Lane:
     """The two ends of a websocket that was accepted; all of it runs on the loop's thread."""
 

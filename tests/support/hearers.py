@@ -61,7 +61,7 @@ class KeepingHearer:
 
     def take(self, tick: Tick, /) -> None:
         self.ticks.append(tick)
-        self.came += read_frame(tick.frame)[1]
+        self.came += read_frame(tick.frame())[1]
 
     def state(self, subscription: int) -> str:
         """How a subscription stands, as it was told last."""

@@ -2,7 +2,8 @@
 
 A slider's new value, from the control lane to the 3D lane, and a ROS message, from Zenoh to the
 data lane. Both are done many times in a running studio, and the files that ran each time, in the
-studio or in a worker, are the walk.
+studio or in a worker, are the walk. Of the message it is said, too, which forms it took and what
+held it.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from typing import TYPE_CHECKING, Any, Final
 from studio.ros.messages import message
 from studio.ros.node.context import Context
 from studio.ros.node.node import Node
+from tests.support.sample_forms import follow_sample
 from tests.support.server import running_process
 from tests.support.wire import open_test_session, running_router, wait_until
 
@@ -170,10 +172,16 @@ def message_walk() -> list[str]:
 
 
 def main() -> None:
-    """Print both walks."""
+    """Print both walks, and what a message becomes on its own."""
     for name, files in (("slider", slider_walk()), ("message", message_walk())):
         sys.stdout.write(f"== {name}: {len(files)} files\n")
         sys.stdout.writelines(f"  {file}\n" for file in files)
+    with running_router() as endpoint:
+        for browser, slow in (("keeps up", False), ("is slow", True)):
+            followed = follow_sample(endpoint, slow=slow)
+            sys.stdout.write(f"== message to a browser that {browser}\n")
+            sys.stdout.write(f"  forms made by: {', '.join(followed.forms)}\n")
+            sys.stdout.write(f"  buffers: {', '.join(sorted(followed.buffers))}\n")
 
 
 if __name__ == "__main__":

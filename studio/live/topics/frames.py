@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from studio.ros.node.samples import RawSample
 
@@ -68,9 +68,20 @@ def frame_parts(chunks: Sequence[Chunk], dropped: int) -> list[bytes]:
     return [head, *(part for one in chunks for part in one.parts)]
 
 
-def frame_of(chunks: Sequence[Chunk], dropped: int) -> bytes:
-    """Write the frame of one browser that was too slow for so many messages."""
-    return b"".join(frame_parts(chunks, dropped))
+def no_head(_length: int) -> bytes:
+    """Put nothing before a frame."""
+    return b""
+
+
+def frame_of(
+    chunks: Sequence[Chunk], dropped: int, head: Callable[[int], bytes] = no_head
+) -> bytes:
+    """Return the frame of one browser that was too slow for so many messages.
+
+    `head` makes of the frame's length what goes before it, so that all is copied once.
+    """
+    length = FRAME_HEAD.size + sum(one.size for one in chunks)
+    return b"".join((head(length), *frame_parts(chunks, dropped)))
 
 
 class Tick:
@@ -79,11 +90,13 @@ class Tick:
     def __init__(self, chunks: tuple[Chunk, ...]) -> None:
         self.chunks = chunks
         self._without: dict[frozenset[int], Tick] = {}
+        self._frames: dict[Callable[[int], bytes], bytes] = {}
 
-    @cached_property
-    def frame(self) -> bytes:
-        """For a browser that was never too slow."""
-        return frame_of(self.chunks, 0)
+    def frame(self, head: Callable[[int], bytes] = no_head) -> bytes:
+        """Return the frame of a browser that was never too slow, with what `head` puts before."""
+        if head not in self._frames:
+            self._frames[head] = frame_of(self.chunks, 0, head)
+        return self._frames[head]
 
     @cached_property
     def large(self) -> frozenset[int]:

@@ -81,7 +81,7 @@ def test_every_message_comes_to_all_who_wish_it_in_frames_that_are_written_once(
                 out.publish(said(str(number)))
             await until(lambda: len(one.came) == len(other.came) == 300)
             assert texts(one) == texts(other) == [str(number) for number in range(300)]
-            assert [tick.frame for tick in one.ticks] == [tick.frame for tick in other.ticks]
+            assert [tick.frame() for tick in one.ticks] == [tick.frame() for tick in other.ticks]
             assert all(a is b for a, b in zip(one.ticks, other.ticks, strict=True))
             told = one.told[-1]
             assert (told.type_name, told.publishers, told.reliable) == (STRING, 1, True)
