@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import time
 from collections import deque
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from studio.ros.attachment import Attachment
 from studio.ros.messages import shared_types
 from studio.ros.names import check_full_name
 from studio.ros.node.samples import RawSample
+from studio.ros.node.topic_statistics import Arrivals
 from studio.ros.qos import DurabilityPolicy, QoSProfile
 from tests.support.display_messages import NOW_NS
 
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Fit
     from studio.live.topics.source import Connection
     from studio.live.topics.subscription import Stream, Subscription
+    from studio.ros.node.topic_statistics import Flow
     from studio.ros.types.library import TypeLibrary
 
 _PUBLISHERS = itertools.count(1)
@@ -93,6 +96,29 @@ class MemorySubscription:
         self._source.opened.remove(self)
 
 
+class MemoryMeter:
+    """Counts what is published on a topic, until nobody asked for so long."""
+
+    def __init__(self, kept_s: float) -> None:
+        self._kept_s, self._asked_s = kept_s, time.monotonic()
+        self._arrivals = Arrivals(time.monotonic_ns())
+        self.is_open = True
+
+    def flow(self) -> Flow:
+        self._asked_s = time.monotonic()
+        return self._arrivals.flow(time.monotonic_ns())
+
+    def count(self, payload: bytes) -> None:
+        """Count one message, or end for want of questions."""
+        if time.monotonic() - self._asked_s > self._kept_s:
+            self.close()
+        else:
+            self._arrivals.count(time.monotonic_ns(), 1, len(payload))
+
+    def close(self) -> None:
+        self.is_open = False
+
+
 class MemorySource(SharedSource):
     """Connected from the beginning; everything happens in the thread that asks for it."""
 
@@ -101,6 +127,7 @@ class MemorySource(SharedSource):
         self._types = types or shared_types()
         self._connection: Connection = "there"
         self._publishers: list[MemoryPublisher] = []
+        self._meters: dict[str, MemoryMeter] = {}
         self.opened: list[MemorySubscription] = []
         """What is subscribed now."""
         self.asked: list[tuple[str, Fit]] = []
@@ -158,6 +185,8 @@ class MemorySource(SharedSource):
     def deliver(self, publisher: MemoryPublisher, sample: RawSample) -> None:
         """Give a sample to those who subscribed its topic and type."""
         if self._connection == "there":
+            if meter := self._meters.get(publisher.topic):
+                meter.count(sample.payload)
             for one in tuple(self.opened):
                 if (one.topic, one.fit.type_name) == (publisher.topic, publisher.offer.type_name):
                     one.receive(sample)
@@ -212,6 +241,13 @@ class MemorySource(SharedSource):
         self.opened.append(made)
         self.asked.append((topic, fit))
         made.tell_kept()
+        return made
+
+    @override
+    def measure(self, topic: str, kept_s: float) -> MemoryMeter | None:
+        if not self.publishers(topic):
+            return None
+        made = self._meters[topic] = MemoryMeter(kept_s)
         return made
 
     @override

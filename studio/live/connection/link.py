@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, ExternalShutdownException, NotServedError
 from studio.live.connection.plan import planned_wire
 from studio.live.connection.telling import JointsOut, RobotOut
-from studio.live.connection.topic_rates import TopicRates
 from studio.ros.messages import types_of
 from studio.ros.node.context import Context
 from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.node import Node
 from studio.ros.node.raw_subscription import RawSubscription
+from studio.ros.node.topic_statistics import TopicStatistics
 from studio.ros.wire.session import RouterWatch, open_wire
 
 if TYPE_CHECKING:
@@ -41,8 +41,7 @@ _STRING: Final = "std_msgs/msg/String"
 class WireLink:
     """An open connection; made and closed in a thread, for both wait.
 
-    `changed` is called from other threads whenever the connection or who is there changed;
-    `topic_rates` tells how often and how large what others publish is.
+    `changed` is called from other threads whenever the connection or who is there changed.
 
     Raises:
         WireError: There is no way to a router; the sentence says why.
@@ -55,7 +54,6 @@ class WireLink:
         self._executor = SingleThreadedExecutor(context=self._context)
         self._graph = self._context.graph
         self._graph.on_change(changed)
-        self.topic_rates = TopicRates(self._context)
         self._node = self._new_node("studio")
         self._taken: set[str] = set()
         # Zenoh joins a router that comes back by itself.
@@ -191,6 +189,16 @@ class WireLink:
         """
         named = fit.type_name, fit.type_hash
         return RawSubscription(self._node, topic, *named, fit.qos, stream.take)
+
+    def measure(self, topic: str, kept_s: float) -> TopicStatistics:
+        """Begin to count what comes on a topic, whatever its type, until nobody asked for so long.
+
+        Nobody sees it as a subscription.
+
+        Raises:
+            RosNameError: No topic is named so.
+        """
+        return TopicStatistics(self._context, topic, kept_s)
 
     def let_go(self, node: Node) -> None:
         """End a node of a document."""

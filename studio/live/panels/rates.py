@@ -10,36 +10,37 @@ from studio.protocol.topic_rates import GetTopicRates, TopicRate, TopicRates
 from studio.ros.qos import DurabilityPolicy
 
 if TYPE_CHECKING:
-    from studio.live.connection.link import WireLink
-    from studio.live.connection.ros_connection import RosConnection
+    from studio.live.topics.source import TopicSource
     from studio.ros.node.topic_statistics import Flow
 
 _State: TypeAlias = Literal["waiting", "live", "silent", "latched"]
 
 
-async def topic_rates(connection: RosConnection, command: GetTopicRates) -> TopicRates:
-    """Return how messages come on some topics; without a connection nothing is known of any."""
-    link = connection.current
+async def topic_rates(source: TopicSource, command: GetTopicRates) -> TopicRates:
+    """Return how messages come on some topics; without a connection nothing is known of any.
+
+    Pages ask again and again: a rate changes with the time, also when nothing comes.
+    """
     # To subscribe to two hundred more takes some 10 ms.
-    found = await asyncio.to_thread(_rates, link, command.topics) if link else ()
+    found = await asyncio.to_thread(_rates, source, command.topics)
     return TopicRates(request=command.request, rates=found)
 
 
-def _rates(link: WireLink, topics: tuple[str, ...]) -> tuple[TopicRate, ...]:
+def _rates(source: TopicSource, topics: tuple[str, ...]) -> tuple[TopicRate, ...]:
     return tuple(
         TopicRate(
             name=name,
             rate_hz=round(flow.rate_hz, 2),
             bytes_per_s=round(flow.bytes_per_s),
             age_s=None if flow.age_s is None else round(flow.age_s, 2),
-            state=_state(flow, is_latched=_is_latched(link, name)),
+            state=_state(flow, is_latched=_is_latched(source, name)),
         )
-        for name, flow in link.topic_rates.look(topics).items()
+        for name, flow in source.flows(topics).items()
     )
 
 
-def _is_latched(link: WireLink, topic: str) -> bool:
-    offered = (one.qos.durability for one in link.graph.publishers(topic))
+def _is_latched(source: TopicSource, topic: str) -> bool:
+    offered = (one.qos.durability for one in source.publishers(topic))
     return any(one is DurabilityPolicy.TRANSIENT_LOCAL for one in offered)
 
 
@@ -49,5 +50,5 @@ def _state(flow: Flow, *, is_latched: bool) -> _State:
     return "waiting" if flow.age_s is None else "live"
 
 
-COMMANDS: Final = Commands["RosConnection"](Scope.ROS)
+COMMANDS: Final = Commands["TopicSource"](Scope.ROS)
 COMMANDS.viewer(GetTopicRates, lambda one, c, _: topic_rates(one, c))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from studio.errors import StudioError
 from studio.live.topics.request import SubscriptionState, fit_request
 from studio.live.topics.subscription import Stream, Subscription
+from studio.live.topics.topic_rates import TopicRates
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Endpoint, Fit, Request, StateKind
     from studio.live.topics.source import Connection, Topic
     from studio.live.topics.subscription import WireSubscription
+    from studio.live.topics.topic_rates import Meter
     from studio.ros.node.samples import RawSample
+    from studio.ros.node.topic_statistics import Flow
     from studio.ros.types.library import TypeLibrary
 
 _HASHED: Final = "RIHS01_"
@@ -47,6 +50,7 @@ class SharedSource(ABC):
         self._lock = threading.Lock()
         self._subscriptions: dict[Subscription, None] = {}
         self._streams: dict[_Key, Stream] = {}
+        self.rates = TopicRates(self.measure)
         self.fitting = threading.Lock()
         """Whoever changes what can be received holds it meanwhile."""
         self._epoch = 0
@@ -95,6 +99,13 @@ class SharedSource(ABC):
         """
 
     @abstractmethod
+    def measure(self, topic: str, kept_s: float) -> Meter | None:
+        """Begin to count what comes on a topic, until nobody asked for so long.
+
+        None: nobody publishes it, or nothing can come.
+        """
+
+    @abstractmethod
     def doubt(self) -> None:
         """Something may have changed: have all be fitted soon. Any thread may say so."""
 
@@ -117,6 +128,10 @@ class SharedSource(ABC):
         self.doubt()
         return made
 
+    def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
+        """Give how what others publish comes, as `TopicSource` says."""
+        return self.rates.flows(topics)
+
     def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:
         """Give the newest sample of each topic at or before a time, of those that are latched."""
         found = {topic: self._kept(topic, 0, at_ns + 1) for topic in topics}
@@ -133,6 +148,7 @@ class SharedSource(ABC):
 
     def end_all(self) -> None:
         """Receive nothing for anybody until all are fitted again; the caller holds `fitting`."""
+        self.rates.clear()
         streams, self._streams = self._streams, {}
         for one in self._wanted():
             one.leave()

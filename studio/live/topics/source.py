@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Endpoint, Request
     from studio.live.topics.subscription import Subscription
     from studio.ros.node.samples import RawSample
+    from studio.ros.node.topic_statistics import Flow
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
 
@@ -84,6 +85,14 @@ class TopicSource(Protocol):
 
     def fit_all(self) -> None:
         """Subscribe now what was asked for; in a thread, for it may wait."""
+        ...
+
+    def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
+        """Give how often, how large and how old what comes on some topics is.
+
+        They are measured from the first question on, whatever their types, and for some seconds
+        after the last. Those that nobody publishes are left out.
+        """
         ...
 
     def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:

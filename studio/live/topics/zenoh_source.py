@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Fit
     from studio.live.topics.source import Connection
     from studio.live.topics.subscription import Stream, Subscription
+    from studio.live.topics.topic_rates import Meter
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.graph.graph import Graph
     from studio.ros.node.raw_subscription import RawSubscription
@@ -63,6 +64,10 @@ class Link(Protocol):
 
     def receive(self, topic: str, fit: Fit, stream: Stream) -> RawSubscription:
         """Begin to receive; raises a StudioError."""
+        ...
+
+    def measure(self, topic: str, kept_s: float) -> Meter:
+        """Begin to count, until nobody asked for so long; raises a RosNameError."""
         ...
 
 
@@ -170,6 +175,11 @@ class ZenohSource(SharedSource):
     def open(self, topic: str, fit: Fit, stream: Stream) -> RawSubscription:
         assert self._link is not None
         return self._link.receive(topic, fit, stream)
+
+    @override
+    def measure(self, topic: str, kept_s: float) -> Meter | None:
+        link = self._link
+        return link.measure(topic, kept_s) if link and _publishers(link, topic) else None
 
     @override
     def doubt(self) -> None:

@@ -41,7 +41,7 @@ async def until_true(holds: Callable[[], Awaitable[bool]]) -> None:
 
 
 async def rate_of(wire: RosConnection, topic: str) -> TopicRate | None:
-    found = await topic_rates(wire, GetTopicRates(request=7, topics=(topic,)))
+    found = await topic_rates(wire.topics, GetTopicRates(request=7, topics=(topic,)))
     assert found.request == 7
     return found.rates[0] if found.rates else None
 

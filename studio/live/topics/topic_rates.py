@@ -1,0 +1,129 @@
+"""TopicRates: how often, how large and how old what others publish is, while somebody looks."""
+
+from __future__ import annotations
+
+import threading
+import time
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.ros.node.topic_statistics import Flow
+
+TOPICS_MAX: Final = 200
+"""Measured at once; of those that are asked for beyond, nothing is known."""
+KEPT_S: Final = 5.0
+"""A topic is measured so long after somebody asked: whoever looks asks every second or so."""
+BYTES_MAX: Final = 64_000_000
+"""In a second, of all that are measured: the heaviest beyond it rest."""
+_REST_S: Final = 8.0
+_MEASURED_S: Final = 2.0
+"""A topic is measured at least so long before it rests."""
+
+
+class Meter(Protocol):
+    """Counts what comes on a topic, of whatever type, and ends once nobody asks."""
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it still counts."""
+        ...
+
+    def flow(self) -> Flow:
+        """Return what comes; it goes on counting for a while."""
+        ...
+
+    def close(self) -> None:
+        """Count no more; again is harmless."""
+        ...
+
+
+@dataclass(slots=True)
+class _Measured:
+    """A topic that is measured, and how it came when that was asked last."""
+
+    meter: Meter
+    flow: Flow
+    began_s: float = field(default_factory=time.monotonic)
+
+
+@dataclass(frozen=True, slots=True)
+class _Rest:
+    """How a topic came that is not measured for a while, for it is heavy."""
+
+    flow: Flow
+    until_s: float
+
+
+class TopicRates:
+    """Measures topics for those who ask; all who ask for one topic share its meter.
+
+    Nothing is measured before the first question, nor for longer than `KEPT_S` after the last.
+    Any thread may ask.
+
+    Args:
+        measure: Begins to count on a topic, until nobody asked for so many seconds; None: nothing
+            can come, or nobody publishes there.
+    """
+
+    def __init__(self, measure: Callable[[str, float], Meter | None]) -> None:
+        self._measure = measure
+        self._lock = threading.Lock()
+        self._measured: dict[str, _Measured] = {}
+        self._resting: dict[str, _Rest] = {}
+
+    @property
+    def measured(self) -> tuple[str, ...]:
+        """Topics that are measured at this moment."""
+        return tuple(name for name, one in tuple(self._measured.items()) if one.meter.is_open)
+
+    def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
+        """Return how these come; of one that nobody asked for before, nothing is known yet.
+
+        Those that nobody publishes are left out, and those for which there is no room.
+        """
+        with self._lock:
+            self._forget()
+            flows = {name: flow for name in topics if (flow := self._flow(name)) is not None}
+            self._spare()
+            return flows
+
+    def clear(self) -> None:
+        """Measure nothing, and forget what was measured: it is of another connection."""
+        with self._lock:
+            measured, self._measured = self._measured, {}
+            self._resting.clear()
+            for one in measured.values():
+                one.meter.close()
+
+    def _forget(self) -> None:
+        """Drop those that ended by themselves, and wake those that rested enough."""
+        now_s = time.monotonic()
+        self._measured = {name: one for name, one in self._measured.items() if one.meter.is_open}
+        self._resting = {name: one for name, one in self._resting.items() if now_s < one.until_s}
+
+    def _flow(self, topic: str) -> Flow | None:
+        if rest := self._resting.get(topic):
+            return rest.flow
+        measured = self._measured.get(topic)
+        if measured is not None:
+            measured.flow = measured.meter.flow()
+        elif len(self._measured) < TOPICS_MAX and (meter := self._measure(topic, KEPT_S)):
+            measured = self._measured[topic] = _Measured(meter, meter.flow())
+        return measured and measured.flow
+
+    def _spare(self) -> None:
+        """Let the heaviest rest while all together are too heavy."""
+        now_s = time.monotonic()
+        total = sum(one.flow.bytes_per_s for one in self._measured.values())
+        heaviest = sorted(self._measured, key=lambda name: -self._measured[name].flow.bytes_per_s)
+        for name in heaviest:
+            if total <= BYTES_MAX:
+                return
+            one = self._measured[name]
+            if now_s - one.began_s >= _MEASURED_S:
+                total -= one.flow.bytes_per_s
+                one.meter.close()
+                self._resting[name] = _Rest(one.flow, now_s + _REST_S)
