@@ -14,7 +14,7 @@ from studio.robot.meshes.textured import mesh_uris
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Set
+    from collections.abc import Callable, Mapping, Set
 
     from numpy.typing import NDArray
 
@@ -120,6 +120,7 @@ class Model:
         self.posed: Callable[[tuple[str, ...], Floats], None] | None = None
         """Called with the links and their poses whenever they were moved, before that is sent."""
         self._meshes: dict[str, tuple[str, ...]] = {}
+        """By link, the meshes that it names."""
 
     @property
     def robot(self) -> Robot:
@@ -140,21 +141,17 @@ class Model:
             )
             self.joints.adopt(self.kinematics)
             self.revision += change.structural
-        self.scene.show(change.robot, change.changed_links | self._axes_of(change))
+        links = change.changed_links | self._axes_of(change)
+        self.scene.show(change.robot, links, same_meshes=change.only_numbers)
         self.pose()
-        new_meshes = self._note_meshes(change)
+        new_meshes = not change.only_numbers and self._note_meshes(change.robot)
         return Taken(change.structural, change.problems, new_meshes)
 
-    def _note_meshes(self, change: Change) -> bool:
-        """Look at the meshes of the links that changed; whether any is other than before."""
-        links = change.robot.links
-        known = self._meshes
-        meshes = {name: known[name] for name in links if name in known}
-        for name in links:
-            if name in change.changed_links or name not in known:
-                meshes[name] = tuple(mesh_uris(links[name]))
-        self._meshes = meshes
-        return meshes != known
+    def _note_meshes(self, robot: Robot) -> bool:
+        """Note which meshes each link names; whether any is other than before."""
+        before, links = self._meshes, robot.links.items()
+        self._meshes = {name: tuple(mesh_uris(link)) for name, link in links}
+        return self._meshes != before
 
     def pose(self) -> None:
         """Send the links to where the joint positions put them."""
@@ -167,20 +164,16 @@ class Model:
 
     def mesh_uris(self) -> Set[str]:
         """Every mesh that the robot names, in the order of its links."""
-        return dict.fromkeys(uri for _, uri in self._meshes_by_link()).keys()
+        return dict.fromkeys(uri for uris in self._meshes.values() for uri in uris).keys()
 
     def mesh_users(self) -> dict[str, Part]:
         """For each mesh, the first link that names it, as it was written."""
         users: dict[str, Part] = {}
-        for link, uri in self._meshes_by_link():
-            if part := self.assembly.part(f"link:{link}"):
-                users.setdefault(uri, part)
+        for link, uris in self._meshes.items():
+            if uris and (part := self.assembly.part(f"link:{link}")):
+                for uri in uris:
+                    users.setdefault(uri, part)
         return users
-
-    def _meshes_by_link(self) -> Iterator[tuple[str, str]]:
-        for link in self.robot.links.values():
-            for uri in mesh_uris(link):
-                yield link.name, uri
 
     def _axes_of(self, change: Change) -> frozenset[str]:
         """Links whose drawn joint axis changed: the children of the changed joints."""

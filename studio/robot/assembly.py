@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 from studio.problems import Problem, Severity
 from studio.robot.elements import ParsedElement, read_element
 from studio.robot.structure import Structure
-from studio.robot.values import Joint, Link, Material, Robot, Visual
+from studio.robot.values import Joint, Link, Material, Mesh, Robot, Visual
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from studio.description.values import Expansion, Part
+    from studio.robot.values import Geometry
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,8 @@ class Change:
     """All problems of the robot now, not only new ones."""
     kept_last_good: bool
     """The parts make no robot (no link, a cycle): `robot` is the one before."""
+    only_numbers: bool = dataclasses.field(default=False, compare=False)
+    """Names, ties, materials and meshes are known to be those of the robot before."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,8 +96,8 @@ class Assembly:
     def _swapped(self, parsed: Mapping[str, _Element]) -> Change | None:
         """Replace values that differ in numbers only; return None when it is not that simple.
 
-        What is dragged changes a few numbers sixty times a second: names, ties, materials and
-        problems are then as they were, and nothing else need be looked at.
+        What is dragged changes a few numbers sixty times a second: names, ties, materials, meshes
+        and problems are then as they were, and nothing else need be looked at.
         """
         before = self._kept
         if before is None or self._name != self.robot.name:
@@ -118,6 +121,7 @@ class Assembly:
             changed_links=_differing(was.links, links),
             changed_joints=_differing(was.joints, joints),
             structural=False,
+            only_numbers=True,
         )
         return self._kept
 
@@ -130,12 +134,11 @@ class Assembly:
         match old.value, new.value:
             case Link() as was, Link() as link:
                 known = self._resolved.get(was.name)
-                dressed = [visual.material for visual in was.visuals]
                 return (
                     was.name == link.name
                     and known is not None
                     and known[0] is was
-                    and dressed == [visual.material for visual in link.visuals]
+                    and _looks(was) == _looks(link)
                 )
             case Joint() as was, Joint() as joint:
                 return _ties(was) == _ties(joint) and self.robot.joints.get(was.name) is was
@@ -302,6 +305,18 @@ def _differing(before: Mapping[str, object], after: Mapping[str, object]) -> fro
 
 def _skeleton(robot: Robot) -> object:
     return tuple(robot.links), [_ties(joint) for joint in robot.joints.values()]
+
+
+def _looks(link: Link) -> object:
+    """What a link is drawn with, but for numbers: kinds of shapes, meshes and materials."""
+    return (
+        [(_kind(one.geometry), one.material) for one in link.visuals],
+        [_kind(one.geometry) for one in link.collisions],
+    )
+
+
+def _kind(geometry: Geometry) -> object:
+    return geometry.uri if isinstance(geometry, Mesh) else type(geometry)
 
 
 def _ties(joint: Joint) -> object:

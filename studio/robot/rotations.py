@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Floats: TypeAlias = "NDArray[np.float64]"
-Number = TypeVar("Number", float, "Floats")
 
 
 def matrix_from_rpy(rpy_rad: Floats) -> Floats:
@@ -22,20 +21,12 @@ def matrix_from_rpy(rpy_rad: Floats) -> Floats:
     cosines, sines = np.cos(rpy_rad), np.sin(rpy_rad)
     cr, cp, cy = cosines[..., 0], cosines[..., 1], cosines[..., 2]
     sr, sp, sy = sines[..., 0], sines[..., 1], sines[..., 2]
-    return _filled(rows_of_turn((cr, cp, cy), (sr, sp, sy)))
-
-
-def rows_of_turn(
-    cosines: tuple[Number, Number, Number], sines: tuple[Number, Number, Number]
-) -> tuple[
-    tuple[Number, Number, Number], tuple[Number, Number, Number], tuple[Number, Number, Number]
-]:
-    """The matrix of one roll, pitch and yaw, or the entries of many, row by row."""
-    (cr, cp, cy), (sr, sp, sy) = cosines, sines
-    return (
-        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
-        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
-        (-sp, cp * sr, cp * cr),
+    return _filled(
+        (
+            (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
+            (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
+            (-sp, cp * sr, cp * cr),
+        )
     )
 
 

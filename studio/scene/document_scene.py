@@ -112,7 +112,9 @@ class DocumentScene:
         self._last_poses: tuple[Sequence[str], NDArray[np.floating]] = ((), np.empty((0, 7)))
         self._put_grid()
 
-    def show(self, robot: Robot, changed_links: frozenset[str] | None) -> None:
+    def show(
+        self, robot: Robot, changed_links: frozenset[str] | None, *, same_meshes: bool = False
+    ) -> None:
         """Draw a new state of the robot in one atomic batch.
 
         Args:
@@ -121,8 +123,9 @@ class DocumentScene:
                 the robot shown before; None when it is not known, which compares all of them.
                 Links that came or went and joints that changed are found by themselves. A link
                 that came stands at the origin until `set_poses`.
+            same_meshes: No link names another mesh than in the robot shown before.
         """
-        self._robot.show(robot, changed_links)
+        self._robot.show(robot, changed_links, same_meshes=same_meshes)
         self._shown_anew = True
 
     def missing_meshes(self) -> set[str]:

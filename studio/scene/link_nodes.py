@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.robot.masses import inertia_box
 from studio.robot.meshes.textured import scale_of, textured_uri
-from studio.robot.rotations import rows_of_turn, wxyz_from_matrices
+from studio.robot.rotations import wxyz_from_matrices
 from studio.robot.values import Box, Cylinder, JointType, Mesh, Sphere
 from studio.scene import node
 from studio.scene.node import Style
@@ -22,7 +22,16 @@ if TYPE_CHECKING:
 
     from studio.displays.drawing import LinkParts
     from studio.robot.meshes.loaded_mesh import LoadedMesh
-    from studio.robot.values import Geometry, Joint, Link, Material, Origin, Robot, Vector3
+    from studio.robot.values import (
+        Geometry,
+        Joint,
+        Link,
+        Material,
+        Origin,
+        Robot,
+        Vector3,
+        Visual,
+    )
     from studio.scene.node import Node, Quaternion, Rgb
 
 DEFAULT_RGB: Rgb = (196, 200, 206)
@@ -57,13 +66,6 @@ def wxyz_from_rpy(rpy_rad: Vector3) -> Quaternion:
         cr * sp * cy + sr * cp * sy,
         cr * cp * sy - sr * sp * cy,
     )
-
-
-def rows_from_rpy(rpy_rad: Vector3) -> tuple[Vector3, Vector3, Vector3]:
-    """The rotation matrix of fixed-axis roll, pitch, yaw, row by row."""
-    roll, pitch, yaw = (angle if math.isfinite(angle) else 0.0 for angle in rpy_rad)
-    cosines = math.cos(roll), math.cos(pitch), math.cos(yaw)
-    return rows_of_turn(cosines, (math.sin(roll), math.sin(pitch), math.sin(yaw)))
 
 
 def wxyz_and_position(origin: Origin) -> tuple[Quaternion, Vector3]:
@@ -125,7 +127,6 @@ def geometry_node(
     shelf: MeshShelf,
     *,
     own_colors: bool = True,
-    texture: str = "",
 ) -> Node | None:
     """Return the node of one geometry, or None while its mesh is not loaded.
 
@@ -135,11 +136,8 @@ def geometry_node(
         style: Colour, unless the mesh has its own and `own_colors` lets it.
         shelf: The loaded meshes.
         own_colors: Materials of a mesh file win over `style`, as in RViz.
-        texture: URI of the primitive with an image on it; until that comes, `style` is used.
     """
     wxyz, at = wxyz_and_position(origin)
-    if texture and (textured := shelf.get(texture)) is not None:
-        return node.colored_mesh(textured, scale_of(geometry), wxyz, at)
     match geometry:
         case Box():
             return node.box(geometry.size_m, style, wxyz, at)
@@ -179,13 +177,19 @@ def visual_nodes(context: LinkContext) -> Nodes:
     """Return the visuals of the link."""
     nodes: Nodes = {"visual": node.group()}
     for index, visual in enumerate(context.link.visuals):
-        style = style_of(visual.material, context.robot)
-        texture = textured_uri(visual.geometry, visual.material)
-        if drawn := geometry_node(
-            visual.geometry, visual.origin, style, context.shelf, texture=texture
-        ):
+        if drawn := _visual_node(visual, context):
             nodes[f"visual/{index}"] = drawn
     return nodes
+
+
+def _visual_node(visual: Visual, context: LinkContext) -> Node | None:
+    """A visual with its image, if it has one; until that comes, in the colour of its material."""
+    geometry, origin, material = visual.geometry, visual.origin, visual.material
+    if material is not None and material.texture_uri:
+        textured = context.shelf.get(textured_uri(geometry, material))
+        if textured is not None:
+            return node.colored_mesh(textured, scale_of(geometry), *wxyz_and_position(origin))
+    return geometry_node(geometry, origin, style_of(material, context.robot), context.shelf)
 
 
 def collision_nodes(context: LinkContext) -> Nodes:

@@ -12,7 +12,7 @@ from studio.robot.meshes.textured import mesh_uris
 from studio.robot.values import Box, Cylinder, Mesh, Robot, Sphere
 from studio.scene import node
 from studio.scene.graph import ROBOT, link_node
-from studio.scene.link_nodes import LAYERS, LinkContext, MeshShelf, rows_from_rpy
+from studio.scene.link_nodes import LAYERS, LinkContext, MeshShelf, wxyz_from_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence, Set
@@ -82,7 +82,7 @@ class Ground:
         for name, pose in zip(link_names, np.asarray(wxyz_xyz, dtype=np.float64), strict=True):
             boxes = self._boxes.get(name)
             if boxes is not None:
-                rotation = _rotation(pose)
+                rotation = np.array(_rows_of_turn(pose[:4].tolist()))
                 centres = boxes[0] @ rotation.T + pose[4:]
                 halves = np.abs(boxes[1] @ rotation.T).sum(axis=1)
                 low = np.minimum(low, (centres - halves).min(axis=0))
@@ -108,15 +108,13 @@ def _up_in_link(pose: Floats) -> Floats:
     return np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
 
 
-def _rotation(pose: Floats) -> Floats:
-    """Shape (3, 3): the root frame's axes from the link's."""
-    w, x, y, z = pose[:4].tolist()
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
+def _rows_of_turn(wxyz: Iterable[float]) -> tuple[Vector3, Vector3, Vector3]:
+    """The rotation matrix of a unit quaternion, row by row."""
+    w, x, y, z = wxyz
+    return (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
     )
 
 
@@ -126,7 +124,7 @@ def _box_of(visual: Visual, shelf: MeshShelf) -> tuple[Vector3, tuple[Vector3, .
     if found is None:
         return None
     (mx, my, mz), half = found
-    rows = rows_from_rpy(visual.origin.rpy)
+    rows = _rows_of_turn(wxyz_from_rpy(visual.origin.rpy))
     x, y, z = (
         row[0] * mx + row[1] * my + row[2] * mz + at
         for row, at in zip(rows, visual.origin.xyz, strict=True)
@@ -184,12 +182,15 @@ class RobotDrawing:
         """Links that are in the scene."""
         return self._drawn.keys()
 
-    def show(self, robot: Robot, changed_links: frozenset[str] | None) -> None:
+    def show(
+        self, robot: Robot, changed_links: frozenset[str] | None, *, same_meshes: bool = False
+    ) -> None:
         """Draw a new state of the robot; see `DocumentScene.show`."""
         joint_of = {joint.child: joint for joint in robot.joints.values()}
         changed = self._changed(robot, joint_of, changed_links)
         self._robot, self._joint_of = robot, joint_of
-        self._shelf.keep_only(self._mesh_uris())
+        if not same_meshes:
+            self._shelf.keep_only(self._mesh_uris())
         with self._graph.atomic():
             for link in tuple(self._drawn):
                 if link not in robot.links:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -56,6 +57,18 @@ def test_only_the_link_that_was_written_anew_changes():
     assert not change.changed_joints
     assert not change.structural
     assert change.robot.links["b"].visuals[0].geometry == Box((2, 2, 2))
+
+
+@pytest.mark.parametrize("shape", ["visual", "collision"])
+def test_another_mesh_is_more_than_other_numbers(shape: str):
+    def link(mesh: str, scale: str) -> str:
+        geometry = f'<geometry><mesh filename="{mesh}" scale="{scale}"/></geometry>'
+        return f'<link name="a"><{shape}>{geometry}</{shape}></link>'
+
+    made = Assembled(robot(link("a.stl", "1 1 1")))
+    assert made.change("link:a", link("a.stl", "2 2 2")).only_numbers
+    assert not made.change("link:a", link("b.stl", "2 2 2")).only_numbers
+    assert not made.change("link:a", box("a")).only_numbers
 
 
 def test_a_moved_joint_changes_no_link():

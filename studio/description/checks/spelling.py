@@ -133,11 +133,7 @@ def mend_of(fault: Fault, trees: Mapping[str, SourceTree]) -> Fix | None:
         return None
     wrong, meant = fault.misnamed
     tree, place = trees.get(fault.place.file), fault.place
-    at = [
-        one
-        for one in (tree.elements if tree else ())
-        if (one.line, one.column) == (place.line, place.column)
-    ]
+    at = [one for one in (tree.elements if tree else ()) if one.place == place]
     if not at:
         return None
     edits = tuple(edit for one in at for edit in _edits(fault.code, one, wrong, meant))

@@ -274,7 +274,7 @@ def _place_at(element: SourceElement, byte: int) -> Place:
     before = element.tree.data[element.offset : byte]
     ends = list(_LINE_END.finditer(before))
     if not ends:
-        column = element.column + _characters(element, before)
+        column = element.place.column + _characters(element, before)
         return Place(element.tree.path, element.line, column)
     column = _characters(element, before[ends[-1].end() :]) + 1
     return Place(element.tree.path, element.line + len(ends), column)

@@ -378,7 +378,7 @@ class _XmlEdit:
             raise PatchRefused("it is not plain text on one line")
         tree, edit, site = self._tree, self._edit, self._site
         element = tree.elements[site.ordinal]
-        line = element.line + len(_LINE_END.findall(tree.data[element.offset : edit.start]))
+        line = element.place.line + len(_LINE_END.findall(tree.data[element.offset : edit.start]))
         data = tree.data[: edit.start] + edit.new + tree.data[edit.end :]
         written = self._new.decode("ascii")
         if site.kind is SiteKind.PARAM_DEFAULT:
@@ -427,8 +427,9 @@ class _XmlEdit:
         for element in tree.elements[behind:]:
             element.offset += growth
             element.end_tag += growth
-            if element.line == line:
-                element.column += growth
+            place = element.place
+            if place.line == line:
+                element.place = replace(place, column=place.column + growth)
                 moved[element.ordinal] = element.place
         around: SourceElement | None = tree.elements[self._site.ordinal]
         while around is not None:

@@ -89,11 +89,10 @@ class OpenElements:
             self._root_end = (at, tag.end)
 
     def _element(self, name: str, attributes: dict[str, str], at: int) -> SourceElement:
-        tree = self._tree
-        element = SourceElement(tree, self._open[-1] if self._open else None, name)
-        place = self._book.pass_by(at)
-        element.line, element.column, element.offset = place.line, place.column, at
-        element.ordinal, element.attributes = len(tree.elements), attributes
+        tree, place = self._tree, self._book.pass_by(at)
+        element = SourceElement(tree, self._open[-1] if self._open else None, name, place)
+        element.offset, element.ordinal = at, len(tree.elements)
+        element.attributes = attributes
         if len(self._open) >= DEPTH_LIMIT:
             sentence = f"Elements are nested deeper than {DEPTH_LIMIT}."
             raise SourceError("xml-too-deep", sentence, place)

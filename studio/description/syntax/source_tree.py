@@ -64,29 +64,29 @@ class SourceElement:
     """One element as written. Compared by identity; `ordinal` counts start tags from 0.
 
     `attributes` are raw (only XML's own references resolved) in written order, xmlns included.
-    `offset` is the byte of `<` in the file; `line` and `column` are 1-based, in characters.
+    `place` is where its `<` stands, in characters; `offset` is the byte of it.
     `end_tag` is the byte of its end tag, or behind its `/>`; -1 where a broken text has none.
     """
 
     __slots__ = (
         "attributes",
         "children",
-        "column",
         "end_tag",
-        "line",
         "offset",
         "ordinal",
         "parent",
+        "place",
         "plan",
         "tag",
         "tree",
     )
 
-    def __init__(self, tree: SourceTree, parent: SourceElement | None, tag: str) -> None:
-        self.tree, self.parent, self.tag = tree, parent, tag
+    def __init__(
+        self, tree: SourceTree, parent: SourceElement | None, tag: str, place: Place
+    ) -> None:
+        self.tree, self.parent, self.tag, self.place = tree, parent, tag, place
         self.attributes: dict[str, str] = {}
         self.children: list[SourceNode] = []
-        self.line = self.column = 1
         self.offset = self.ordinal = 0
         self.end_tag = -1
         self.plan: object | None = None
@@ -103,9 +103,9 @@ class SourceElement:
         return self.tag[6:] if self.tag.startswith("xacro:") else None
 
     @property
-    def place(self) -> Place:
-        """Where its `<` stands."""
-        return Place(self.tree.path, self.line, self.column)
+    def line(self) -> int:
+        """Of its place."""
+        return self.place.line
 
     @property
     def closes_itself(self) -> bool:
@@ -277,13 +277,13 @@ class _Builder:
 
     def _start(self, tag: str, attributes: list[str]) -> None:
         parser, tree = self._parser, self._tree
-        element = SourceElement(tree, self._open[-1] if self._open else None, tag)
-        element.line, element.column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+        place = Place(tree.path, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
+        element = SourceElement(tree, self._open[-1] if self._open else None, tag, place)
         element.offset, element.ordinal = parser.CurrentByteIndex, len(tree.elements)
         element.attributes = dict(zip(attributes[::2], attributes[1::2], strict=True))
         if len(self._open) >= DEPTH_LIMIT:
             raise SourceError(
-                "xml-too-deep", f"Elements are nested deeper than {DEPTH_LIMIT}.", element.place
+                "xml-too-deep", f"Elements are nested deeper than {DEPTH_LIMIT}.", place
             )
         if self._open:
             self._open[-1].children.append(element)

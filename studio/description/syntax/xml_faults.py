@@ -46,7 +46,7 @@ class Element(Protocol):
     """An element as it was begun."""
 
     tag: str
-    line: int
+    place: Place
 
 
 def sentence_of(error: ExpatError, data: bytes, byte: int, still_open: Sequence[Element]) -> str:
@@ -87,16 +87,17 @@ def cause_of(error: ExpatError, data: bytes, byte: int) -> int:
 def _mismatch(data: bytes, byte: int, innermost: Element) -> str:
     closing = re.match(rb"(?:</)?([^\s>]{1,80})", data[byte : byte + 82])
     name = closing[1].decode("utf-8", "replace") if closing else "…"
-    return (
-        f"</{name}> closes nothing here: <{innermost.tag}> of line {innermost.line} is still open."
-    )
+    still = f"<{innermost.tag}> of line {innermost.place.line} is still open."
+    return f"</{name}> closes nothing here: {still}"
 
 
 def _unfinished(still_open: Sequence[Element]) -> str:
     if not still_open:
         return "The file ends before its root element does: close every tag."
     innermost = still_open[-1]
-    return f"The file ends while <{innermost.tag}> of line {innermost.line} is open: close it."
+    return (
+        f"The file ends while <{innermost.tag}> of line {innermost.place.line} is open: close it."
+    )
 
 
 def _odd_character(data: bytes, byte: int) -> str:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from studio.description.values import Part, Span
+    from studio.problems import Place
     from studio.robot.checks.finding import Mend
 
 _INDENT: Final = re.compile(rb"\n[ \t]*\Z")
@@ -31,7 +32,7 @@ class Mender:
 
     def __init__(self, source: Callable[[str], bytes | None]) -> None:
         self._source = source
-        self._elements: dict[str, dict[tuple[int, int], SourceElement]] = {}
+        self._elements: dict[str, dict[Place, SourceElement]] = {}
 
     def fix(self, mend: Mend, part: Part) -> Fix | None:
         """The fix of a mend at the element that a part was written as.
@@ -52,11 +53,11 @@ class Mender:
         place = part.place
         if place.file not in self._elements:
             self._elements[place.file] = self._read(place.file)
-        found = self._elements[place.file].get((place.line, place.column))
+        found = self._elements[place.file].get(place)
         kind = part.key.partition(":")[0]
         return found if found is not None and found.tag == kind else None
 
-    def _read(self, file: str) -> dict[tuple[int, int], SourceElement]:
+    def _read(self, file: str) -> dict[Place, SourceElement]:
         data = self._source(file)
         if data is None:
             return {}
@@ -64,7 +65,7 @@ class Mender:
             tree = parse_source(file, data)
         except SourceError:
             return {}
-        return {(one.line, one.column): one for one in tree.elements}
+        return {one.place: one for one in tree.elements}
 
 
 def _edits(mend: Mend, element: SourceElement, *, is_from_macro: bool) -> Iterator[Replacement]:

@@ -21,7 +21,8 @@ TEXT = b"""<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
 
 def places(tree: SourceTree) -> list[tuple[str, int, int, int, int, int]]:
     return [
-        (one.tag, one.line, one.column, one.offset, one.inside, one.end) for one in tree.elements
+        (one.tag, one.place.line, one.place.column, one.offset, one.inside, one.end)
+        for one in tree.elements
     ]
 
 

@@ -39,7 +39,7 @@ def mended(text: str) -> str:
 
 def elements(tree: SourceTree) -> list[tuple[object, ...]]:
     return [
-        (one.tag, one.attributes, one.line, one.column, one.offset, one.ordinal)
+        (one.tag, one.attributes, one.place.line, one.place.column, one.offset, one.ordinal)
         for one in tree.elements
     ]
 

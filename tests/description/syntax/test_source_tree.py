@@ -23,9 +23,9 @@ def test_each_element_knows_its_line_column_and_byte():
     data = f'<robot {XMLNS}>\r\n <!-- ä -->\t<link name="ö"\n a="1"/> é<x/>\n</robot>'.encode()
     tree = parse_source("a.xacro", data)
     robot, link, x = tree.elements
-    assert (robot.line, robot.column, robot.offset) == (1, 1, 0)
-    assert (link.line, link.column) == (2, 13)
-    assert (x.line, x.column) == (3, 11)
+    assert (robot.place.line, robot.place.column, robot.offset) == (1, 1, 0)
+    assert (link.place.line, link.place.column) == (2, 13)
+    assert (x.place.line, x.place.column) == (3, 11)
     for element in tree.elements:
         assert data[element.offset :].startswith(f"<{element.tag}".encode())
     assert [element.ordinal for element in tree.elements] == [0, 1, 2]
