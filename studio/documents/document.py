@@ -229,7 +229,7 @@ class Document:
 
     def value_edited(self) -> None:
         """Keep a draft soon, though no run has shown the edit yet."""
-        self.drafts.note(shown=False)
+        self.drafts.note()
 
     def texts_changed(self) -> None:
         """Tell the sites that changed, the undo list and what is unsaved."""

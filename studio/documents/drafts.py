@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 _WRITE_AFTER_S: Final = 0.3
 """From a draft to the next one; the first edit of a pause is written at once."""
 _WRITE_LARGE_AFTER_S: Final = 3.0
-_SHOWN_WITHIN_S: Final = 0.05
-"""An edit is shown before it is written, but for a run that takes longer."""
 _LARGE_BYTES: Final = 1 << 20
 _LIMIT_BYTES: Final = 64 << 20
 _STEPS_KEPT: Final = 300
@@ -61,8 +59,6 @@ class Drafts:
         self._written: KeptSources | None = None
         self._restored = Restored(at="", files=())
         self._writing: asyncio.Task[None] | None = None
-        self._not_shown: asyncio.TimerHandle | None = None
-        """Ends the time that an edit has to be shown."""
         self._is_noted = self._is_forgotten = False
         self._ended = asyncio.Event()
 
@@ -83,23 +79,13 @@ class Drafts:
         if draft is not None and draft.entry == self._workspace.path:
             self._take(draft)
 
-    def note(self, *, shown: bool = True) -> None:
-        """Something may have changed: write it down soon, and not too often.
-
-        Of what is not `shown` yet, it is to be said once more when it is.
-        """
-        self._is_noted = True
+    def note(self) -> None:
+        """Something may have changed: write it down soon, and not too often."""
         self._end_notice()
-        if shown:
-            self._begin()
-        elif self._not_shown is None:
-            loop = asyncio.get_running_loop()
-            self._not_shown = loop.call_later(_SHOWN_WITHIN_S, self._begin)
+        self._write_soon()
 
-    def _begin(self) -> None:
-        if self._not_shown is not None:
-            self._not_shown.cancel()
-            self._not_shown = None
+    def _write_soon(self) -> None:
+        self._is_noted = True
         if self._file is not None and (self._writing is None or self._writing.done()):
             self._writing = asyncio.create_task(self._write_while_noted())
 
@@ -127,8 +113,7 @@ class Drafts:
     async def close(self) -> None:
         """Write what is not written yet, and leave the draft to the next run."""
         self._ended.set()
-        if self._not_shown is not None:
-            self._begin()
+        self._write_soon()  # what no run has shown is kept, too
         if self._writing:
             await self._writing
         if self._file is None:
@@ -168,7 +153,7 @@ class Drafts:
             self._audience.tell(self._restored)
 
     async def _write_while_noted(self) -> None:
-        while self._is_noted and self._not_shown is None:
+        while self._is_noted:
             await self._write()
             known = self._written
             large = known is not None and known.size_bytes > _LARGE_BYTES

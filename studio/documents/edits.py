@@ -23,13 +23,15 @@ if TYPE_CHECKING:
 TEXT_LIMIT_BYTES: Final = 4 << 20
 """More than any robot description; an editor in a browser holds it with ease."""
 READ_ONLY: Final = "it lies where the studio may only read."
+_SHOWN_WITHIN_S: Final = 0.05
+"""An edit is shown before it is written down, but for a run that takes longer."""
 
 
 class EditObserver(Protocol):
     """Is called when the sources have changed."""
 
     def value_edited(self) -> None:
-        """A value was written that no run has shown yet."""
+        """A value was written that no run has shown for a while."""
         ...
 
     def texts_changed(self) -> None:
@@ -66,8 +68,15 @@ class Edits:
     async def edit_site(self, site: str, text: str, gesture: str) -> None:
         """Write a new text at a site and show what it does."""
         edit = self._sources.edit_site(site, text, gesture)
-        self._observer.value_edited()
-        await self.timed(self._runs.edit((edit,), in_gesture=bool(gesture)))
+        edited = self._observer.value_edited
+        late = asyncio.get_running_loop().call_later(_SHOWN_WITHIN_S, edited)
+        try:
+            await self.timed(self._runs.edit((edit,), in_gesture=bool(gesture)))
+        except Exception:
+            edited()
+            raise
+        finally:
+            late.cancel()
 
     async def reset_site(self, site: str) -> None:
         """Put a site back to what the disk says."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Final
 
-from studio.debounce import Debouncer
 from studio.description.language.questions import CompletionQuery, LookUpQuery
 from studio.description.origins.origin_values import PartOriginQuery
 from studio.errors import SupersededError
@@ -83,6 +82,10 @@ class QuestionQueue:
         self._served: set[Listener] = set()
         """Who got the last answer: the next one goes to another viewer, if one waits."""
 
+    def __len__(self) -> int:
+        """How many questions wait."""
+        return len(self._waiting)
+
     def add(self, query: Query, asker: Listener) -> asyncio.Future[Reply]:
         """Have a question wait; the future gets its reply."""
         self._forget_those_left()
@@ -150,21 +153,25 @@ REST_S: Final = 0.3
 class Questions:
     """No question is begun while a run is under way or waits: an edit overtakes all but one.
 
+    What takes long to answer waits, too, while somebody drags or types.
+
     Args:
         runs_end: Waits until no run is under way; does not wait when none is.
+        gesture_ended_s: When the last run of a drag, or of typing, ended, by the loop's clock.
         reply: Gives the answer to one question.
     """
 
     def __init__(
         self,
         runs_end: Callable[[], Awaitable[None]],
+        gesture_ended_s: Callable[[], float],
         reply: Callable[[Query], Awaitable[Reply]],
     ) -> None:
-        self._runs_end, self._reply = runs_end, reply
+        self._runs_end, self._gesture_ended_s, self._reply = runs_end, gesture_ended_s, reply
         self._queue = QuestionQueue()
         self._answering: asyncio.Task[None] | None = None
-        self._rest = Debouncer(self._release, REST_S)
-        self._is_held = False
+        self._rest: asyncio.TimerHandle | None = None
+        """Has what waits for a rest answered then."""
 
     async def ask(self, query: Query, asker: Listener) -> Reply:
         """Wait for the turn of a question, and for its answer.
@@ -176,27 +183,13 @@ class Questions:
         self._go_on()
         return await answer
 
-    def hold(self) -> None:
-        """Somebody drags or types, and a run comes of it: what takes long waits until they rest."""
-        self._is_held = True
-        self._rest.cancel()
-
-    def run_ended(self) -> None:
-        """Count the quiet time from now on."""
-        if self._is_held:
-            self._rest.trigger()
-
     async def close(self) -> None:
         """Answer nothing any more; whoever waits is cancelled."""
-        await self._rest.close()
+        self._end_rest()
         self._queue.cancel()
         if self._answering is not None:
             self._answering.cancel()
             await asyncio.gather(self._answering, return_exceptions=True)
-
-    def _release(self) -> None:
-        self._is_held = False
-        self._go_on()
 
     def _go_on(self) -> None:
         if self._answering is None or self._answering.done():
@@ -205,8 +198,14 @@ class Questions:
     async def _answer_all(self) -> None:
         while True:
             await self._runs_end()
-            taken = self._queue.take(is_held=self._is_held)
+            loop = asyncio.get_running_loop()
+            rests_at_s = self._gesture_ended_s() + REST_S
+            is_held = loop.time() < rests_at_s
+            taken = self._queue.take(is_held=is_held)
             if taken is None:
+                self._end_rest()
+                if is_held and len(self._queue):
+                    self._rest = loop.call_at(rests_at_s, self._go_on)
                 return
             try:
                 taken.settle(await self._reply(taken.query))
@@ -215,3 +214,8 @@ class Questions:
                 raise
             except Exception as error:  # noqa: BLE001 - handed on to everyone who asked
                 taken.fail(error)
+
+    def _end_rest(self) -> None:
+        if self._rest is not None:
+            self._rest.cancel()
+            self._rest = None

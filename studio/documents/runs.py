@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import gc
 import logging
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias, TypeVar
@@ -124,7 +125,10 @@ class Runs:
         self._waiters: list[asyncio.Future[None]] = []
         self._turns: asyncio.Task[None] | None = None
         self._check = Debouncer(self._begin_check, CHECK_AFTER_S)
-        self._questions = Questions(self._runs_end, self._reply)
+        self._in_gesture = False
+        """Whether an edit that waits for its run is one of a gesture."""
+        self._gesture_ended_s = -math.inf
+        self._questions = Questions(self._runs_end, lambda: self._gesture_ended_s, self._reply)
         self._is_closed = False
 
     @property
@@ -138,8 +142,7 @@ class Runs:
         Of a gesture more are to come: questions that take long wait until it rests.
         """
         self._edits.extend(edits)
-        if in_gesture:
-            self._questions.hold()
+        self._in_gesture |= in_gesture
         await self._next_run()
 
     async def reload(self, files: Iterable[str]) -> None:
@@ -218,7 +221,6 @@ class Runs:
             raise asyncio.CancelledError
         waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._waiters.append(waiter)
-        self._check.cancel()
         if self._turns is None or self._turns.done():
             self._turns = asyncio.create_task(self._take_turns())
         await waiter
@@ -226,6 +228,7 @@ class Runs:
     async def _take_turns(self) -> None:
         while self._waiters:
             waiters, self._waiters = self._waiters, []
+            in_gesture, self._in_gesture = self._in_gesture, False
             try:
                 self._check_later(await self._run())
             except asyncio.CancelledError:
@@ -236,7 +239,8 @@ class Runs:
                 _settle(waiters, error)
             else:
                 _settle(waiters, None)
-            self._questions.run_ended()
+            if in_gesture:
+                self._gesture_ended_s = asyncio.get_running_loop().time()
 
     def _check_later(self, outcome: Outcome) -> None:
         """When it is quiet for a while, have a full run check what edits have patched."""

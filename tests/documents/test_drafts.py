@@ -234,7 +234,7 @@ def test_an_edit_is_shown_before_it_is_written_down(
     mast: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     # On a busy machine a run may take longer than an edit otherwise waits to be written.
-    monkeypatch.setattr("studio.documents.drafts._SHOWN_WITHIN_S", 60.0)
+    monkeypatch.setattr("studio.documents.edits._SHOWN_WITHIN_S", 60.0)
     monkeypatch.setattr("studio.documents.drafts._WRITE_AFTER_S", 0.0)
     os.utime(mast, (1e9, 1e9))  # one just written is looked at once more when it is watched
     tips: list[list[float]] = []
