@@ -9,7 +9,15 @@ from studio.description.editing.sources import FileChange
 from studio.description.editing.undo import Change
 from studio.errors import EditError
 from studio.problems import Fix, Place, Problem, Severity
-from studio.protocol.saving import Collisions, CollisionView, DiskMerged
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.saving import (
+    Collisions,
+    CollisionView,
+    DiskMerged,
+    GetCollisions,
+    Reload,
+    ResolveCollisions,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -22,7 +30,6 @@ if TYPE_CHECKING:
     from studio.documents.runs import Runs
     from studio.documents.workspace import Workspace
     from studio.protocol.listeners import Audience
-    from studio.protocol.saving import GetCollisions, ResolveCollisions
 
 _SHOWN: Final = 50
 """Collisions of one file that are shown; of more than that nobody reads every one."""
@@ -121,6 +128,12 @@ class DiskSync:
 
     def _name(self, file: str) -> str:
         return str(self._workspace.served.resolve(file))
+
+
+COMMANDS: Final = Commands[DiskSync](Scope.DOCUMENT)
+COMMANDS.presenter(GetCollisions, lambda disk, c, _: disk.collisions(c))
+COMMANDS.presenter(ResolveCollisions, lambda disk, c, _: disk.resolve(c))
+COMMANDS.presenter(Reload, lambda disk, _, __: disk.reload())
 
 
 def changed_on_disk(file: str) -> Problem:

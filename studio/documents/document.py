@@ -6,47 +6,64 @@ import asyncio
 import contextlib
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.description.values import Expansion, Failure
+from studio.documents.checks.fixes import COMMANDS as FIX_COMMANDS
 from studio.documents.checks.fixes import Fixes
 from studio.documents.checks.mesh_checks import MeshChecks
 from studio.documents.checks.pace import Pace
 from studio.documents.checks.robot_checks import RobotChecks
 from studio.documents.checks.text_checks import TextChecks, second_opinion
+from studio.documents.disk_sync import COMMANDS as DISK_COMMANDS
 from studio.documents.disk_sync import DiskSync
+from studio.documents.drafts import COMMANDS as DRAFT_COMMANDS
 from studio.documents.drafts import Drafts
+from studio.documents.edits import COMMANDS as EDIT_COMMANDS
 from studio.documents.edits import Edits, history_event
 from studio.documents.exports import Exports
 from studio.documents.file_watch import FileWatch
 from studio.documents.findings import Findings
+from studio.documents.inspection import COMMANDS as INSPECTION_COMMANDS
 from studio.documents.inspection import Inspection
 from studio.documents.meshes import Meshes
 from studio.documents.model import Model
+from studio.documents.motion import COMMANDS as MOTION_COMMANDS
 from studio.documents.motion import Motion
+from studio.documents.origins import COMMANDS as ORIGIN_COMMANDS
 from studio.documents.origins import Origins
 from studio.documents.pose_search import PoseSearch
+from studio.documents.poses import COMMANDS as POSE_COMMANDS
 from studio.documents.poses import NamedPoses
+from studio.documents.rewriting import COMMANDS as REWRITING_COMMANDS
 from studio.documents.rewriting import Rewriting
 from studio.documents.robot_view import RobotView
 from studio.documents.runs import Outcome, Runs
+from studio.documents.saving import COMMANDS as SAVING_COMMANDS
 from studio.documents.saving import Saving
 from studio.documents.sites import SiteTable
+from studio.documents.texts import COMMANDS as TEXT_COMMANDS
+from studio.documents.texts import QUESTIONS as QUESTION_COMMANDS
 from studio.documents.texts import EditorQuestions, Texts
+from studio.documents.urdf import COMMANDS as URDF_COMMANDS
 from studio.documents.urdf import UrdfText
 from studio.documents.variants.comparison import VariantComparison
 from studio.documents.variants.recipes import RecipeBook
 from studio.documents.variants.second_robot import Ghost, SecondRobots
+from studio.documents.variants.variants import COMMANDS as VARIANT_COMMANDS
 from studio.documents.variants.variants import NamedVariants
 from studio.documents.workspace import Workspace
+from studio.live.connection.feed import COMMANDS as FEED_COMMANDS
 from studio.live.connection.feed import RobotFeed
 from studio.live.connection.opened_types import take_types
 from studio.live.displays.display_file import DisplayFile
+from studio.live.displays.document_displays import COMMANDS as DISPLAY_COMMANDS
 from studio.live.displays.document_displays import DocumentDisplays
 from studio.live.displays.robot_reading import RobotReader
-from studio.protocol.documents import DocumentState, Progress
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, tell
-from studio.protocol.robot import Displays
+from studio.protocol.robot import Displays, SetDisplay
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
 
@@ -358,3 +375,25 @@ class Document:
 
     def _displays_event(self) -> Displays:
         return Displays(displays=self.scene.displays())
+
+
+COMMANDS: Final = Commands[Document](Scope.DOCUMENT)
+"""Every command of a document."""
+COMMANDS.presenter(ChoosePackage, lambda d, c, _: d.choose_package(c.name, c.folder))
+COMMANDS.presenter(SetDisplay, lambda d, c, _: d.set_display(c.display, c.name, value=c.value))
+COMMANDS.include(EDIT_COMMANDS, lambda document, _: document.edits)
+COMMANDS.include(FIX_COMMANDS, lambda document, _: document.fixes)
+COMMANDS.include(TEXT_COMMANDS, lambda document, _: document.texts)
+COMMANDS.include(QUESTION_COMMANDS, lambda document, _: document.language)
+COMMANDS.include(REWRITING_COMMANDS, lambda document, _: document.rewriting)
+COMMANDS.include(DISK_COMMANDS, lambda document, _: document.disk)
+COMMANDS.include(SAVING_COMMANDS, lambda document, _: document.saving)
+COMMANDS.include(DRAFT_COMMANDS, lambda document, _: document.drafts)
+COMMANDS.include(MOTION_COMMANDS, lambda document, _: document.motion)
+COMMANDS.include(URDF_COMMANDS, lambda document, _: document.urdf)
+COMMANDS.include(ORIGIN_COMMANDS, lambda document, _: document.origins)
+COMMANDS.include(INSPECTION_COMMANDS, lambda document, _: document.inspection)
+COMMANDS.include(VARIANT_COMMANDS, lambda document, _: document.variants)
+COMMANDS.include(POSE_COMMANDS, lambda document, _: document.poses)
+COMMANDS.include(FEED_COMMANDS, lambda document, _: document.feed)
+COMMANDS.include(DISPLAY_COMMANDS, lambda document, _: document.live)

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Final
 from studio.documents.draft_files import Draft, draft_file
 from studio.errors import DraftError, PackageError
 from studio.problems import Place, Problem, Severity
-from studio.protocol.saving import Restored
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.saving import DiscardRestored, Restored
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Generator, Iterable, Sequence
@@ -193,6 +194,10 @@ class Drafts:
         place = Place(self._workspace.path)
         problem = Problem(Severity.WARNING, "draft-not-kept", str(error), place)
         self._findings.replace("drafts", [problem])
+
+
+COMMANDS: Final = Commands[Drafts](Scope.DOCUMENT)
+COMMANDS.presenter(DiscardRestored, lambda drafts, _, __: drafts.discard())
 
 
 def _bounded(kept: KeptSources) -> KeptSources:

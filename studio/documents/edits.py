@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.description.editing.undo import Change
 from studio.errors import CommandError
-from studio.protocol.edits import Built, History
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.documents import SetArgument, SetArguments
+from studio.protocol.edits import Built, EditSite, History, Redo, ResetSite, Undo
+from studio.protocol.saving import UndoTo
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Mapping, Sequence
@@ -18,7 +21,6 @@ if TYPE_CHECKING:
     from studio.documents.runs import Runs
     from studio.documents.sites import SiteTable
     from studio.protocol.listeners import Audience
-    from studio.protocol.saving import UndoTo
 
 TEXT_LIMIT_BYTES: Final = 4 << 20
 """More than any robot description; an editor in a browser holds it with ease."""
@@ -164,6 +166,16 @@ class Edits:
         self._sites.invalidate()
         self._observer.arguments_changed()
         await self.timed(self._runs.arguments_changed())
+
+
+COMMANDS: Final = Commands[Edits](Scope.DOCUMENT)
+COMMANDS.presenter(EditSite, lambda edits, c, _: edits.edit_site(c.site, c.text, c.gesture))
+COMMANDS.presenter(ResetSite, lambda edits, c, _: edits.reset_site(c.site))
+COMMANDS.presenter(SetArgument, lambda edits, c, _: edits.pass_arguments({c.name: c.value}))
+COMMANDS.presenter(SetArguments, lambda edits, c, _: edits.pass_arguments(c.values))
+COMMANDS.presenter(Undo, lambda edits, _, __: edits.undo())
+COMMANDS.presenter(Redo, lambda edits, _, __: edits.redo())
+COMMANDS.presenter(UndoTo, lambda edits, c, _: edits.undo_to(c))
 
 
 def history_event(sources: Sources) -> History:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.documents.arguments import form_at, form_of
-from studio.documents.commands import COMMANDS as DOCUMENT_COMMANDS
+from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
 from studio.documents.left_work import LeftDrafts
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS

@@ -6,7 +6,8 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import PackageError, RobotError, WorkerError
-from studio.protocol.robot import Frames, LinkMassView, Masses, VolumeView
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.robot import Frames, GetFrames, GetMasses, LinkMassView, Masses, VolumeView
 from studio.robot.masses import link_mass
 from studio.robot.measures import mesh_volume, shapes_volume
 from studio.robot.values import Mesh
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 
     from studio.documents.model import Model
     from studio.documents.workspace import Workspace
-    from studio.protocol.robot import GetFrames, GetMasses
     from studio.robot.masses import LinkMass
     from studio.robot.measures import MeshVolumes, Volume
     from studio.robot.meshes.library import MeshLibrary
@@ -74,6 +74,11 @@ class Inspection:
                 self._volumes.clear()
             self._volumes[mesh.digest] = known
         return known
+
+
+COMMANDS: Final = Commands[Inspection](Scope.DOCUMENT)
+COMMANDS.viewer(GetFrames, lambda inspection, c, _: inspection.frames(c))
+COMMANDS.viewer(GetMasses, lambda inspection, c, _: inspection.masses(c))
 
 
 def masses_event(request: int, robot: Robot, of_mesh: MeshVolumes) -> Masses:

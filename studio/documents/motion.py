@@ -6,6 +6,8 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.robot import AnimateJoints, RandomizeJoints, SetJoints, ZeroJoints
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -192,3 +194,10 @@ class Motion:
     def _tell(self) -> None:
         self._view.animating = self.swinging
         self._view.tell_joints()
+
+
+COMMANDS: Final = Commands[Motion](Scope.DOCUMENT)
+COMMANDS.presenter(SetJoints, lambda motion, c, _: motion.set(c.positions))
+COMMANDS.presenter(ZeroJoints, lambda motion, _, __: motion.zero())
+COMMANDS.presenter(RandomizeJoints, lambda motion, _, __: motion.randomize())
+COMMANDS.presenter(AnimateJoints, lambda motion, c, _: motion.animate(running=c.running))

@@ -11,6 +11,7 @@ from studio.description.origins.origin_values import (
     SiteEffects,
     SiteEffectsQuery,
 )
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.origins import Effects, GetEffects, GetOrigin, Origin, PartEffect
 
 if TYPE_CHECKING:
@@ -50,6 +51,11 @@ class Origins:
         query = SiteEffectsQuery(command.site)
         found = await self._runs.answer(query, SiteEffects, asker)
         return effects_event(command.request, found, self._model.robot)
+
+
+COMMANDS: Final = Commands[Origins](Scope.DOCUMENT)
+COMMANDS.viewer(GetOrigin, lambda origins, c, who: origins.origin(c, who))
+COMMANDS.viewer(GetEffects, lambda origins, c, who: origins.effects(c, who))
 
 
 def effects_event(request: int, found: SiteEffects, robot: Robot) -> Effects:

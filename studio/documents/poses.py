@@ -11,8 +11,9 @@ from studio.documents.file_watch import FileWatch
 from studio.documents.side_file import ItemKind, NamedItems
 from studio.errors import CommandError
 from studio.packages.pose_files import may_name_poses
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.listeners import LastTold
-from studio.protocol.robot import Poses, PoseView
+from studio.protocol.robot import ApplyPose, DeletePose, Poses, PoseView, RenamePose, SavePose
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from studio.documents.pose_search import PoseSearch
     from studio.documents.workspace import Workspace
     from studio.protocol.listeners import Audience
-    from studio.protocol.robot import ApplyPose, DeletePose, RenamePose, SavePose
     from studio.robot.kinematics import Kinematics
 
 
@@ -164,6 +164,13 @@ class NamedPoses:
 
     def _tell(self) -> None:
         self._sent.tell(self._list())
+
+
+COMMANDS: Final = Commands[NamedPoses](Scope.DOCUMENT)
+COMMANDS.presenter(ApplyPose, lambda poses, c, _: poses.apply(c))
+COMMANDS.presenter(SavePose, lambda poses, c, _: poses.save(c))
+COMMANDS.presenter(RenamePose, lambda poses, c, _: poses.rename(c))
+COMMANDS.presenter(DeletePose, lambda poses, c, _: poses.delete(c))
 
 
 def _key(kind: _Kind, pose: NamedPose) -> str:

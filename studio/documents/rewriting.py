@@ -13,6 +13,7 @@ from studio.description.language.questions import Renaming, RenamingQuery, Subje
 from studio.description.values import Edit
 from studio.documents.edits import READ_ONLY, TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError, ReadOnlyTextError, StaleTextError
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.texts import (
     FindTexts,
     FoundText,
@@ -265,6 +266,13 @@ class Rewriting:
                 raise ReadOnlyTextError(file, READ_ONLY)
             if len(sources.text(file)) + more > TEXT_LIMIT_BYTES:
                 raise EditError(f"{file} would grow too large: write less.")
+
+
+COMMANDS: Final = Commands[Rewriting](Scope.DOCUMENT)
+COMMANDS.presenter(Rename, lambda rewriting, c, who: rewriting.rename(c, who))
+COMMANDS.presenter(ReplaceTexts, lambda rewriting, c, who: rewriting.replace(c, who))
+COMMANDS.presenter(GetRenaming, lambda rewriting, c, who: rewriting.renaming(c, who))
+COMMANDS.viewer(FindTexts, lambda rewriting, c, who: rewriting.find(c, who))
 
 
 def _words(command: WordsCommand) -> Words:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.line_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
 from studio.errors import CommandError, NotSavedError
 from studio.files import sweep
-from studio.protocol.saving import Changes, FileChanges, Saved
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.saving import Changes, FileChanges, GetChanges, Save, SaveCopy, Saved
 from studio.protocol.texts import hunk_views
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from studio.documents.edits import Edits
     from studio.documents.workspace import Workspace
     from studio.protocol.listeners import Audience
-    from studio.protocol.saving import GetChanges, SaveCopy
 
 
 class Saving:
@@ -112,3 +112,9 @@ class Saving:
         if not served.may_write(target):
             raise NotSavedError(command.path, "its folder may only be read; name another")
         write_copy(target, sources.text(file))
+
+
+COMMANDS: Final = Commands[Saving](Scope.DOCUMENT)
+COMMANDS.presenter(GetChanges, lambda saving, c, _: saving.changes(c))
+COMMANDS.presenter(Save, lambda saving, c, _: saving.save(c.files))
+COMMANDS.presenter(SaveCopy, lambda saving, c, _: saving.save_copy(c))

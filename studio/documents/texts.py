@@ -19,6 +19,7 @@ from studio.description.language.questions import (
 )
 from studio.documents.edits import READ_ONLY, TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, ReadOnlyTextError, StaleTextError
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.language import (
     Complete,
     CompletionsAnswer,
@@ -205,6 +206,11 @@ class Texts:
         return self._workspace.served.may_write(Path(file))
 
 
+COMMANDS: Final = Commands[Texts](Scope.DOCUMENT)
+COMMANDS.presenter(EditText, lambda texts, c, _: texts.edit(c))
+COMMANDS.viewer(GetText, lambda texts, c, who: texts.answer(c, who.role))
+
+
 def _edits(file: str, text: EditorText, changes: Sequence[TextChange]) -> tuple[Edit, ...]:
     """The edits one after the other, the last place first: so each one's offsets hold."""
     at = 0
@@ -255,3 +261,10 @@ class EditorQuestions:
         query = CompletionQuery(file, text, command.offset)
         completions = await self._runs.answer(query, Completions, asker)
         return CompletionsAnswer(request=command.request, completions=completions)
+
+
+QUESTIONS: Final = Commands[EditorQuestions](Scope.DOCUMENT)
+QUESTIONS.viewer(GetOutline, lambda editor, c, who: editor.outline(c, who))
+QUESTIONS.viewer(LookUp, lambda editor, c, who: editor.look_up(c, who))
+QUESTIONS.viewer(GetReferences, lambda editor, c, who: editor.references(c, who))
+QUESTIONS.presenter(Complete, lambda editor, c, who: editor.complete(c, who))

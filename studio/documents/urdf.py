@@ -12,7 +12,8 @@ from studio.description.editing.line_diff import DiffLine, LineDiff, line_diff
 from studio.description.urdf import part_element, urdf_text
 from studio.description.values import Expansion, OpenRequest
 from studio.errors import CommandError
-from studio.protocol.texts import GetUrdfChanges, Urdf, UrdfChanges, hunk_views
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.texts import GetUrdf, GetUrdfChanges, Urdf, UrdfChanges, hunk_views
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from studio.documents.model import Model
     from studio.documents.runs import LastRun
     from studio.documents.workspace import Workspace
-    from studio.protocol.texts import GetUrdf
 
 
 LINES_SHOWN: Final = 4_000
@@ -223,6 +223,11 @@ class UrdfText:
         else:
             self._saved = _Saved(texts, [], f"The files on disk do not run: {answer.problem}")
         return self._saved
+
+
+COMMANDS: Final = Commands[UrdfText](Scope.DOCUMENT)
+COMMANDS.viewer(GetUrdf, lambda urdf, c, _: urdf.answer(c))
+COMMANDS.viewer(GetUrdfChanges, lambda urdf, c, _: urdf.changes(c))
 
 
 def _ordered(parts: Iterable[Part], expansion: Expansion) -> list[Part]:

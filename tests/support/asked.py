@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from studio.documents.commands import COMMANDS as DOCUMENT_COMMANDS
+from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.protocol.listeners import tell
 

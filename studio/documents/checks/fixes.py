@@ -10,6 +10,8 @@ from studio.description.editing.undo import Change
 from studio.documents.edits import READ_ONLY, TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, ReadOnlyTextError
 from studio.problems import Severity
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.edits import ApplyFix, MendAll
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -69,6 +71,11 @@ class Fixes:
                 raise EditError(f"{edit.file} would grow too large: mend it by hand.")
         sources.edit_all(edits, label, f"fix {next(self._applied)}")
         await self._edits.follow(Change(label, edits))
+
+
+COMMANDS: Final = Commands[Fixes](Scope.DOCUMENT)
+COMMANDS.presenter(ApplyFix, lambda fixes, c, _: fixes.apply(c.code, c.sentence, c.label))
+COMMANDS.presenter(MendAll, lambda fixes, _, __: fixes.apply_all())
 
 
 def _fixes(problems: Sequence[Problem]) -> Iterator[Fix]:

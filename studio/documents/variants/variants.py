@@ -12,9 +12,12 @@ from studio.description.editing.variants import VARIANT_LIMIT, read_variants, wr
 from studio.documents.file_watch import FileWatch
 from studio.documents.side_file import ItemKind, NamedItems
 from studio.errors import CommandError
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.listeners import LastTold
 from studio.protocol.variants import (
     ApplyVariant,
+    CompareVariants,
+    DeleteVariant,
     RenameVariant,
     SaveVariant,
     Side,
@@ -255,6 +258,15 @@ class NamedVariants:
 
     def _tell(self) -> None:
         self._sent.tell(self._list())
+
+
+COMMANDS: Final = Commands[NamedVariants](Scope.DOCUMENT)
+COMMANDS.presenter(SaveVariant, lambda variants, c, _: variants.save(c))
+COMMANDS.presenter(UpdateVariant, lambda variants, c, _: variants.save(c))
+COMMANDS.presenter(ApplyVariant, lambda variants, c, _: variants.apply(c))
+COMMANDS.presenter(RenameVariant, lambda variants, c, _: variants.rename(c))
+COMMANDS.presenter(DeleteVariant, lambda variants, c, _: variants.delete(c.name))
+COMMANDS.presenter(CompareVariants, lambda variants, c, _: variants.compare(c.sides))
 
 
 def _view(variant: Variant) -> VariantView:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Final, Literal, Protocol
 from studio.errors import CommandError, StudioError
 from studio.live.connection.sending import RobotSending
 from studio.packages.received_texts import keep_description
-from studio.protocol.connection import WireFeed
+from studio.protocol.commands import Commands, Scope
+from studio.protocol.connection import PublishJoints, PublishRobot, SetJointSource, WireFeed
 from studio.protocol.listeners import LastTold
 
 if TYPE_CHECKING:
@@ -263,3 +264,9 @@ class RobotFeed:
             description_from=self._described.description.source if self._described else "",
             trouble=self._described.trouble if self._described else "",
         )
+
+
+COMMANDS: Final = Commands[RobotFeed](Scope.ROS)
+COMMANDS.presenter(SetJointSource, lambda feed, c, _: feed.choose(c.source))
+COMMANDS.presenter(PublishRobot, lambda feed, c, _: feed.publish_robot(running=c.running))
+COMMANDS.presenter(PublishJoints, lambda feed, c, _: feed.publish_joints(running=c.running))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
+from studio.protocol.commands import Commands, Scope
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
@@ -389,6 +390,21 @@ class DocumentDisplays:
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
         )
+
+
+COMMANDS: Final = Commands[DocumentDisplays](Scope.DOCUMENT)
+COMMANDS.presenter(AddDisplay, lambda displays, c, _: displays.add(c))
+COMMANDS.presenter(RemoveDisplay, lambda displays, c, _: displays.remove(c))
+COMMANDS.presenter(DuplicateDisplay, lambda displays, c, _: displays.duplicate(c))
+COMMANDS.presenter(ArrangeDisplay, lambda displays, c, _: displays.arrange(c))
+COMMANDS.presenter(SwitchDisplays, lambda displays, c, _: displays.switch(c))
+COMMANDS.presenter(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
+COMMANDS.presenter(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
+COMMANDS.presenter(SetFixedFrame, lambda displays, c, _: displays.fix(c))
+COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
+COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
+COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
+COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
 
 
 def _first_topic(kind: str) -> str:
