@@ -20,7 +20,7 @@ from enum import StrEnum
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
 
-from studio.errors import CommandError
+from studio.errors import CommandError, NotAllowedError
 from studio.protocol.message import Command, Event, type_of
 from studio.protocol.roles import Role
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterator
 
     from studio.protocol.listeners import Listener
+    from studio.protocol.roles import Person
 
 
 COMMAND_LIMIT_BYTES: Final = 1 << 20
@@ -65,9 +66,30 @@ class Permission:
     """The least role that may: what a viewer may, a presenter may, too."""
     scope: Scope = Scope.STUDIO
 
-    def allows(self, role: Role | None) -> bool:
-        """Whether this role may; nobody (None) may do nothing."""
-        return role is not None and (role is self.role or role is Role.PRESENTER)
+
+def may(person: Person | None, permission: Permission | None, document: str = "") -> bool:
+    """Whether somebody may do this: the one question that every lane asks.
+
+    Args:
+        person: Who asks; nobody (None) may do nothing.
+        permission: What for; what has none, nobody may do.
+        document: Id of the document that it concerns, if it does.
+    """
+    del document  # every presenter owns every document
+    if person is None or permission is None:
+        return False
+    return person.role in (permission.role, Role.PRESENTER)
+
+
+def demand(person: Person | None, permission: Permission | None, document: str = "") -> None:
+    """Pass, or refuse.
+
+    Raises:
+        NotAllowedError: `may` says no.
+    """
+    if not may(person, permission, document):
+        name = permission.name if permission else "do this"
+        raise NotAllowedError(person.role if person else "stranger", name)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,21 +1,14 @@
-"""Who may do what: `may` is the one question that every lane asks.
+"""Who may use which route, and send which message of viser's; commands say it in their registry.
 
-What is asked for has a name: a command its `type`, a route the name in `ROUTES`, a message on
-viser's websocket `viser:<MessageType>`. The commands' permissions are those of their registry. What
-has no permission, nobody may do.
+What is in no table, nobody may do.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
-from studio.documents.engine import COMMANDS
-from studio.errors import NotAllowedError
 from studio.protocol.commands import Permission, Scope
 from studio.protocol.roles import Role
-
-if TYPE_CHECKING:
-    from studio.protocol.roles import Person
 
 ROUTES: Final = {
     "/": Permission("page", Role.VIEWER),
@@ -45,10 +38,10 @@ ROUTES: Final = {
 PUBLIC_ROUTES: Final = frozenset({"/a/{tree}/{path:path}", "/favicon.ico"})
 """Routes without secrets: the files of the page, the same for everyone."""
 
-_VISER: Final = (
-    Permission("viser:ViewerCameraMessage", Role.VIEWER, Scope.DOCUMENT),
-    *(
-        Permission(f"viser:{name}", Role.PRESENTER, Scope.DOCUMENT)
+VISER: Final = {
+    "ViewerCameraMessage": Permission("viser:ViewerCameraMessage", Role.VIEWER, Scope.DOCUMENT),
+    **{
+        name: Permission(f"viser:{name}", Role.PRESENTER, Scope.DOCUMENT)
         for name in (
             "SceneNodeClickMessage",
             "SceneNodeDragMessage",
@@ -58,31 +51,6 @@ _VISER: Final = (
             "TransformControlsDragEndMessage",
             "GetRenderResponseMessage",
         )
-    ),
-)
-_PERMISSIONS: Final = {
-    one.name: one for one in (*ROUTES.values(), *_VISER, *(each.permission for each in COMMANDS))
+    },
 }
-
-
-def may(person: Person | None, name: str, document: str = "") -> bool:
-    """Whether somebody may do this; nobody (None) may do nothing.
-
-    Args:
-        person: Who asks.
-        name: What for.
-        document: Id of the document that it concerns, if it does.
-    """
-    del document  # every presenter owns every document
-    permission = _PERMISSIONS.get(name)
-    return person is not None and permission is not None and permission.allows(person.role)
-
-
-def demand(person: Person | None, name: str, document: str = "") -> None:
-    """Pass, or refuse.
-
-    Raises:
-        NotAllowedError: `may` says no.
-    """
-    if not may(person, name, document):
-        raise NotAllowedError(person.role if person else "stranger", name)
+"""Of every message of viser's page that is taken."""

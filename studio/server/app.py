@@ -12,7 +12,8 @@ from starlette.websockets import WebSocket
 
 import studio
 from studio.errors import AccessError, CommandError, StudioError, UnknownDocumentError
-from studio.server.access import PUBLIC_ROUTES, ROUTES, demand
+from studio.protocol.commands import demand
+from studio.server.access import PUBLIC_ROUTES, ROUTES
 from studio.server.api import Api, Exports, LogOut
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
@@ -77,9 +78,8 @@ def check_role(connection: HTTPConnection) -> None:
     """
     path = connection.scope["route"].path
     if path not in PUBLIC_ROUTES:
-        name = ROUTES[path].name if path in ROUTES else "unknown route"
         document = connection.path_params.get("document", "")
-        demand(connection.scope["state"]["visitor"], name, document)
+        demand(connection.scope["state"]["visitor"], ROUTES.get(path), document)
 
 
 async def _say(connection: Request | WebSocket, error: Exception) -> Response:

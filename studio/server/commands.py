@@ -11,11 +11,10 @@ from pydantic import BaseModel, ValidationError
 from studio.documents.engine import COMMANDS
 from studio.errors import CommandError, StudioError
 from studio.outlet import Outlet
-from studio.protocol.commands import COMMAND_LIMIT_BYTES
+from studio.protocol.commands import COMMAND_LIMIT_BYTES, demand
 from studio.protocol.documents import Refused
 from studio.protocol.listeners import tell
 from studio.protocol.message import adapter_of, all_events
-from studio.server.access import demand
 from studio.server.websocket import FrameTransport, binary_frame, text_frame
 
 if TYPE_CHECKING:
@@ -82,7 +81,7 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
     """Carry out one command; whatever is wrong with it becomes an answer."""
     try:
         command = parse_command(text)
-        demand(listener, COMMANDS[type(command)].permission.name, command.document)
+        demand(listener, COMMANDS[type(command)].permission, command.document)
         await engine.execute(command, listener)
     except StudioError as error:
         tell(

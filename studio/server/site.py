@@ -10,10 +10,11 @@ from starlette.responses import RedirectResponse, Response
 from starlette.websockets import WebSocket
 
 import studio
+from studio.protocol.commands import may
 from studio.protocol.documents import Hello
 from studio.protocol.roles import Visitor
 from studio.scene import SUBPROTOCOL, viser_page
-from studio.server.access import may
+from studio.server.access import VISER
 from studio.server.assets import (
     Asset,
     Assets,
@@ -40,7 +41,7 @@ async def serve_scene(
     spoken = SUBPROTOCOL if SUBPROTOCOL in offered else next(iter(offered), None)
     await websocket.accept(subprotocol=spoken)
     lane = Lane(websocket)
-    await scene.serve(lane, lambda message: may(visitor, f"viser:{message}", document), spoken)
+    await scene.serve(lane, lambda message: may(visitor, VISER.get(message), document), spoken)
     await lane.finish()
 
 

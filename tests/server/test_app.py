@@ -8,9 +8,10 @@ from fastapi import FastAPI
 from websockets.exceptions import InvalidStatus
 
 from studio.documents.engine import COMMANDS
+from studio.protocol.commands import may
 from studio.protocol.roles import Role, Visitor
 from studio.scene import SUBPROTOCOL
-from studio.server.access import PUBLIC_ROUTES, ROUTES, may
+from studio.server.access import PUBLIC_ROUTES, ROUTES
 from studio.server.api import Api, Exports, LogOut
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
@@ -21,8 +22,7 @@ from tests.support.small_engine import URDF, SmallEngine
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pydantic import BaseModel
-
+    from studio.protocol import Command
     from tests.support.web_server import RunningWeb
 
 SOCKETS = {"/data", "/control", "/d/{document}/viser"}
@@ -54,7 +54,7 @@ def test_every_route_answers_each_role_as_the_table_says(web: RunningWeb, path: 
     for role in Role:
         with web.client(role) as client:
             answer = client.get(path.format(document="small"))
-            assert (answer.status_code < 400) == may(Visitor(role), ROUTES[path].name)
+            assert (answer.status_code < 400) == may(Visitor(role), ROUTES[path])
     with web.client() as client:
         assert client.get(path.format(document="small")).status_code == 403
 
@@ -62,7 +62,7 @@ def test_every_route_answers_each_role_as_the_table_says(web: RunningWeb, path: 
 @pytest.mark.parametrize("path", sorted(SOCKETS))
 def test_every_websocket_opens_for_each_role_as_the_table_says(web: RunningWeb, path: str):
     for role in Role:
-        assert may(Visitor(role), ROUTES[path].name)
+        assert may(Visitor(role), ROUTES[path])
         address = path.format(document="small")
         with web.websocket(address, role, subprotocols=(SUBPROTOCOL,)) as lane:
             assert lane.response is not None
@@ -104,7 +104,7 @@ FIELDS: dict[str, object] = {
 
 
 @pytest.mark.parametrize("kind", COMMANDS.messages)
-def test_every_command_by_rest_is_asked_of_the_same_table(web: RunningWeb, kind: type[BaseModel]):
+def test_every_command_by_rest_is_asked_of_the_same_table(web: RunningWeb, kind: type[Command]):
     command = {field: FIELDS[field] for field in kind.model_fields.keys() & FIELDS.keys()}
     name: str = kind.model_fields["type"].default
     command |= {"type": name, "document": "small"}
@@ -114,7 +114,7 @@ def test_every_command_by_rest_is_asked_of_the_same_table(web: RunningWeb, kind:
             answer = client.post("/api/commands", content=json.dumps(command))
             refused_by_table = answer.json().get("kind") == "NotAllowedError"
             assert answer.status_code != 422, answer.text
-            assert refused_by_table == (not may(Visitor(role), name))
+            assert refused_by_table == (not may(Visitor(role), COMMANDS[kind].permission))
             assert (answer.status_code == 403) == refused_by_table
 
 
