@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
-from typing import TYPE_CHECKING, AnyStr
+from typing import TYPE_CHECKING, AnyStr, Final
 
 from studio.description.syntax.attribute_spans import (
     attribute_bytes,
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from studio.problems import Replacement
 
 _XML_QUOTES = {"param": '"', "param'": "'"}
+_QUOTES: Final = frozenset({'"', "'"})
+_PLAIN: Final = re.compile(rb"[ !#-%(-;=-~]*")
+"""Printable ASCII without `"`, `&`, `'` and `<`: in an attribute it stands for itself."""
 
 
 def decode(data: bytes, span: Span) -> str:
@@ -45,6 +49,10 @@ def encode(text: str, data: bytes, span: Span) -> bytes:
         EditError: The place cannot hold the text.
     """
     raw = data[span.start : span.end]
+    if span.syntax in _QUOTES and text.isascii() and _PLAIN.fullmatch(raw):
+        written = text.encode()
+        if _PLAIN.fullmatch(written):
+            return written  # a number, mostly: then nobody reads the whole file for its encoding
     if text == decode(data, span):
         return raw
     if span.syntax == "yaml":
