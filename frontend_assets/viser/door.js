@@ -1,5 +1,7 @@
 /** @import { Message, Mutable } from "./viser.d.ts" */
 
+const POSES = new Set(["SetPositionMessage", "SetOrientationMessage"]);
+
 /**
  * The one way into viser's page: its state, the messages that come in, and a moment before and
  * after each picture. Everything else here asks the door.
@@ -19,6 +21,10 @@ export class Door {
   /** @type {(() => void)[]} */
   #redraws = [];
   #takesInSoon = false;
+  /** Names of nodes that are frames and nothing else. @type {Set<string>} */
+  #frames = new Set();
+  /** Names of those of them that were given a pose since it was put into the scene. @type {Set<string>} */
+  #moved = new Set();
   /** @type {(mutable: Mutable) => void} */
   #opened = () => {};
 
@@ -91,6 +97,7 @@ export class Door {
   #tapMessages(mutable) {
     const read = (/** @type {Message} */ message) => {
       this.#tellConnected(true);
+      this.#noteFrame(message);
       for (const reader of this.#readers) reader(message);
     };
     mutable.messageQueue.forEach(read);
@@ -102,9 +109,17 @@ export class Door {
     };
   }
 
+  /** @param {Message} message */
+  #noteFrame({ type, name = "" }) {
+    if (type === "FrameMessage") this.#frames.add(name);
+    else if (type === "RemoveSceneNodeMessage") this.#frames.delete(name);
+    else if (POSES.has(type) && this.#frames.has(name)) this.#moved.add(name);
+  }
+
   /**
-   * viser takes a batch in at the beginning of a picture, and what React makes of it is seen in the
-   * next one; taken in as soon as it is there whole, it is seen in the first.
+   * viser takes a batch in at the beginning of a picture: it has the new poses then, and what React
+   * makes of the batch, such as points, is seen in the next one. Taken in as soon as it is there
+   * whole, all of it is seen in the first.
    */
   #takeInSoon() {
     if (this.#takesInSoon) return;
@@ -113,7 +128,22 @@ export class Door {
       this.#takesInSoon = false;
       this.mutable?.drainMessageQueue?.();
       this.mutable?.requestRender();
+      // React makes the shapes before this, which was asked for later.
+      queueMicrotask(() => this.#placeFrames());
     });
+  }
+
+  /** Frames stand where the batch says together with its shapes; viser would wait for the picture. */
+  #placeFrames() {
+    for (const name of this.#moved) {
+      const pose = this.mutable?.nodePoseData[name];
+      const node = this.node(name);
+      if (!node || pose?.poseUpdateState !== "needsUpdate") continue;
+      const [w, x, y, z] = pose.wxyz;
+      node.quaternion.set(x, y, z, w);
+      node.position.set(...pose.position);
+    }
+    this.#moved.clear();
   }
 
   /** viser marks a first batch and gives itself a way to send when it connects; when it loses the

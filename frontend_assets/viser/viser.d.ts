@@ -212,12 +212,20 @@ export interface Message {
   updates?: Record<string, unknown>;
 }
 
+export interface NodePose {
+  wxyz: [number, number, number, number];
+  position: [number, number, number];
+  /** `needsUpdate`: the node's object stands there from the next picture on. */
+  poseUpdateState: "updated" | "needsUpdate" | "waitForMakeObject";
+}
+
 export interface Mutable {
   canvas: HTMLCanvasElement | null;
   scene: Scene | null;
   camera: Camera | null;
   cameraControl: CameraControl | null;
   nodeRefFromName: Record<string, Object3D | undefined>;
+  nodePoseData: Record<string, NodePose | undefined>;
   messageQueue: Message[];
   /** Null until the canvas stands. */
   drainMessageQueue: (() => void) | null;

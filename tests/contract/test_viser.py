@@ -113,6 +113,7 @@ def test_every_kind_of_node_that_we_draw_is_one_of_visers(kind: type[_messages.M
         ),
         ("Grid.tsx", ["return 1.0 - min(line, 1.0);", "fadeDistance"]),
         ("ViewerContext.ts", ["nodeRefFromName", "cameraControl", "requestRender", "messageQueue"]),
+        ("ViewerContext.ts", ["nodePoseData: NodePoseDataMap", '"needsUpdate"', "wxyz: "]),
     ],
 )
 def test_the_page_has_the_hooks_that_our_script_hangs_on(file: str, texts: list[str]):
