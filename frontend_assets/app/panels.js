@@ -13,6 +13,7 @@ import { until, untilIdle, untilViewFetched } from "../lib/loading.js";
 import { addIcons, Icon, ProgressBar } from "../lib/ui.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";
+import { ScenePanel } from "../panels/scene/scene.js";
 
 /** What a panel is for, in the order in which menus list them. */
 export const PANEL_GROUPS = /** @type {const} */ (["robot", "files", "watch", "act", "learn"]);
@@ -37,6 +38,8 @@ export const PANEL_GROUPS = /** @type {const} */ (["robot", "files", "watch", "a
 const BADGES = { changed: changedBadge, problems: problemsBadge };
 const noBadge = () => null;
 const LAST = Number.MAX_VALUE;
+/** These come with the page. @type {Record<string, Component>} */
+const FIRST = { scene: ScenePanel };
 
 /** @type {Record<string, PanelEntry>} */
 export const PANELS = readPanels(
@@ -57,7 +60,7 @@ function panelEntry(id, { icon, badge, ...file }) {
     ...file,
     icon: typeof icon === "string" ? icon : id,
     badge: badge ? BADGES[badge] : noBadge,
-    load: () => componentOf(id),
+    load: async () => FIRST[id] ?? componentOf(id),
   };
 }
 

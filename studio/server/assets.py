@@ -1,9 +1,9 @@
-"""The files of the page: read once, hashed as a tree, compressed once, served as written.
+"""The files of the page: read once, hashed as a tree, compressed once.
 
-Four things are added to what is written: a stylesheet holds those that it imports, so that they
-come in one answer; the words of a language hold those of the panels and checks; and the page names
-the panels that have a folder, and the modules that its first ones import, so that they come at
-once.
+They are served as written but for what shortens the first load: modules and stylesheets hold those
+that they import, modules without comments; the words of a language hold those of the panels and
+checks; and the page names the panels that have a folder, and the files that its first modules
+import, so that they come at once.
 """
 
 from __future__ import annotations
@@ -14,13 +14,14 @@ import json
 import os
 import posixpath
 import re
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 
 import zstandard
+
+from studio.server.modules import Modules
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -55,9 +56,7 @@ _WITHOUT_INDEX: Final = (
 _PRELOADS: Final = "{{preloads}}"
 _PANELS: Final = "{{panels}}"
 _MODULE_OF_INDEX: Final = re.compile(r'\{\{base\}\}([^"]+\.js)"')
-_IMPORT: Final = re.compile(
-    r'^(?:import|export)\s+(?:[\w*{][^;"]*?\sfrom\s+)?"([^"]+)"', re.MULTILINE
-)
+_OWN_MODULE: Final = re.compile(r"(?!vendor/).*\.js$")
 _CSS_IMPORT: Final = re.compile(r'^@import "([^"]+)";\n?', re.MULTILINE)
 _LANGUAGE: Final = re.compile(r"i18n/(\w+)\.json")
 WORDS_OF_CHECKS: Final = "checks/words.json"
@@ -74,10 +73,20 @@ Stamp = tuple[tuple[str, int, int], ...]
 class Asset:
     """One file as it is sent."""
 
-    def __init__(self, content: bytes, media_type: str, *, compressible: bool = True) -> None:
-        self.content, self.type = content, media_type
+    def __init__(
+        self, content: bytes | Callable[[], bytes], media_type: str, *, compressible: bool = True
+    ) -> None:
+        """Of what is in it, or of what makes that when it is first asked for."""
+        self._content, self.type = content, media_type
         self._compressible = compressible
         self._packed: dict[Coding, bytes | None] = {}
+
+    @property
+    def content(self) -> bytes:
+        """The whole of it."""
+        if not isinstance(self._content, bytes):
+            self._content = self._content()
+        return self._content
 
     def packed(self, coding: Coding) -> bytes | None:
         """The content in that coding, made when it is first asked for; None: not smaller."""
@@ -108,11 +117,21 @@ class Tree:
     digest: str
     files: dict[str, Asset]
     index: str
+    modules: Modules
 
     @property
     def base(self) -> str:
         """Prefix of every address of a file, with the slash at its end."""
         return f"/a/{self.digest}/"
+
+    def preloads(self, roots: Iterable[str], base: str) -> str:
+        """Markup for what these modules import before they run, and what that imports.
+
+        The largest is the first: asked for last, it would keep all others waiting.
+        """
+        wanted = [path for path in self.modules.imported(roots) if path in self.files]
+        wanted.sort(key=lambda path: -len(self.files[path].content))
+        return "".join(f'<link rel="modulepreload" href="{escape(base + one)}">' for one in wanted)
 
 
 class Assets:
@@ -122,7 +141,7 @@ class Assets:
         """Of `folder`, and of `more` files by their paths that are made in memory."""
         self._folder, self._more = folder, more or {}
         self._stamp: Stamp | None = None
-        self._tree = Tree("none", {}, _WITHOUT_INDEX)
+        self._tree = Tree("none", {}, _WITHOUT_INDEX, Modules({}))
 
     def current(self) -> Tree:
         """The tree as the folder is now; read anew only when a stamp changed."""
@@ -139,34 +158,6 @@ class Assets:
         if asset is None:
             return None
         return asset, digest == self._tree.digest
-
-
-def imported_modules(files: Mapping[str, Asset], roots: Iterable[str]) -> list[str]:
-    """What the modules import before they run, and what that imports: without them, largest first.
-
-    The largest takes the longest: asked for last, it would keep all others waiting.
-    """
-    named = list(roots)
-    found = dict.fromkeys(named)
-    waiting = named.copy()
-    while waiting:
-        path = waiting.pop()
-        if path not in files:
-            continue
-        for name in _IMPORT.findall(files[path].content.decode()):
-            folder = posixpath.dirname(path) if name.startswith(".") else ""
-            imported = posixpath.normpath(posixpath.join(folder, name))
-            if imported in files and imported not in found:
-                found[imported] = None
-                waiting.append(imported)
-    others = [path for path in found if path not in named]
-    return sorted(others, key=lambda path: -len(files[path].content))
-
-
-@lru_cache(maxsize=8)
-def preload_links(paths: tuple[str, ...], base: str) -> str:
-    """Markup that has a browser fetch these modules at once."""
-    return "".join(f'<link rel="modulepreload" href="{escape(base + path)}">' for path in paths)
 
 
 def _stamp(folder: Path) -> Stamp:
@@ -188,24 +179,26 @@ def _read(folder: Path, stamp: Stamp, more: Mapping[str, bytes]) -> Tree:
     digest = hashlib.sha256()
     for relative, content in contents.items():
         digest.update(f"{relative}\0{len(content)}\0".encode() + content)
-    index = contents.pop(_INDEX, None)
-    files = {path: _asset(path, contents) for path in contents}
-    if index is None:
-        return Tree(digest.hexdigest()[:16], files, _WITHOUT_INDEX)
-    text = index.decode()
-    modules = imported_modules(files, _MODULE_OF_INDEX.findall(text))
-    filled = text.replace(_PRELOADS, preload_links(tuple(modules), "{{base}}"))
-    filled = filled.replace(_PANELS, panel_rows(contents))
-    return Tree(digest.hexdigest()[:16], files, filled)
+    index = contents.pop(_INDEX, b"").decode()
+    modules = Modules({path: text for path, text in contents.items() if _OWN_MODULE.match(path)})
+    files = {path: _asset(path, contents, modules) for path in contents}
+    tree = Tree(digest.hexdigest()[:16], files, index or _WITHOUT_INDEX, modules)
+    preloads = tree.preloads(_MODULE_OF_INDEX.findall(index), "{{base}}")
+    filled = tree.index.replace(_PRELOADS, preloads).replace(_PANELS, panel_rows(contents))
+    return replace(tree, index=filled)
 
 
-def _asset(path: str, contents: Mapping[str, bytes]) -> Asset:
+def _asset(path: str, contents: Mapping[str, bytes], modules: Modules) -> Asset:
     suffix = Path(path).suffix
-    content = contents[path]
-    if suffix == ".css":
-        content = _with_imports(path, contents).encode()
-    elif language := _LANGUAGE.fullmatch(path):
-        content = _all_words(language[1], contents)
+
+    def content() -> bytes:
+        if suffix == ".css":
+            return _with_imports(path, contents).encode()
+        if language := _LANGUAGE.fullmatch(path):
+            return _all_words(language[1], contents)
+        joined = modules.text(path)
+        return contents[path] if joined is None else joined.encode()
+
     return Asset(content, _TYPES[suffix], compressible=suffix not in _COMPRESSED)
 
 

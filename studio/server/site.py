@@ -15,14 +15,7 @@ from studio.protocol.documents import Hello
 from studio.protocol.roles import Visitor
 from studio.scene import SUBPROTOCOL, viser_page
 from studio.server.access import VISER
-from studio.server.assets import (
-    Asset,
-    Assets,
-    Tree,
-    accepted_coding,
-    imported_modules,
-    preload_links,
-)
+from studio.server.assets import Asset, Assets, Tree, accepted_coding
 from studio.server.bulk_lane import BulkAnswer, BulkKeys
 from studio.server.commands import ControlLane
 from studio.server.data_lane import DataLane
@@ -149,8 +142,7 @@ class Site:
 @lru_cache(maxsize=2)
 def _scene_page(tree: Tree) -> Asset:
     """Viser's page with the modules of ours that it begins with."""
-    modules = imported_modules(tree.files, [_SCENE_SCRIPT])
-    page = viser_page(tree.base.rstrip("/"), preload_links(tuple(modules), tree.base))
+    page = viser_page(tree.base.rstrip("/"), tree.preloads([_SCENE_SCRIPT], tree.base))
     return Asset(page, "text/html; charset=utf-8")
 
 
