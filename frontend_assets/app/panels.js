@@ -64,7 +64,7 @@ function panelEntry(id, { icon, badge, ...file }) {
   };
 }
 
-/** @param {string} id @returns {Promise<Component>} for `image` the `ImagePanel` of its file */
+/** @param {string} id @returns {Promise<Component>} its `<Id>Panel` */
 async function componentOf(id) {
   const module = await import(`../panels/${id}/${id}.js`);
   return module[`${id.charAt(0).toUpperCase()}${id.slice(1)}Panel`];
