@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from studio.scene.host import HostedServer
     from studio.scene.node import Node, Quaternion
 
-_PROPS: dict[type[Any], type[Any]] = {
+PROPS_OF: dict[type[Any], type[Any]] = {
     _messages.FrameMessage: _messages.FrameProps,
     _messages.BoxMessage: _messages.BoxProps,
     _messages.CylinderMessage: _messages.CylinderProps,
@@ -56,11 +56,6 @@ LIVE = "/live"
 _KEPT = "!*'()"  # what encodeURIComponent of the page leaves as it is, beside quote's own
 STEP = 1e-6
 """Absolute: metres, and parts of a unit quaternion; a smaller move is none."""
-
-
-def kinds_of_nodes() -> dict[type[Any], type[Any]]:
-    """Return the properties of each kind of node that is drawn."""
-    return dict(_PROPS)
 
 
 class Graph:
@@ -116,7 +111,7 @@ class Graph:
     def _create(self, name: str, node: Node) -> None:
         # Messages about an earlier node of that name must not be replayed onto this one.
         self._server.get_message_buffer().remove_entity_state_from_buffer("scene", name)
-        made = _PROPS[node.kind](**node.props, **node.arrays, **node.flowing)
+        made = PROPS_OF[node.kind](**node.props, **node.arrays, **node.flowing)
         self._created[name] = vars(made)
         self._queue(node.kind(name, made))  # pyright: ignore[reportCallIssue]
         self.turn(name, node.wxyz)

@@ -41,7 +41,7 @@ def run() -> None:
 def _measure(robot: MeasuredRobot, scratch: Path) -> None:
     full, edits = Timings("full run with tracking"), Timings("one site edited")
     command, stock = Timings("the xacro command"), Timings("stock xacro in-process, warm")
-    peer, desk, whole = Stock(robot, scratch), EditDesk(robot), FullRun(robot)
+    peer, session, whole = Stock(robot, scratch), EditSession(robot), FullRun(robot)
     peer.in_process()
     gc.collect()
     gc.freeze()  # neither side's collections look at what the other one holds
@@ -55,12 +55,12 @@ def _measure(robot: MeasuredRobot, scratch: Path) -> None:
         for _ in range(FULL_RUNS // STOCK_RUNS + 1):
             with full.measure():
                 whole.run()
-        desk.edit_some(EDITS // STOCK_RUNS + 1, edits)
+        session.edit_some(EDITS // STOCK_RUNS + 1, edits)
         gc.enable()
     gc.unfreeze()
     say_beside(f"{robot.name}: the whole file", full, stock, command)
-    say_beside(f"{robot.name}: one of {len(desk.numeric)} sites", edits, stock, command)
-    say(f"  sites that could not be edited: {desk.refused}")
+    say_beside(f"{robot.name}: one of {len(session.numeric)} sites", edits, stock, command)
+    say(f"  sites that could not be edited: {session.refused}")
     if robot.name in _ASKED:
         name = robot.name
         judge_ratio(f"{name}: full run against stock", stock.median_ms / full.median_ms, at_least=8)
@@ -83,7 +83,7 @@ class FullRun:
         Evaluation(self._store, self._policy, self._robot.mappings()).run(str(self._robot.file))
 
 
-class EditDesk:
+class EditSession:
     """One session, and the engine's own book of where its sites stand."""
 
     def __init__(self, robot: MeasuredRobot) -> None:

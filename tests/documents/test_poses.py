@@ -57,7 +57,7 @@ def write_arm(folder: Path, **files: str) -> Path:
     return package / "urdf/arm.urdf.xacro"
 
 
-class Desk:
+class OpenArm:
     """One open document, asked as a page asks."""
 
     def __init__(self, made: Engine, document: Document, ear: Ear) -> None:
@@ -84,10 +84,10 @@ class Desk:
 
 
 @asynccontextmanager
-async def desk(entry: Path, data: Path, **arguments: str) -> AsyncGenerator[Desk]:
+async def open_arm(entry: Path, data: Path, **arguments: str) -> AsyncGenerator[OpenArm]:
     async with engine(data) as made:
         document, ear = await opened(made, entry, **arguments)
-        yield Desk(made, document, ear)
+        yield OpenArm(made, document, ear)
 
 
 def test_who_comes_to_a_robot_that_nobody_watched_hears_its_poses(tmp_path: Path):
@@ -104,7 +104,7 @@ def test_who_comes_to_a_robot_that_nobody_watched_hears_its_poses(tmp_path: Path
 
 def test_a_state_of_the_srdf_is_told_with_what_does_not_fit_and_is_taken(tmp_path: Path):
     async def run() -> None:
-        async with desk(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
+        async with open_arm(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
             await until(lambda: arm.names == [("srdf", "folded")])
             pose = arm.pose("folded")
             assert pose["positions"] == {"shoulder": -1.5, "elbow": 3.0}
@@ -122,7 +122,7 @@ def test_a_state_of_the_srdf_is_told_with_what_does_not_fit_and_is_taken(tmp_pat
 
 def test_an_srdf_is_given_the_arguments_of_the_robot(tmp_path: Path):
     async def run() -> None:
-        async with desk(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
+        async with open_arm(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
             await until(lambda: arm.names == [("srdf", "folded")])
             await arm.ask(SetArgument(name="prefix", value="left_"))
             await until(lambda: "left_elbow" in arm.pose("folded")["positions"])
@@ -132,7 +132,7 @@ def test_an_srdf_is_given_the_arguments_of_the_robot(tmp_path: Path):
 
 def test_a_changed_srdf_is_read_again(tmp_path: Path):
     async def run() -> None:
-        async with desk(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
+        async with open_arm(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
             await until(lambda: arm.names == [("srdf", "folded")])
             path = Path(arm.pose("folded")["file"])
             path.write_text(SRDF.replace("folded", "packed"))
@@ -151,7 +151,7 @@ def test_files_that_come_while_the_robot_is_open_are_seen_and_those_that_go(tmp_
     srdf = (config / "arm.srdf.xacro").rename(tmp_path / "kept")
 
     async def run() -> None:
-        async with desk(entry, tmp_path / "data") as arm:
+        async with open_arm(entry, tmp_path / "data") as arm:
             assert arm.names == []
             (config / "readme.txt").write_text("")
             srdf.rename(config / "new.srdf.xacro")
@@ -171,7 +171,7 @@ def test_states_of_other_robots_are_left_out(tmp_path: Path):
         other = SRDF.replace('name="arm"', 'name="other"').replace("folded", "theirs")
         strange = SRDF.replace("elbow", "knee").replace("folded", "strange")
         entry = write_arm(tmp_path / "src", other=other, strange=strange)
-        async with desk(entry, tmp_path / "data") as arm:
+        async with open_arm(entry, tmp_path / "data") as arm:
             await until(lambda: ("srdf", "folded") in arm.names)
             assert arm.names == [("srdf", "folded")]
 
@@ -185,7 +185,7 @@ def test_initial_positions_of_the_package_are_a_pose(tmp_path: Path):
         config.mkdir()
         (config / "initial_positions.yaml").write_text("shoulder: 0.25\nelbow: !degrees -90\n")
         (config / "their_initial_positions.yaml").write_text("wheel: 1\n")
-        async with desk(entry, tmp_path / "data") as arm:
+        async with open_arm(entry, tmp_path / "data") as arm:
             await until(lambda: ("initial", "initial_positions") in arm.names)
             assert ("initial", "their_initial_positions") not in arm.names
             await arm.ask(ApplyPose(key=arm.pose("initial_positions")["key"], duration_s=0.05))
@@ -199,7 +199,7 @@ def test_initial_positions_of_the_package_are_a_pose(tmp_path: Path):
 def test_a_pose_is_kept_renamed_replaced_and_deleted_beside_the_robot(tmp_path: Path):
     async def run() -> None:
         entry = write_arm(tmp_path / "src")
-        async with desk(entry, tmp_path / "data") as arm:
+        async with open_arm(entry, tmp_path / "data") as arm:
             await arm.ask(SetJoints(positions={"shoulder": 0.5, "elbow": -1.0}))
             await arm.ask(SavePose(name=" Reach "))
             assert arm.pose("Reach")["positions"] == {"shoulder": 0.5, "elbow": -1.0}
@@ -221,9 +221,9 @@ def test_a_pose_is_kept_renamed_replaced_and_deleted_beside_the_robot(tmp_path: 
 def test_a_pose_outlives_the_studio_and_a_change_by_hand_is_seen(tmp_path: Path):
     async def run() -> None:
         entry = write_arm(tmp_path / "src")
-        async with desk(entry, tmp_path / "data") as arm:
+        async with open_arm(entry, tmp_path / "data") as arm:
             await arm.ask(SavePose(name="Home"))
-        async with desk(entry, tmp_path / "data") as arm:
+        async with open_arm(entry, tmp_path / "data") as arm:
             assert arm.names[0] == ("own", "Home")
             file = entry.with_name("arm.poses.yaml")
             file.write_text(
@@ -243,7 +243,7 @@ def test_a_pose_outlives_the_studio_and_a_change_by_hand_is_seen(tmp_path: Path)
 
 def test_what_cannot_be_done_is_a_sentence(tmp_path: Path):
     async def run() -> None:
-        async with desk(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
+        async with open_arm(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
             await arm.ask(SavePose(name="Home"))
             for command, words in (
                 (SavePose(name="Home"), "There is a pose"),
@@ -263,7 +263,7 @@ def test_a_robot_that_does_not_move_has_no_pose(tmp_path: Path):
     async def run() -> None:
         file = tmp_path / "stone.urdf"
         file.write_text('<robot name="stone"><link name="a"/></robot>')
-        async with desk(file, tmp_path / "data") as stone:
+        async with open_arm(file, tmp_path / "data") as stone:
             with pytest.raises(CommandError, match="no joint that moves"):
                 await stone.ask(SavePose(name="Home"))
 
@@ -275,7 +275,7 @@ def test_a_hostile_srdf_names_no_pose_and_harms_nobody(tmp_path: Path):
         bomb = '<robot name="arm">' + "<group_state>" * 20_000
         code = SRDF.replace("-1.5", "${__import__('os').system('false')}").replace("folded", "bad")
         entry = write_arm(tmp_path / "src", bomb=bomb, code=code, nul="group_state \0")
-        async with desk(entry, tmp_path / "data") as arm:
+        async with open_arm(entry, tmp_path / "data") as arm:
             await until(lambda: arm.names == [("srdf", "folded")])
 
     asyncio.run(run())
@@ -283,7 +283,7 @@ def test_a_hostile_srdf_names_no_pose_and_harms_nobody(tmp_path: Path):
 
 def test_who_moves_a_joint_ends_the_way_to_a_pose(tmp_path: Path):
     async def run() -> None:
-        async with desk(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
+        async with open_arm(write_arm(tmp_path / "src"), tmp_path / "data") as arm:
             await until(lambda: arm.names == [("srdf", "folded")])
             await arm.ask(ApplyPose(key=arm.pose("folded")["key"], duration_s=5.0))
             await until(lambda: arm.positions["shoulder"] < 0)

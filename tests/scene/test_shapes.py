@@ -16,7 +16,7 @@ from studio.displays.drawing import (
     Text,
 )
 from studio.errors import SceneError
-from studio.scene.graph import kinds_of_nodes
+from studio.scene.graph import PROPS_OF
 from studio.scene.shapes import Shelves, nodes_of, same_arrays
 from tests.support.live_shapes import MESH_URI, RED, every_shape, solids, upright
 from tests.support.watched_scene import triangle
@@ -39,7 +39,7 @@ def test_every_shape_is_a_node_that_viser_can_be_told_of(name: str):
     nodes = nodes_of(every_shape()[name], "1", shelves())
     assert nodes
     for made in nodes.values():
-        kind: Any = kinds_of_nodes()[made.kind]
+        kind: Any = PROPS_OF[made.kind]
         told = cast("dict[str, Any]", vars(kind(**made.props, **made.arrays, **made.flowing)))
         assert made.props.items() <= told.items()
         assert all(array.flags.c_contiguous for array in made.flowing.values())

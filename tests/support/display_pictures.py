@@ -49,7 +49,7 @@ _MAXIMIZE = """async () => {
 _LOOK = "(pose) => document.querySelector('iframe').contentWindow.studio3d.setCamera(pose, false)"
 
 
-class Desk:
+class DisplayCommands:
     """Asks the studio for displays, as the page would."""
 
     def __init__(self, client: Client, tab: StudioPage) -> None:
@@ -115,16 +115,16 @@ def take_all(browser: Browser, folder: Path) -> None:
         studio.client() as client,
         tab_of(browser, studio, "dark", WINDOWS[0]) as tab,
     ):
-        desk = Desk(client, tab)
-        desk.ask(type="connect_wire")
-        desk.ask(type="set_fixed_frame", frame=BASE)
+        commands = DisplayCommands(client, tab)
+        commands.ask(type="connect_wire")
+        commands.ask(type="set_fixed_frame", frame=BASE)
         tab.page.evaluate(SHOW_PANEL, "scene")
         tab.page.evaluate(_MAXIMIZE)
         for one in samples:
-            for level, sentence in desk.show(one):
+            for level, sentence in commands.show(one):
                 sys.stdout.write(f"{one.name}: {level}: {sentence}\n")
             take(tab, folder, one.name)
-            desk.clear()
+            commands.clear()
 
 
 if __name__ == "__main__":

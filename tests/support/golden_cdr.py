@@ -73,11 +73,11 @@ def _case(name: str, chance: random.Random) -> dict[str, Any]:
 
 def schemas() -> dict[str, Any]:
     """What each type is made of, as the page is told."""
-    desk = InterfaceTypes(RosConnection(WireChoice()))
+    interfaces = InterfaceTypes(RosConnection(WireChoice()))
     return {
         name: [
             one.model_dump()
-            for one in asyncio.run(desk.interface(GetInterface(name=name))).messages
+            for one in asyncio.run(interfaces.interface(GetInterface(name=name))).messages
         ]
         for name in TYPES
     }

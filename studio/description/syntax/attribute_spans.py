@@ -71,18 +71,6 @@ def attribute_spans(data: bytes, offset: int) -> dict[str, Span]:
     return spans
 
 
-def attribute_span(data: bytes, offset: int, name: str) -> Span:
-    """The value span of one attribute.
-
-    Raises:
-        EditError: No start tag is there, or it has no such attribute.
-    """
-    span = attribute_spans(data, offset).get(name)
-    if span is None:
-        raise EditError(f'The element at byte {offset} has no attribute "{name}": reload the file.')
-    return span
-
-
 def attribute_text(raw: bytes, encoding: str = "utf-8") -> str:
     """The text that XML reads from a value's raw bytes: references resolved, blanks to spaces.
 

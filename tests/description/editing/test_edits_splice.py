@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.description.editing.edits import apply, decode, difference, edit_at, encode, inverse
-from studio.description.syntax.attribute_spans import attribute_span, attribute_spans
+from studio.description.syntax.attribute_spans import attribute_spans
 from studio.description.syntax.params import param_defaults
 from studio.description.syntax.source_tree import parse_source
 from studio.description.syntax.yaml_spans import read_yaml_document
@@ -38,7 +38,7 @@ def spans_of(data: bytes) -> list[Span]:
 
 def test_one_edit_changes_only_its_span():
     data = ROVER
-    span = attribute_span(data, parse_source("f", data).elements[1].offset, "value")
+    span = attribute_spans(data, parse_source("f", data).elements[1].offset)["value"]
     edited = apply(data, [edit_at("f", data, span, "0.12")])
     assert edited == data.replace(b"0.10", b"0.12")
 
@@ -81,7 +81,7 @@ def test_an_edit_outside_the_file_is_refused():
 
 def test_a_latin_1_file_stays_latin_1():
     data = '<?xml version="1.0" encoding="latin-1"?><p a="é" b="1"/>'.encode("latin-1")
-    span = attribute_span(data, data.index(b"<p"), "b")
+    span = attribute_spans(data, data.index(b"<p"))["b"]
     edited = apply(data, [edit_at("f", data, span, "ü€")])
     assert parse_source("f", edited).root.attributes == {"a": "é", "b": "ü€"}
     assert edited.replace(b"&#252;&#8364;", b"1") == data

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from studio.description.syntax.attribute_spans import (
     attribute_bytes,
-    attribute_span,
     attribute_spans,
     attribute_text,
     character_offsets,
@@ -69,7 +68,7 @@ def test_the_quotes_stand_right_outside_the_span(tag: bytes):
 def test_a_text_written_into_a_tag_is_read_back_by_expat(text: str, quote: str):
     data = b"<p a=" + quote.encode() + attribute_bytes(text, quote) + quote.encode() + b"/>"
     assert read_by_expat(data) == {"a": text}
-    span = attribute_span(data, 0, "a")
+    span = attribute_spans(data, 0)["a"]
     assert attribute_text(data[span.start : span.end]) == text
 
 
@@ -98,11 +97,6 @@ def test_bytes_of_another_encoding_are_refused_in_a_sentence():
         attribute_text(b"\xe9")
 
 
-def test_an_attribute_that_is_not_there_is_named():
-    with pytest.raises(EditError, match='no attribute "value"'):
-        attribute_span(b'<p name="a"/>', 0, "value")
-
-
 def test_an_offset_with_no_element_is_refused():
     with pytest.raises(EditError, match="No element starts at byte 3"):
         attribute_spans(b'<p name="a"/>', 3)
@@ -111,7 +105,7 @@ def test_an_offset_with_no_element_is_refused():
 def test_a_file_that_declares_latin_1_is_read_so_and_written_in_references():
     data = '<?xml version="1.0" encoding="ISO-8859-1"?><p a="é"/>'.encode("latin-1")
     assert (text_encoding(data), writing_encoding(data)) == ("iso8859-1", "ascii")
-    span = attribute_span(data, data.index(b"<p"), "a")
+    span = attribute_spans(data, data.index(b"<p"))["a"]
     assert attribute_text(data[span.start : span.end], text_encoding(data)) == "é"
 
 
@@ -147,7 +141,7 @@ def test_every_attribute_of_the_corpus_decodes_to_what_the_parser_read(corpus: P
 
 def test_a_byte_order_mark_moves_every_span_with_it():
     tree = parse_source("f", b'\xef\xbb\xbf<robot name="r"><p value="1"/></robot>')
-    span = attribute_span(tree.data, tree.elements[1].offset, "value")
+    span = attribute_spans(tree.data, tree.elements[1].offset)["value"]
     assert tree.data[span.start : span.end] == b"1"
 
 

@@ -19,7 +19,7 @@ from studio.protocol.variants import (
     Side,
 )
 from tests.support.open_documents import until
-from tests.support.variant_desk import Desk, desk, write_mast
+from tests.support.open_mast import OpenMast, open_mast, write_mast
 from tests.support.viser_frames import joined
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def row(told: dict[str, Any], part: str, what: str) -> tuple[Any, Any]:
 
 def test_a_variant_with_a_gripper_has_links_and_joints_more(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.ask(SetArgument(name="gripper", value="true"))
             await at.edit("reach", "0.5")
             await at.ask(SaveVariant(name="Gripper"))
@@ -73,7 +73,7 @@ def test_a_variant_with_a_gripper_has_links_and_joints_more(mast: Path, tmp_path
 
 def test_the_table_follows_the_present_robot_and_the_disk(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.edit("reach", "0.5")
             told = await at.compared(SAVED, PRESENT)
             assert row(told, "joint:turn", "origin.z") == (0.4, 0.5)
@@ -96,7 +96,7 @@ def test_a_side_that_does_not_run_is_told_and_the_other_listed(mast: Path, tmp_p
     )
 
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             told = await at.compared(PRESENT, variant("Broken"))
             (fault,) = told["faults"]
             assert "nothing" in fault
@@ -109,7 +109,7 @@ def test_a_side_that_does_not_run_is_told_and_the_other_listed(mast: Path, tmp_p
 
 def test_sides_must_differ_and_be_there(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             with pytest.raises(CommandError, match="same"):
                 await at.ask(CompareVariants(sides=(SAVED, SAVED)))
             with pytest.raises(CommandError, match="no variant"):
@@ -120,7 +120,7 @@ def test_sides_must_differ_and_be_there(mast: Path, tmp_path: Path):
 
 def test_a_comparison_goes_with_its_variant_and_knows_its_new_name(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.edit("reach", "0.5")
             await at.ask(SaveVariant(name="A"))
             await at.apply("")
@@ -137,7 +137,7 @@ def test_a_comparison_goes_with_its_variant_and_knows_its_new_name(mast: Path, t
 
 def test_the_ghost_shows_the_other_robot_and_follows_the_joints(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.ask(SetArgument(name="gripper", value="true"))
             told = await at.compared(PRESENT, SAVED)
             assert told["ghost"] is None
@@ -156,7 +156,7 @@ def test_the_ghost_shows_the_other_robot_and_follows_the_joints(mast: Path, tmp_
     asyncio.run(run())
 
 
-async def is_shown(at: Desk, links: set[str]) -> None:
+async def is_shown(at: OpenMast, links: set[str]) -> None:
     """Wait until just these links of the ghost can be seen by somebody who comes."""
     async with asyncio.timeout(30):
         seen: set[str] | None = None
@@ -169,7 +169,7 @@ async def is_shown(at: Desk, links: set[str]) -> None:
 
 def test_over_the_robot_only_what_differs_is_drawn(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data", gripper="true") as at:
+        async with open_mast(mast, tmp_path / "data", gripper="true") as at:
             await at.edit("jaw", "0.5")
             await at.compared(PRESENT, SAVED)
             await at.ask(SetDisplay(display="ghost", name="visible", value=True))
@@ -184,7 +184,7 @@ def test_over_the_robot_only_what_differs_is_drawn(mast: Path, tmp_path: Path):
 
 def test_beside_it_stands_clear_of_the_robot(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data", gripper="true") as at:
+        async with open_mast(mast, tmp_path / "data", gripper="true") as at:
             await at.edit("jaw", "0.5")
             await at.compared(PRESENT, SAVED)
             for name in ("beside", "visible"):
@@ -207,7 +207,7 @@ def test_a_ur10e_is_longer_heavier_and_slower_than_a_ur5e(corpus: Path, tmp_path
     entry = corpus / "UniversalRobots+Universal_Robots_ROS2_Description/urdf/ur.urdf.xacro"
 
     async def run() -> None:
-        async with desk(entry, tmp_path / "data", ur_type="ur5e", name="ur") as at:
+        async with open_mast(entry, tmp_path / "data", ur_type="ur5e", name="ur") as at:
             await at.ask(SetArgument(name="ur_type", value="ur10e"))
             told = await at.compared(SAVED, PRESENT)
             assert ("ur_type", "ur5e", "ur10e") in [

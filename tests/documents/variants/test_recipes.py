@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from studio.protocol.variants import SaveVariant, UpdateVariant
 from tests.support.loop_watch import calls_here
+from tests.support.open_mast import open_mast
 from tests.support.packages import write_package
-from tests.support.variant_desk import desk
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -39,7 +39,7 @@ def test_a_file_goes_by_its_place_beside_the_entry_or_by_its_package(tmp_path: P
     here, there = tmp_path / "here/src", tmp_path / "there/deeper/src"
 
     async def run() -> None:
-        async with desk(write(here), tmp_path / "data") as at:
+        async with open_mast(write(here), tmp_path / "data") as at:
             await at.edit("part", "3")
             await at.edit("side", "2")
             await at.ask(SaveVariant(name="Tall"))
@@ -51,7 +51,7 @@ def test_a_file_goes_by_its_place_beside_the_entry_or_by_its_package(tmp_path: P
             saved = at.file
         entry = write(there)
         shutil.copy(saved, entry.parent)
-        async with desk(entry, tmp_path / "data2") as at:
+        async with open_mast(entry, tmp_path / "data2") as at:
             assert await at.apply("Tall") == []
             (visual,) = at.document.model.robot.links["base"].visuals
             assert visual.geometry.size_m == (2, 2, 3)  # pyright: ignore
@@ -62,7 +62,7 @@ def test_a_file_goes_by_its_place_beside_the_entry_or_by_its_package(tmp_path: P
 
 def test_texts_are_read_off_the_event_loop(tmp_path: Path):
     async def run() -> None:
-        async with desk(write(tmp_path / "src"), tmp_path / "data") as at:
+        async with open_mast(write(tmp_path / "src"), tmp_path / "data") as at:
             with calls_here() as calls:
                 await at.edit("part", "3")
                 await at.ask(SaveVariant(name="Tall"))

@@ -19,8 +19,8 @@ from studio.protocol.variants import (
     UpdateVariant,
 )
 from tests.support.open_documents import Ear, engine, opened, until
+from tests.support.open_mast import MAST, OpenMast, open_mast, write_mast
 from tests.support.packages import write_package
-from tests.support.variant_desk import MAST, Desk, desk, write_mast
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,7 +33,7 @@ def mast(tmp_path: Path) -> Path:
 
 def test_a_variant_is_saved_left_and_come_back_to_in_one_step(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.is_told("")
             await at.edit("reach", "0.9")
             await at.edit("upper", "2.5")
@@ -69,7 +69,7 @@ def test_a_variant_is_saved_left_and_come_back_to_in_one_step(mast: Path, tmp_pa
 
 def test_what_is_told_of_a_variant_can_be_read(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data", side="right") as at:
+        async with open_mast(mast, tmp_path / "data", side="right") as at:
             await at.edit("upper", "2")
             await at.ask(SetArguments(values={"side": None, "gripper": "1"}))
             await at.ask(SaveVariant(name="One"))
@@ -86,10 +86,10 @@ def test_what_is_told_of_a_variant_can_be_read(mast: Path, tmp_path: Path):
 
 def test_a_variant_reaches_into_a_file_that_the_last_run_did_not_read(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data", gripper="true") as at:
+        async with open_mast(mast, tmp_path / "data", gripper="true") as at:
             await at.edit("jaw", "0.08")
             await at.ask(SaveVariant(name="Wide"))
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             assert "gripper" not in at.document.model.robot.links
             await at.apply("Wide")
             (visual,) = at.document.model.robot.links["gripper"].visuals
@@ -100,9 +100,9 @@ def test_a_variant_reaches_into_a_file_that_the_last_run_did_not_read(mast: Path
 
 def test_a_variant_holds_what_the_robot_was_opened_with(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data", side="right") as at:
+        async with open_mast(mast, tmp_path / "data", side="right") as at:
             await at.ask(SaveVariant(name="Right"))
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.apply("Right")
             assert at.document.sources.arguments == {"side": "right"}
             await at.is_told("Right")
@@ -114,7 +114,7 @@ def test_a_variant_holds_what_the_robot_was_opened_with(mast: Path, tmp_path: Pa
 
 def test_a_variant_by_hand_is_told_as_soon_as_it_is_written(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             at.file.write_text("variants:\n  - {name: By hand, arguments: {gripper: true}}\n")
             await until(lambda: len(at.ear.last("variants")["variants"]) == 1)
             await at.apply("By hand")
@@ -142,7 +142,7 @@ def test_what_a_variant_names_and_is_gone_is_told_and_the_rest_applied(mast: Pat
     )
 
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             left_out = await at.apply("Old")
             assert at.tip_m == 0.7
             assert len(left_out) == 4
@@ -159,7 +159,7 @@ def test_a_variant_whose_robot_does_not_run_leaves_the_last_good_one(mast: Path,
     )
 
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.apply("Broken")
             assert (at.document.last_run.failed, at.tip_m) == (True, 0.4)
             await at.apply("")
@@ -171,7 +171,7 @@ def test_a_variant_whose_robot_does_not_run_leaves_the_last_good_one(mast: Path,
 
 def test_edits_beside_values_are_told_kept_and_given_up_for_the_file(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.ask(GetText(file=str(mast)))
             text = at.ear.last("text")
             end = text["text"].index("</robot>")
@@ -194,7 +194,7 @@ def test_edits_beside_values_are_told_kept_and_given_up_for_the_file(mast: Path,
 
 def test_variants_are_updated_renamed_and_deleted(mast: Path, tmp_path: Path):
     async def run() -> None:
-        async with desk(mast, tmp_path / "data") as at:
+        async with open_mast(mast, tmp_path / "data") as at:
             await at.edit("reach", "0.5")
             await at.ask(SaveVariant(name="A"))
             await at.edit("reach", "0.6")
@@ -231,7 +231,7 @@ def test_variants_of_a_folder_that_is_only_read_last_for_the_session(mast: Path,
             await made.execute(OpenPath(path=str(mast)), ear)
             document = made.document(ear.last("opened")["document"])
             await document.opened()
-            at = Desk(made, document, ear)
+            at = OpenMast(made, document, ear)
             document.attach(ear)
             await at.edit("reach", "0.5")
             await at.ask(SaveVariant(name="A"))

@@ -121,15 +121,15 @@ def test_a_bridge_of_dds_alone_is_told():
 def test_the_studios_own_nodes_do_not_count():
     async def run() -> None:
         with running_router() as endpoint:
-            desk = RosConnection(at(endpoint))
+            connection = RosConnection(at(endpoint))
             try:
-                link = await desk.link()
+                link = await connection.link()
                 other = await asyncio.to_thread(seen, at(endpoint), "fine")
                 assert other.nodes == 1
                 own = await asyncio.to_thread(examine, at(endpoint), (link.zid,))
                 assert own.verdict == "alone"
             finally:
-                await desk.close()
+                await connection.close()
 
     asyncio.run(run())
 

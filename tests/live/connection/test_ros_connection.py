@@ -24,7 +24,7 @@ pytestmark = pytest.mark.network
 
 
 @asynccontextmanager
-async def desk(choice: WireChoice) -> AsyncGenerator[tuple[RosConnection, Ear]]:
+async def connection(choice: WireChoice) -> AsyncGenerator[tuple[RosConnection, Ear]]:
     made, ear = RosConnection(choice), Ear()
     made.attach(ear)
     try:
@@ -49,7 +49,7 @@ def test_an_engine_that_nobody_asks_for_ros_does_not_import_zenoh():
 def test_it_joins_the_router_that_is_there_once_for_all_who_ask():
     async def run() -> None:
         with running_router() as endpoint:
-            async with desk(WireChoice(connect=(endpoint,), domain=3)) as (made, ear):
+            async with connection(WireChoice(connect=(endpoint,), domain=3)) as (made, ear):
                 assert ear.last("wire_state") == ear.events[0]
                 assert (state(ear), ear.events[0]["endpoint"]) == ("off", endpoint)
                 first, second = await asyncio.gather(made.link(), made.link())
@@ -65,7 +65,7 @@ def test_where_no_router_answers_it_starts_its_own_and_takes_it_away_again():
     endpoint = free_endpoint()
 
     async def run() -> None:
-        async with desk(WireChoice(connect=(endpoint,))) as (made, ear):
+        async with connection(WireChoice(connect=(endpoint,))) as (made, ear):
             await made.link()
             assert ear.last("wire_state")["router"] == "own"
         router_at(endpoint).close()  # the place is free again
@@ -77,7 +77,7 @@ def test_without_a_router_it_says_why_and_tries_again_when_asked_again():
     endpoint = free_endpoint()
 
     async def run() -> None:
-        async with desk(WireChoice("off", (endpoint,))) as (made, ear):
+        async with connection(WireChoice("off", (endpoint,))) as (made, ear):
             with pytest.raises(NoRouterError):
                 await made.link()
             assert state(ear) == "failed"
@@ -99,7 +99,7 @@ def test_an_endpoint_that_something_else_holds_is_said():
         async with await asyncio.start_server(answer, "127.0.0.1", 0) as server:
             port = server.sockets[0].getsockname()[1]
             choice = WireChoice(connect=(f"tcp/127.0.0.1:{port}",))
-            async with desk(choice) as (made, ear):
+            async with connection(choice) as (made, ear):
                 with pytest.raises(ForeignEndpointError):
                     await made.link()
                 assert state(ear) == "failed"
@@ -113,7 +113,7 @@ def test_a_fault_of_ours_leaves_no_connection_being_made(monkeypatch: pytest.Mon
 
     async def run() -> None:
         monkeypatch.setattr("studio.live.connection.link.open_wire", break_down)
-        async with desk(WireChoice(connect=(free_endpoint(),))) as (made, ear):
+        async with connection(WireChoice(connect=(free_endpoint(),))) as (made, ear):
             with pytest.raises(RuntimeError):
                 await made.link()
             assert state(ear) == "failed"
@@ -125,7 +125,7 @@ def test_an_environment_that_cannot_be_is_said_before_anybody_asks(monkeypatch: 
     monkeypatch.setenv("ROS_DOMAIN_ID", "many")
 
     async def run() -> None:
-        async with desk(WireChoice()) as (_, ear):
+        async with connection(WireChoice()) as (_, ear):
             assert "ROS_DOMAIN_ID is 'many'" in ear.last("wire_state")["trouble"]
 
     asyncio.run(run())
@@ -134,7 +134,7 @@ def test_an_environment_that_cannot_be_is_said_before_anybody_asks(monkeypatch: 
 def test_nodes_that_come_and_go_are_told_and_our_own_are_not():
     async def run() -> None:
         with running_router() as endpoint:
-            async with desk(WireChoice(connect=(endpoint,))) as (made, ear):
+            async with connection(WireChoice(connect=(endpoint,))) as (made, ear):
                 await made.link()
                 with node_at(endpoint, "somebody"):
                     await until(lambda: ear.last("wire_state")["nodes"] == ["/somebody"])
@@ -148,7 +148,7 @@ def test_a_router_that_goes_away_is_said_and_all_is_back_when_it_is():
         router = router_at(free_endpoint())
         endpoint = router.endpoint.text
         try:
-            async with desk(WireChoice("off", (endpoint,))) as (made, ear):
+            async with connection(WireChoice("off", (endpoint,))) as (made, ear):
                 await made.link()
                 router.close()
                 await until(lambda: state(ear) == "lost")

@@ -91,12 +91,12 @@ def test_they_are_heard_from_the_first_question_on(endpoint: str, tester: Node):
 
     async def run() -> None:
         wire = RosConnection(WireChoice("off", (endpoint,)))
-        desk = PartDiagnostics(wire.topics)
+        shown = PartDiagnostics(wire.topics)
         try:
-            assert not (desk.diagnostics(GetDiagnostics(request=8))).connected
+            assert not (shown.diagnostics(GetDiagnostics(request=8))).connected
             await wire.link()
             async with asyncio.timeout(PATIENCE_S):
-                while not (answer := desk.diagnostics(GetDiagnostics())).parts:
+                while not (answer := shown.diagnostics(GetDiagnostics())).parts:
                     out.publish(said(("motor", 2)))
                     await asyncio.sleep(0.02)
             assert answer.connected

@@ -32,7 +32,7 @@ def ignore(*_: Any) -> None:  # noqa: ANN401
 
 
 @asynccontextmanager
-async def desk_at(endpoint: str) -> AsyncGenerator[GraphViews]:
+async def views_at(endpoint: str) -> AsyncGenerator[GraphViews]:
     wire = RosConnection(WireChoice("off", (endpoint,)))
     try:
         await wire.link()
@@ -41,10 +41,10 @@ async def desk_at(endpoint: str) -> AsyncGenerator[GraphViews]:
         await wire.close()
 
 
-async def told(desk: GraphViews, holds: Callable[[GraphAnswer], bool]) -> GraphAnswer:
+async def told(views: GraphViews, holds: Callable[[GraphAnswer], bool]) -> GraphAnswer:
     """The first answer of which it holds."""
     async with asyncio.timeout(PATIENCE_S):
-        while not holds(answer := await desk.graph(GetGraph())):  # noqa: ASYNC110 - nothing tells us
+        while not holds(answer := await views.graph(GetGraph())):  # noqa: ASYNC110 - nothing tells us
             await asyncio.sleep(0.02)
     return answer
 
@@ -65,10 +65,10 @@ def has_both_ends(answer: GraphAnswer, *names: str) -> bool:
 
 def test_without_a_connection_nobody_is_there():
     async def run() -> None:
-        desk = GraphViews(RosConnection(WireChoice("off")))
-        answer = await desk.graph(GetGraph(known=3))
+        views = GraphViews(RosConnection(WireChoice("off")))
+        answer = await views.graph(GetGraph(known=3))
         assert (answer.version, answer.nodes) == (-1, ())
-        assert (await desk.node(GetNode(name="/talker"))).count == 0
+        assert (await views.node(GetNode(name="/talker"))).count == 0
 
     asyncio.run(run())
 
@@ -78,8 +78,8 @@ def test_n4_talker_and_listener_are_two_nodes_and_one_edge(endpoint: str):
         with node_at(endpoint, "talker") as talker, node_at(endpoint, "listener") as listener:
             talker.create_publisher(STRING, "/chatter", 10)
             listener.create_subscription(STRING, "/chatter", ignore, 10)
-            async with desk_at(endpoint) as desk:
-                answer = await told(desk, lambda one: has_both_ends(one, "/chatter"))
+            async with views_at(endpoint) as views:
+                answer = await told(views, lambda one: has_both_ends(one, "/chatter"))
                 assert [one.name for one in answer.nodes if not one.own] == ["/listener", "/talker"]
                 chatter = link(answer, "/chatter")
                 assert chatter is not None
@@ -96,8 +96,8 @@ def test_nodes_of_others_are_counted_as_the_connection_counts_them(endpoint: str
         with node_at(endpoint, "studio") as same, node_at(endpoint, "talker") as talker:
             same.create_subscription(STRING, "/chatter", ignore, 10)
             talker.create_publisher(STRING, "/chatter", 10)
-            async with desk_at(endpoint) as desk:
-                answer = await told(desk, lambda one: has_both_ends(one, "/chatter"))
+            async with views_at(endpoint) as views:
+                answer = await told(views, lambda one: has_both_ends(one, "/chatter"))
                 assert sum(one.count for one in answer.nodes if not one.own) == 3
                 assert answer.other_count == 2
 
@@ -111,8 +111,8 @@ def test_services_and_actions_join_who_calls_and_who_serves(endpoint: str):
             caller.create_client(TRIGGER, "/ring")
             serving = ActionServer(server, ROTATE, "/turn", ignore)
             sending = ActionClient(caller, ROTATE, "/turn")
-            async with desk_at(endpoint) as desk:
-                answer = await told(desk, lambda one: has_both_ends(one, "/ring", "/turn"))
+            async with views_at(endpoint) as views:
+                answer = await told(views, lambda one: has_both_ends(one, "/ring", "/turn"))
                 ring, turn = link(answer, "/ring"), link(answer, "/turn")
                 assert ring is not None
                 assert turn is not None
@@ -129,14 +129,14 @@ def test_services_and_actions_join_who_calls_and_who_serves(endpoint: str):
 
 def test_what_is_known_is_not_told_again(endpoint: str):
     async def run() -> None:
-        async with desk_at(endpoint) as desk:
-            first = await told(desk, lambda one: bool(one.nodes))
-            again = await desk.graph(GetGraph(known=first.version))
+        async with views_at(endpoint) as views:
+            first = await told(views, lambda one: bool(one.nodes))
+            again = await views.graph(GetGraph(known=first.version))
             assert (again.version, again.nodes) == (first.version, ())
             with node_at(endpoint, "new"):
                 async with asyncio.timeout(PATIENCE_S):
                     while not again.nodes:
-                        again = await desk.graph(GetGraph(known=first.version))
+                        again = await views.graph(GetGraph(known=first.version))
                 assert again.version > first.version
 
     asyncio.run(run())
@@ -145,10 +145,10 @@ def test_what_is_known_is_not_told_again(endpoint: str):
 def test_n1_two_nodes_of_one_name_are_counted(endpoint: str):
     async def run() -> None:
         with node_at(endpoint, "twin"), node_at(endpoint, "twin"):
-            async with desk_at(endpoint) as desk:
-                answer = await told(desk, lambda one: any(node.count == 2 for node in one.nodes))
+            async with views_at(endpoint) as views:
+                answer = await told(views, lambda one: any(node.count == 2 for node in one.nodes))
                 assert [one.name for one in answer.nodes if one.count == 2] == ["/twin"]
-                assert (await desk.node(GetNode(name="/twin"))).count == 2
+                assert (await views.node(GetNode(name="/twin"))).count == 2
 
     asyncio.run(run())
 
@@ -161,9 +161,9 @@ def test_n2_what_a_node_has_is_grouped_as_ros2_node_info_does(endpoint: str):
             worker.create_service(TRIGGER, "/ring", lambda _, answer: answer)
             worker.create_client(TRIGGER, "/other")
             serving = ActionServer(worker, ROTATE, "/turn", ignore)
-            async with desk_at(endpoint) as desk:
-                await told(desk, lambda one: link(one, "/turn") is not None)
-                node = await desk.node(GetNode(request=4, name="/worker"))
+            async with views_at(endpoint) as views:
+                await told(views, lambda one: link(one, "/turn") is not None)
+                node = await views.node(GetNode(request=4, name="/worker"))
                 assert (node.request, node.count) == (4, 1)
                 assert ("/out", "std_msgs/msg/String") in [
                     (e.name, e.type) for e in node.publishers
@@ -174,7 +174,7 @@ def test_n2_what_a_node_has_is_grouped_as_ros2_node_info_does(endpoint: str):
                 assert [(one.name, one.type) for one in node.action_servers] == [
                     ("/turn", "turtlesim/action/RotateAbsolute")
                 ]
-                assert (await desk.node(GetNode(name="/nobody"))).count == 0
+                assert (await views.node(GetNode(name="/nobody"))).count == 0
             serving.destroy()
 
     asyncio.run(run())

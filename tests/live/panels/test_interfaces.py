@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
 
 def added(texts: dict[str, str]) -> InterfacesAdded:
-    desk = InterfaceTypes(RosConnection(WireChoice()))
-    return asyncio.run(desk.add(AddInterfaces(request=2, texts=texts)))
+    interfaces = InterfaceTypes(RosConnection(WireChoice()))
+    return asyncio.run(interfaces.add(AddInterfaces(request=2, texts=texts)))
 
 
 def listed() -> InterfacesAnswer:
-    desk = InterfaceTypes(RosConnection(WireChoice()))
-    return asyncio.run(desk.names(ListInterfaces(request=3)))
+    interfaces = InterfaceTypes(RosConnection(WireChoice()))
+    return asyncio.run(interfaces.names(ListInterfaces(request=3)))
 
 
 def asked(name: str) -> InterfaceAnswer:
-    desk = InterfaceTypes(RosConnection(WireChoice()))
-    return asyncio.run(desk.interface(GetInterface(request=7, name=name)))
+    interfaces = InterfaceTypes(RosConnection(WireChoice()))
+    return asyncio.run(interfaces.interface(GetInterface(request=7, name=name)))
 
 
 def test_a_message_is_told_with_all_that_it_is_made_of():
@@ -77,8 +77,8 @@ def test_what_is_not_known_is_refused_with_a_sentence(name: str):
 
 
 def test_t6_all_types_of_the_six_packages_are_listed():
-    desk = InterfaceTypes(RosConnection(WireChoice()))
-    told = asyncio.run(desk.names(ListInterfaces(request=3)))
+    interfaces = InterfaceTypes(RosConnection(WireChoice()))
+    told = asyncio.run(interfaces.names(ListInterfaces(request=3)))
     packages = {name.split("/")[0] for name in told.names}
     assert packages >= {
         *("std_msgs", "sensor_msgs", "geometry_msgs", "nav_msgs"),

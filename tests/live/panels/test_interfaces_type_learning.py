@@ -56,10 +56,10 @@ def test_a_type_that_a_node_tells_is_known_with_its_parts_and_comments(endpoint:
         with node_at(endpoint, "odd_one", types) as odd:
             odd.create_publisher(types.message(WHOLE), "/whole", 10)
             odd.create_service(types.service(ASK), "/ask", lambda _, reply: reply)
-            async with joined(endpoint) as (desk, link):
+            async with joined(endpoint) as (known, link):
                 await until(lambda: bool(link.graph.servers("/ask")))
                 await until(lambda: bool(link.graph.publishers("/whole")))
-                asked = [desk.interface(GetInterface(name=name)) for name in (WHOLE, ASK, WHOLE)]
+                asked = [known.interface(GetInterface(name=name)) for name in (WHOLE, ASK, WHOLE)]
                 told = await asyncio.gather(*asked)
         assert [one.hash for one in told] == [types.hash_of(one.name) for one in told]
         whole = told[0].messages[0]
@@ -76,11 +76,11 @@ def test_comments_of_a_type_that_all_know_are_asked_of_a_node_that_has_its_text(
     async def run() -> None:
         with node_at(endpoint, "odd_one", types) as odd:
             odd.create_publisher(types.message(STAMPED), "/at", 10)
-            async with joined(endpoint) as (desk, link):
+            async with joined(endpoint) as (known, link):
                 await until(lambda: bool(link.graph.publishers("/at")))
-                plain = await desk.interface(GetInterface(name=STAMPED))
-                told = await desk.interface(GetInterface(name=STAMPED, with_text=True))
-                vector = await desk.interface(GetInterface(name=VECTOR))
+                plain = await known.interface(GetInterface(name=STAMPED))
+                told = await known.interface(GetInterface(name=STAMPED, with_text=True))
+                vector = await known.interface(GetInterface(name=VECTOR))
         assert (plain.text, told.hash) == ("", plain.hash)
         by_name = {one.name: one for one in told.messages}
         assert by_name[VECTOR].comment == "Where it is."
@@ -93,11 +93,11 @@ def test_comments_of_a_type_that_all_know_are_asked_of_a_node_that_has_its_text(
 @pytest.mark.usefixtures("library")
 def test_a_type_that_nobody_tells_is_refused_with_what_to_do(endpoint: str):
     async def run() -> None:
-        async with joined(endpoint) as (desk, _):
+        async with joined(endpoint) as (known, _):
             for _ in range(2):
                 with pytest.raises(
                     UnknownTypeError, match=r"node .* tells it; drop its \.srv file"
                 ):
-                    await desk.interface(GetInterface(name=ASK))
+                    await known.interface(GetInterface(name=ASK))
 
     asyncio.run(run())

@@ -26,19 +26,19 @@ pytestmark = pytest.mark.network
 @asynccontextmanager
 async def desk_at(endpoint: str) -> AsyncGenerator[LifecycleNodes]:
     wire = RosConnection(WireChoice("off", (endpoint,)))
-    desk = LifecycleNodes(wire)
+    known = LifecycleNodes(wire)
     try:
         await wire.link()
-        yield desk
+        yield known
     finally:
-        await desk.let_go()
+        await known.let_go()
         await wire.close()
 
 
-async def seen(desk: LifecycleNodes, holds: Callable[[ManagedNodeView], bool]) -> ManagedNodeView:
+async def seen(known: LifecycleNodes, holds: Callable[[ManagedNodeView], bool]) -> ManagedNodeView:
     async with asyncio.timeout(PATIENCE_S):
         while True:
-            for one in (await desk.managed(GetManaged())).nodes:
+            for one in (await known.managed(GetManaged())).nodes:
                 if holds(one):
                     return one
             await asyncio.sleep(0.02)
@@ -47,15 +47,15 @@ async def seen(desk: LifecycleNodes, holds: Callable[[ManagedNodeView], bool]) -
 def test_l1_a_node_walks_the_four_primary_states(endpoint: str):
     async def run() -> None:
         with managed_arm(endpoint):
-            async with desk_at(endpoint) as desk:
-                now = await seen(desk, lambda one: one.state == "unconfigured")
+            async with desk_at(endpoint) as known:
+                now = await seen(known, lambda one: one.state == "unconfigured")
                 assert (now.name, now.state_id, now.trouble) == ("/arm", 1, "")
                 steps = ("configure", "activate", "deactivate", "cleanup", "shutdown")
                 states = ("inactive", "active", "inactive", "unconfigured", "finalized")
                 for label, state in zip(steps, states, strict=True):
                     (step,) = (one for one in now.transitions if one.label == label)
-                    await desk.change(ChangeState(node="/arm", transition=step.id))
-                    (now,) = (await desk.managed(GetManaged())).nodes
+                    await known.change(ChangeState(node="/arm", transition=step.id))
+                    (now,) = (await known.managed(GetManaged())).nodes
                     assert now.state == state
                 assert now.transitions == ()
 
@@ -65,12 +65,12 @@ def test_l1_a_node_walks_the_four_primary_states(endpoint: str):
 def test_a_node_that_does_not_get_there_is_told_with_where_it_is(endpoint: str):
     async def run() -> None:
         with managed_arm(endpoint) as arm:
-            async with desk_at(endpoint) as desk:
-                await seen(desk, lambda one: one.state == "unconfigured")
-                await desk.change(ChangeState(node="/arm", transition=1))
+            async with desk_at(endpoint) as known:
+                await seen(known, lambda one: one.state == "unconfigured")
+                await known.change(ChangeState(node="/arm", transition=1))
                 arm.stubborn = True
                 with pytest.raises(CommandError, match=r"/arm did not .* is in inactive"):
-                    await desk.change(ChangeState(node="/arm", transition=3))
+                    await known.change(ChangeState(node="/arm", transition=3))
 
     asyncio.run(run())
 
@@ -85,9 +85,9 @@ def test_without_a_connection_or_such_a_node_nothing_changes(
         assert (await alone.managed(GetManaged(request=6))).request == 6
         with pytest.raises(CommandError, match="Not connected"):
             await alone.change(ChangeState(node="/arm", transition=1))
-        async with desk_at(endpoint) as desk:
+        async with desk_at(endpoint) as known:
             with pytest.raises(NotServedError):
-                await desk.change(ChangeState(node="/nobody", transition=1))
+                await known.change(ChangeState(node="/nobody", transition=1))
 
     asyncio.run(run())
 
@@ -99,8 +99,8 @@ def test_clients_are_taken_back_when_nobody_looks_any_more(
 
     async def run() -> None:
         with managed_arm(endpoint) as arm:
-            async with desk_at(endpoint) as desk:
-                await seen(desk, lambda one: one.state_id == 1)
+            async with desk_at(endpoint) as known:
+                await seen(known, lambda one: one.state_id == 1)
                 async with asyncio.timeout(PATIENCE_S):
                     while arm.count_clients("/arm/get_state"):  # noqa: ASYNC110 - no event of it
                         await asyncio.sleep(0.02)

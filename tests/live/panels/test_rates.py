@@ -27,11 +27,11 @@ STRING = message("std_msgs/msg/String")
 
 @asynccontextmanager
 async def wire_at(endpoint: str) -> AsyncGenerator[RosConnection]:
-    desk = RosConnection(WireChoice("off", (endpoint,)))
+    connection = RosConnection(WireChoice("off", (endpoint,)))
     try:
-        yield desk
+        yield connection
     finally:
-        await desk.close()
+        await connection.close()
 
 
 async def until_true(holds: Callable[[], Awaitable[bool]]) -> None:

@@ -51,7 +51,7 @@ def write_mast(folder: Path) -> Path:
     return write_package(folder / "mast_description", files=files) / "urdf/mast.urdf.xacro"
 
 
-class Desk:
+class OpenMast:
     """One open document, asked as a page asks."""
 
     def __init__(self, made: Engine, document: Document, ear: Ear) -> None:
@@ -107,8 +107,8 @@ class Desk:
 
 
 @asynccontextmanager
-async def desk(entry: Path, data: Path, **arguments: str) -> AsyncGenerator[Desk]:
+async def open_mast(entry: Path, data: Path, **arguments: str) -> AsyncGenerator[OpenMast]:
     """Open a file in an engine of its own."""
     async with engine(data) as made:
         document, ear = await opened(made, entry, **arguments)
-        yield Desk(made, document, ear)
+        yield OpenMast(made, document, ear)
