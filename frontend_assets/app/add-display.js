@@ -8,7 +8,7 @@ import { foundTopics, includesAll } from "../lib/live-displays.js";
 import { LongList } from "../lib/long-list.js";
 import { remembered } from "../lib/remembered.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
-import { useTold } from "../model/asking.js";
+import { askedWhenChanged, useTold } from "../model/asking.js";
 import { mayEdit } from "../model/connection.js";
 import { addDisplay, kinds, needKinds, topicsNow } from "../model/live-displays.js";
 import { ask } from "../model/requests.js";
@@ -22,7 +22,6 @@ const TABS = /** @type {const} */ (["topic", "kind"]);
 /** The demo that publishes what displays show. */
 const ROVER = "rover";
 /** Nodes come and go while the window is open. */
-const LOOK_EVERY_MS = 1000;
 const lastTab = remembered("live.add.tab", /** @type {By} */ ("topic"), (value) =>
   TABS.includes(/** @type {By} */ (value)),
 );
@@ -90,7 +89,8 @@ export function AddDisplayDialog({ onClose }) {
 
 /** @returns {import("vendor/preact.js").Signal<readonly TopicView[] | null>} kept up to date; null: not known yet */
 function useTopics() {
-  return useTold(/** @type {readonly TopicView[] | null} */ (null), topicsNow, LOOK_EVERY_MS);
+  const first = /** @type {readonly TopicView[] | null} */ (null);
+  return useTold(first, topicsNow, (look) => askedWhenChanged(look, "graph"));
 }
 
 /** @param {TopicView} topic @returns {Offer} */

@@ -30,6 +30,23 @@ export function shortTime(seconds) {
   return minutes < 60 ? `${minutes} min` : `${Math.round(seconds / 3600)} h`;
 }
 
+const NOW_EVERY_MS = 1000;
+
+/** @returns {number} the time in ms, as `performance.now` has it, told anew each second while the component stands */
+export function useNow() {
+  const now_ms = useSignal(performance.now());
+  useEffect(() => {
+    const timer = setInterval(() => {
+      if (!document.hidden) now_ms.value = performance.now();
+    }, NOW_EVERY_MS);
+    return () => clearInterval(timer);
+  }, []);
+  return now_ms.value;
+}
+
+/** @param {number} then_ms @param {number} now_ms may be a little older @returns {number} seconds between the two */
+export const secondsSince = (then_ms, now_ms) => Math.max(0, now_ms - then_ms) / 1000;
+
 const SILENT_S = 3;
 /** So many of its periods without a message make it silent. */
 const PERIODS = 3;

@@ -131,8 +131,14 @@ export const polled = (ask, everyMs, isOn = () => true) =>
     };
   });
 
-/** How often each was told to have changed. */
-const changes = { graph: signal(0), log: signal(0) };
+/** How often each was told to have changed. @type {Record<Changed["subject"], Signal<number>>} */
+const changes = {
+  graph: signal(0),
+  log: signal(0),
+  diagnostics: signal(0),
+  goal_statuses: signal(0),
+  lessons: signal(0),
+};
 
 subscribe("changed", ({ subject }) => {
   changes[subject].value += 1;
@@ -152,7 +158,13 @@ const followChanges = (subject) =>
       tell(false);
     };
   });
-const FOLLOW = { graph: followChanges("graph"), log: followChanges("log") };
+const FOLLOW = {
+  graph: followChanges("graph"),
+  log: followChanges("log"),
+  diagnostics: followChanges("diagnostics"),
+  goal_statuses: followChanges("goal_statuses"),
+  lessons: followChanges("lessons"),
+};
 
 /** @param {() => Promise<boolean | void>} ask gives whether there is more @returns {() => Promise<void>} asks; while that goes on, once more afterwards */
 function oneAtATime(ask) {
@@ -178,16 +190,16 @@ function oneAtATime(ask) {
  * that is not seen asks once it is.
  *
  * @param {() => Promise<boolean | void>} ask gives whether there is more to be asked for at once
- * @param {Changed["subject"]} subject what it is asked about
+ * @param {Changed["subject"][]} subjects what it is asked about
  * @returns {() => () => void} begin to look; gives the end of looking
  */
-export const askedWhenChanged = (ask, subject) =>
+export const askedWhenChanged = (ask, ...subjects) =>
   sharedFollowing(() => {
     let over = false;
     const go = oneAtATime(async () => !over && !document.hidden && (await ask()));
-    const unfollow = FOLLOW[subject]();
+    const unfollow = subjects.map((subject) => FOLLOW[subject]());
     const forget = effect(() => {
-      changes[subject].value;
+      for (const subject of subjects) changes[subject].value;
       if (connection.value === "connected") untracked(() => void go());
     });
     document.addEventListener("visibilitychange", go);
@@ -195,7 +207,7 @@ export const askedWhenChanged = (ask, subject) =>
       over = true;
       document.removeEventListener("visibilitychange", go);
       forget();
-      unfollow();
+      for (const end of unfollow) end();
     };
   });
 
@@ -215,24 +227,24 @@ export function useLooking(follow) {
 }
 
 /**
- * What the studio tells, asked for again and again while the component stands.
+ * What the studio tells, kept up to date while the component stands.
  *
  * @template T
  * @param {T} first until it is told, and anew when what it is asked of changes
  * @param {() => Promise<T | null>} ask null: the studio does not answer
- * @param {number} everyMs from an answer to the next question
+ * @param {(ask: () => Promise<void>) => () => () => void} asking when it is asked, as `polled` or `askedWhenChanged` make it
  * @param {readonly unknown[]} [of] what it is asked of
  * @returns {Signal<T>}
  */
-export function useTold(first, ask, everyMs, of = []) {
+export function useTold(first, ask, asking, of = []) {
   const reply = useSignal(first);
   useEffect(() => {
     reply.value = first;
     let over = false;
-    const end = polled(async () => {
+    const end = asking(async () => {
       const answer = await ask();
       if (answer !== null && !over) reply.value = answer;
-    }, everyMs)();
+    })();
     return () => {
       over = true;
       end();

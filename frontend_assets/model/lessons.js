@@ -31,7 +31,7 @@
 import { computed, effect, signal } from "vendor/preact.js";
 import { readHelp, textFiles } from "../lib/help-text.js";
 import { remembered } from "../lib/remembered.js";
-import { askOrKeepWhy, polled } from "./asking.js";
+import { askedWhenChanged, askOrKeepWhy } from "./asking.js";
 import { session } from "./connection.js";
 import { goalForm, publishForm, serviceForm } from "./message-forms.js";
 import { chooseNode } from "./parameters.js";
@@ -53,12 +53,12 @@ export function withPrinted(known, answer) {
   return { ...answer, lines: [...known.lines, ...answer.lines].slice(-LINES_MAX) };
 }
 
-const EVERY_MS = 500;
-
 /** In the order in which they are taught. @type {Signal<readonly LessonView[] | null>} null: not known yet */
 export const lessons = signal(null);
 /** Those that were started from a page, by name. @type {Signal<ReadonlyMap<string, DemoView>>} */
 export const demos = signal(new Map());
+/** When that was told, ms as `performance.now` has it. */
+export const demosToldAt_ms = signal(0);
 /** Those that somebody else started. @type {Signal<readonly string[]>} */
 export const elsewhere = signal([]);
 export const lessonsRefused = signal("");
@@ -81,7 +81,7 @@ export const isUnderWay = (demo) => UNDER_WAY.includes(demos.value.get(demo)?.st
 export const underWay = computed(() => [...demos.value.keys()].filter(isUnderWay));
 
 /** Keep them true while somebody looks; gives the end of looking. */
-export const followLessons = polled(askLessons, EVERY_MS);
+export const followLessons = askedWhenChanged(askLessons, "lessons", "graph");
 
 /** Ask how all of it stands. */
 export async function askLessons() {
@@ -91,6 +91,7 @@ export async function askLessons() {
   }
   const answer = await askOrKeepWhy({ type: "get_demos" }, lessonsRefused);
   if (answer?.type === "demos") {
+    demosToldAt_ms.value = performance.now();
     demos.value = new Map(answer.demos.map((one) => [one.demo, one]));
     elsewhere.value = answer.elsewhere;
   }
@@ -112,6 +113,7 @@ export function showOutput(demo) {
   if (heard === demo) return;
   heard = demo;
   output.value = { ...NOTHING_PRINTED };
+  void askOutput();
 }
 
 // A studio that was started anew has other runs, and may have other demos.

@@ -151,7 +151,7 @@ export async function topicsNow() {
     const answer = await send({ type: "get_topics" });
     return answer.type === "topics" ? answer.topics : null;
   } catch {
-    return null; // asked again and again: what is in the way says itself elsewhere
+    return null; // asked again with the next change: what is in the way says itself elsewhere
   }
 }
 

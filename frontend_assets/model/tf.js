@@ -20,8 +20,9 @@ import { robot } from "./document.js";
 import { posesOf } from "./frames.js";
 import { selection, selectLink } from "./selection.js";
 
+/** Asked again and again: how often frames are told, and how long ago, changes with the time. */
 const TREE_EVERY_MS = 1000;
-/** One pose costs the studio next to nothing. */
+/** Asked again and again: robots tell of frames more often than this, and one pose costs next to nothing. */
 const PAIR_EVERY_MS = 200;
 
 /** Of which frame the pose is told, and in which; empty: of none. @typedef {{frame: string, seen_from: string}} Pair */

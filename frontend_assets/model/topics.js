@@ -10,7 +10,7 @@ import { effect, signal } from "vendor/preact.js";
 import { includesAll, rateWords } from "../lib/live-displays.js";
 import { remembered } from "../lib/remembered.js";
 import { shortTime } from "../lib/times.js";
-import { askedWhenChanged, useTold } from "./asking.js";
+import { askedWhenChanged, polled, useTold } from "./asking.js";
 import { ros } from "./ros.js";
 import { send } from "./wire.js";
 
@@ -85,7 +85,8 @@ async function topicRates(topics) {
  */
 export function useTopicRates(seen) {
   const ask = async () => new Map((await topicRates(seen())).map((one) => [one.name, one]));
-  return useTold(NONE, ask, RATES_EVERY_MS);
+  // Polled: a rate and an age are other ones with the time, also when nothing comes.
+  return useTold(NONE, ask, (look) => polled(look, RATES_EVERY_MS));
 }
 
 const UNITS = /** @type {const} */ (["B/s", "kB/s", "MB/s", "GB/s"]);

@@ -195,7 +195,7 @@ export interface ChangeState {
 /** Something changed, once or several times since this was told last. */
 export interface Changed {
   type: "changed";
-  subject: "graph" | "log";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons";
 }
 
 /** Answer to `get_changes`. */
@@ -741,7 +741,7 @@ export interface FollowChanges {
   document?: string;
   id?: string;
   type: "follow_changes";
-  subject: "graph" | "log";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons";
   following?: boolean;
 }
 

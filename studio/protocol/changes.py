@@ -6,8 +6,9 @@ from typing import Literal, TypeAlias
 
 from studio.protocol.message import Command, Event
 
-Subject: TypeAlias = Literal["graph", "log"]
-"""Who is there with what topics, services and actions; or lines of the log."""
+Subject: TypeAlias = Literal["graph", "log", "diagnostics", "goal_statuses", "lessons"]
+"""Who is there with what topics, services and actions; lines of the log; how parts of robots are;
+the states of goals; demos, and what they print."""
 
 
 class FollowChanges(Command):

@@ -7,7 +7,7 @@ import { html, signal, useEffect } from "vendor/preact.js";
 import { commandById } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
 import { Icon, ProgressBar } from "../../lib/ui.js";
-import { askOrKeepWhy, polled } from "../../model/asking.js";
+import { askedWhenChanged, askOrKeepWhy } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
 import { filterLogTo, levelOf } from "../../model/log.js";
 import { goalForm } from "../../model/message-forms.js";
@@ -154,18 +154,16 @@ function Others() {
     <ul>${others.map((one) => html`<li key=${one.goal_id}><code>${one.goal_id.slice(0, 8)}</code> ${t(`actions.${one.state}`, { time: "" })}</li>`)}</ul></section>`;
 }
 
-const EVERY_MS = 1000;
-
 /** The newest first. @type {Signal<readonly GoalStatusView[]>} */
 const goalStatuses = signal([]);
 const refused = signal("");
 let action = "";
 
-const follow = polled(async () => {
+const follow = askedWhenChanged(async () => {
   const name = action;
   const answer = await askOrKeepWhy({ type: "get_goal_statuses", name }, refused);
   if (answer?.type === "goal_statuses" && name === action) goalStatuses.value = answer.goals;
-}, EVERY_MS);
+}, "goal_statuses");
 
 /** @param {string} name of the action @returns {() => void} the end of looking */
 function followStatuses(name) {

@@ -5,16 +5,16 @@
 
 import { html, signal, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
-import { shortTime } from "../../lib/times.js";
+import { secondsSince, shortTime, useNow } from "../../lib/times.js";
 import { Icon, ProgressBar, SearchBox } from "../../lib/ui.js";
-import { askOrKeepWhy, polled, useLooking } from "../../model/asking.js";
+import { askedWhenChanged, askOrKeepWhy, useLooking } from "../../model/asking.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../parts.js";
 
 const ICONS = { ok: "check", warn: "alert", error: "error", stale: "help" };
 
 export function DiagnosticsPanel() {
   const { panel } = useLooking(followDiagnostics);
-  const answer = diagnostics.value;
+  const answer = diagnostics.value?.answer ?? null;
   const isEmpty = (answer?.parts.length ?? 0) === 0;
   return html`<section ref=${panel} class="panel-body diagnostics" aria-label=${t("panel.diagnostics")}>
     <${RouterAway} />
@@ -26,13 +26,15 @@ export function DiagnosticsPanel() {
 function Content({ answer }) {
   const filter = useSignal(/** @type {Filter} */ ({ least: "ok", words: "" }));
   const open = useSignal(/** @type {ReadonlySet<string>} */ (new Set()));
+  const age_s = secondsSince(diagnostics.value?.at_ms ?? 0, useNow());
   if (diagnosticsRefused.value)
     return html`<p class="note bad padded" role="alert">${diagnosticsRefused.value}</p>`;
   if (!answer) return html`<${ProgressBar} label=${t("loading")} done=${0} total=${0} />`;
   if (answer.parts.length === 0)
     return html`<${NothingThere} icon="diagnostics" title=${t("diagnostics.none")}><p>${t("diagnostics.none.hint")}</p><//>`;
-  const shown = shownParts(answer.parts, filter.value);
-  return html`<${Bar} parts=${answer.parts} filter=${filter} />
+  const parts = answer.parts.map((part) => ({ ...part, age_s: part.age_s + age_s }));
+  const shown = shownParts(parts, filter.value);
+  return html`<${Bar} parts=${parts} filter=${filter} />
     <div class="scroll diagnostics-list">
       ${[...byHardware(shown)].map(
         ([
@@ -90,17 +92,15 @@ function Values({ part }) {
   return html`<dl class="diagnostics-values">${part.values.map(({ key, value }, at) => html`<div key=${`${at} ${key}`}><dt>${key}</dt><dd>${value}</dd></div>`)}</dl>`;
 }
 
-const EVERY_MS = 1000;
-
-/** @type {Signal<DiagnosticsAnswer | null>} null: not known yet */
+/** The last answer, and when it came; null: not known yet. @type {Signal<{answer: DiagnosticsAnswer, at_ms: number} | null>} */
 export const diagnostics = signal(null);
 const diagnosticsRefused = signal("");
 
 /** Keep them true while somebody looks; gives the end of looking. */
-const followDiagnostics = polled(async () => {
+const followDiagnostics = askedWhenChanged(async () => {
   const answer = await askOrKeepWhy({ type: "get_diagnostics" }, diagnosticsRefused);
-  if (answer?.type === "diagnostics") diagnostics.value = answer;
-}, EVERY_MS);
+  if (answer?.type === "diagnostics") diagnostics.value = { answer, at_ms: performance.now() };
+}, "diagnostics");
 
 /** By their numbers. */
 const LEVELS = /** @type {const} */ (["ok", "warn", "error", "stale"]);

@@ -6,7 +6,7 @@ import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/prea
 import { drawnBlock } from "../../app/help-drawing.js";
 import { copyText } from "../../lib/clipboard.js";
 import { language, t } from "../../lib/i18n.js";
-import { shortTime } from "../../lib/times.js";
+import { secondsSince, shortTime, useNow } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
@@ -15,6 +15,7 @@ import {
   chosenLesson,
   demoCode,
   demos,
+  demosToldAt_ms,
   elsewhere,
   fetchCode,
   fetchLessons,
@@ -271,16 +272,17 @@ function Buttons({ demo }) {
 
 /** @param {{view: DemoView | undefined}} props how it fares; nothing, of one that was never started */
 function State({ view }) {
+  const since_s = secondsSince(demosToldAt_ms.value, useNow());
   if (!view) return null;
   const isBusy = view.state === "starting" || view.state === "stopping";
   const isBad = view.state === "ended" && view.code !== 0;
   return html`<p class=${`lesson-state ${isBad ? "bad" : ""}`} role="status">
-    ${isBusy ? html`<span class="spinner"></span>` : html`<span class=${`lessons-dot ${view.state}`}></span>`}<span>${stateWords(view)}</span></p>`;
+    ${isBusy ? html`<span class="spinner"></span>` : html`<span class=${`lessons-dot ${view.state}`}></span>`}<span>${stateWords(view, since_s)}</span></p>`;
 }
 
-/** @param {DemoView} view @returns {string} */
-function stateWords({ state, for_s, code, reason }) {
-  if (state !== "ended") return t(`lessons.state.${state}`, { time: shortTime(for_s) });
+/** @param {DemoView} view @param {number} since_s it was told @returns {string} */
+function stateWords({ state, for_s, code, reason }, since_s) {
+  if (state !== "ended") return t(`lessons.state.${state}`, { time: shortTime(for_s + since_s) });
   if (code === 0) return t("lessons.state.ended");
   if (code < 0) return t("lessons.state.killed", { signal: -code });
   return t("lessons.state.failed", { code, reason });

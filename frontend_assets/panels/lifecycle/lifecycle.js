@@ -79,5 +79,8 @@ async function askManaged() {
   if (answer?.type === "managed_nodes") managed.value = answer;
 }
 
-/** Keep them true while somebody looks; gives the end of looking. */
+/**
+ * Keep them true while somebody looks; gives the end of looking. Asked again and again: what a node
+ * may do next it tells only when it is asked, and transitions of others are no change of the graph.
+ */
 const followManaged = polled(askManaged, EVERY_MS);

@@ -14,7 +14,7 @@ import { t } from "../../lib/i18n.js";
 import { LongList, siblingPlaces } from "../../lib/long-list.js";
 import { shownNumber } from "../../lib/numbers.js";
 import { Icon, IconButton } from "../../lib/ui.js";
-import { useTold } from "../../model/asking.js";
+import { askedWhenChanged, useTold } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
 import { addDisplay } from "../../model/live-displays.js";
 import { plot } from "../../model/plotting.js";
@@ -196,8 +196,6 @@ async function copyPath(path) {
   notify(done ? t("topics.copied_path", { path }) : t("copy.failed"), { bad: !done });
 }
 
-const LOOK_EVERY_MS = 2000;
-
 /**
  * Who publishes a topic and who subscribes to it, how, and what keeps them apart.
  *
@@ -205,7 +203,8 @@ const LOOK_EVERY_MS = 2000;
  */
 export function TopicEnds({ topic, listed }) {
   const first = /** @type {Ends | null} */ (null);
-  const answer = useTold(first, () => topicEnds(topic), LOOK_EVERY_MS, [topic]).value;
+  const whenChanged = (/** @type {() => Promise<void>} */ look) => askedWhenChanged(look, "graph");
+  const answer = useTold(first, () => topicEnds(topic), whenChanged, [topic]).value;
   if (!answer) return listed && html`<p class="note padded">${t("loading")}</p>`;
   if (!listed && answer.misfits.length === 0) return null;
   return html`<div class="topics-ends scroll">

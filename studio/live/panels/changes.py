@@ -1,4 +1,4 @@
-"""Tells pages that the graph or the log changed, a few times a second at most."""
+"""Tells pages that something changed of which they ask, a few times a second at most."""
 
 from __future__ import annotations
 
@@ -14,7 +14,13 @@ from studio.protocol.listeners import Audience
 if TYPE_CHECKING:
     from studio.protocol.listeners import Listener
 
-_PAUSES_S: Final[dict[Subject, float]] = {"graph": 0.5, "log": 0.2}
+_PAUSES_S: Final[dict[Subject, float]] = {
+    "graph": 0.5,
+    "log": 0.2,
+    "diagnostics": 0.5,
+    "goal_statuses": 0.5,
+    "lessons": 0.2,
+}
 
 
 class Changes:
@@ -42,6 +48,15 @@ class Changes:
         """Forget a page."""
         for followers in self._followers.values():
             followers.remove(listener)
+
+    def is_followed(self, subject: Subject) -> bool:
+        """Return whether a page wants to be told of its changes."""
+        return bool(self._followers[subject])
+
+    def all_changed(self) -> None:
+        """Tell all who follow anything soon: what they asked for was of another connection."""
+        for subject in _PAUSES_S:
+            self.changed(subject)
 
     def changed(self, subject: Subject) -> None:
         """Tell those who follow it soon."""

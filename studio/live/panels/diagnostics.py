@@ -82,10 +82,15 @@ class Parts:
 
 
 class PartDiagnostics:
-    """Begins anew with each connection: parts of one robot are not shown beside another's."""
+    """Begins anew with each connection: parts of one robot are not shown beside another's.
 
-    def __init__(self, source: TopicSource) -> None:
-        self._source = source
+    Args:
+        source: Where topics come from.
+        changed: Called when something came, in a thread of the source.
+    """
+
+    def __init__(self, source: TopicSource, changed: Callable[[], object] | None = None) -> None:
+        self._source, self._changed = source, changed
         self._parts = Parts()
         self._decode = decoder(source, _TYPE)
         self._subscription: Subscription | None = None
@@ -105,6 +110,8 @@ class PartDiagnostics:
     def _take(self, sample: RawSample) -> None:
         self._parts.keep_epoch(self._source.epoch)
         self._parts.take(self._decode(sample))
+        if self._changed is not None:
+            self._changed()
 
 
 def _view(status: MessageValue) -> DiagnosticView:

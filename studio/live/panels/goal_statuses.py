@@ -12,14 +12,16 @@ from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import GetGoalStatuses, GoalStatuses, GoalStatusView
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from studio.live.topics.source import TopicSource
     from studio.live.topics.subscription import Subscription
     from studio.ros.types.classes import MessageValue
 
 _ASKED_FOR_S: Final = 10.0
-"""How long an action is subscribed after it was asked for: a panel asks again and again."""
+"""How long an action is subscribed after it was asked for, where nobody is told of changes."""
+_FOLLOWED_MAX: Final = 20
+"""Actions that are subscribed while somebody is: those that were asked for last."""
 _SHOWN: Final = 50
 
 
@@ -37,10 +39,24 @@ class _Statuses:
 
 
 class GoalStatusTopics:
-    """Subscribes to the status of actions while somebody asks; `own_ids` are our own goals."""
+    """Subscribes to the status of actions while somebody asks, or is told of changes.
 
-    def __init__(self, source: TopicSource, own_ids: Callable[[], frozenset[str]]) -> None:
+    Args:
+        source: Where topics come from.
+        own_ids: Gives the ids of our own goals.
+        changed: Called when a status came, in a thread of the source.
+        is_followed: Tells whether a page waits to be told of changes before it asks again.
+    """
+
+    def __init__(
+        self,
+        source: TopicSource,
+        own_ids: Callable[[], frozenset[str]],
+        changed: Callable[[], object] | None = None,
+        is_followed: Callable[[], bool] = lambda: False,
+    ) -> None:
         self._source, self._own_ids = source, own_ids
+        self._changed, self._is_followed = changed, is_followed
         self._decode = decoder(source, _TYPE)
         self._of_actions: dict[str, _Statuses] = {}
 
@@ -57,14 +73,14 @@ class GoalStatusTopics:
 
     def let_go(self) -> None:
         """End all subscriptions."""
-        self._forget(float("inf"))
+        self._close(tuple(self._of_actions))
 
     def _newest(self, name: str) -> MessageValue | None:
         from studio.live.panels.requests import wire_name  # noqa: PLC0415 - imports zenoh
 
         now_s = time.monotonic()
-        self._forget(now_s - _ASKED_FOR_S)
         action = wire_name(name)
+        self._forget(action, now_s)
         found = self._of_actions.get(action)
         if found is None:
             found = self._of_actions[action] = self._subscribe(action, now_s)
@@ -84,13 +100,21 @@ class GoalStatusTopics:
             usually=(True, True),
             as_known_here=True,
         )
-        return _Statuses(self._source.subscribe(request), now_s, self._source.epoch)
+        made = self._source.subscribe(request, arrived=self._changed)
+        return _Statuses(made, now_s, self._source.epoch)
 
-    def _forget(self, before_s: float) -> None:
-        for name, found in tuple(self._of_actions.items()):
-            if found.asked_s < before_s:
-                del self._of_actions[name]
-                found.subscription.close()
+    def _forget(self, action: str, now_s: float) -> None:
+        """End what nobody waits for, but never the action that is asked for just now."""
+        others = {name: one.asked_s for name, one in self._of_actions.items() if name != action}
+        if self._is_followed():
+            oldest_last = sorted(others, key=lambda name: -others[name])
+            self._close(oldest_last[_FOLLOWED_MAX - 1 :])
+        else:
+            self._close([name for name in others if others[name] < now_s - _ASKED_FOR_S])
+
+    def _close(self, actions: Iterable[str]) -> None:
+        for name in actions:
+            self._of_actions.pop(name).subscription.close()
 
 
 def _views(newest: MessageValue | None, own: frozenset[str]) -> tuple[GoalStatusView, ...]:

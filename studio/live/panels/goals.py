@@ -14,6 +14,8 @@ from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import CancelGoal, FeedbackView, Goals, GoalState, GoalView, SendGoal
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.goal_work import ActionClients, GoalRequest
@@ -89,10 +91,15 @@ def _event_of(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001
 
 
 class ActionGoals:
-    """Sends goals and has them cancelled; `operations` has their state."""
+    """Sends goals and has them cancelled; `operations` has their state.
 
-    def __init__(self, wire: RosConnection, logs: NodeLogs) -> None:
-        self._wire, self._logs = wire, logs
+    `named` is called when a goal of ours has its id, by which its server tells of it.
+    """
+
+    def __init__(
+        self, wire: RosConnection, logs: NodeLogs, named: Callable[[], object] = lambda: None
+    ) -> None:
+        self._wire, self._logs, self._named = wire, logs, named
         self.operations: Operations[Goal] = Operations(_event_of, kept=_KEPT, running=_RUNNING_MAX)
         self._running = RunningTasks()
         self._requests: dict[int, GoalRequest] = {}
@@ -184,6 +191,7 @@ class ActionGoals:
         if not await request.accepted(timeout_s, on_feedback):
             return "rejected", ""
         goal.state, goal.goal_id = "accepted", request.goal_id
+        self._named()
         self.operations.changed(goal)
         looking = asyncio.create_task(self._look(goal, request))
         try:

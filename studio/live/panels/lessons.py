@@ -35,7 +35,7 @@ from studio.protocol.lessons import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
     from typing import Literal
 
     from studio.live.connection.link import WireLink
@@ -102,8 +102,11 @@ class DemoRun:
         zids: Of the sessions that its node was seen in; empty: it was not seen yet.
     """
 
-    def __init__(self, lesson: Lesson, number: int) -> None:
+    def __init__(
+        self, lesson: Lesson, number: int, changed: Callable[[], object] = lambda: None
+    ) -> None:
         self.lesson, self.number = lesson, number
+        self._changed = changed
         self.printed = PrintedLines()
         self.zids: frozenset[str] = frozenset()
         self._process: asyncio.subprocess.Process | None = None
@@ -164,6 +167,7 @@ class DemoRun:
         if self._life is None or self._process is None or self.is_over:
             return
         self._is_told = True
+        self._changed()
         with suppress(ProcessLookupError):
             self._process.send_signal(_CTRL_C)
         await asyncio.wait({self._life}, timeout=WHEN_TOLD_S)
@@ -183,6 +187,7 @@ class DemoRun:
         assert self._process.stdout is not None
         while chunk := await self._process.stdout.read(_CHUNK):
             self.printed.take(chunk)
+            self._changed()
         self.printed.end()
         self._end(await self._process.wait())
 
@@ -202,6 +207,7 @@ class DemoRun:
     def _end(self, code: int) -> None:
         self._code = code
         self._since_s = time.monotonic()
+        self._changed()
 
 
 RUNNING_MAX: Final = 10
@@ -209,10 +215,14 @@ RUNNING_MAX: Final = 10
 
 
 class CourseDemos:
-    """Runs demos as processes that join the studio's ROS system, and end with its connection."""
+    """Runs demos as processes that join the studio's ROS system, and end with its connection.
 
-    def __init__(self, wire: RosConnection) -> None:
-        self._wire = wire
+    `changed` is called when one of them changed or printed something; that its node came or went
+    is a change of the graph.
+    """
+
+    def __init__(self, wire: RosConnection, changed: Callable[[], object] = lambda: None) -> None:
+        self._wire, self._changed = wire, changed
         self._runs: dict[str, DemoRun] = {}
         """The last run of each demo."""
         self._numbers = itertools.count(1)
@@ -272,7 +282,8 @@ class CourseDemos:
                 "end it where it was started, for two of one name are taken for one."
             )
         self._demand_room(lesson)
-        run = self._runs[lesson.demo] = DemoRun(lesson, next(self._numbers))
+        run = self._runs[lesson.demo] = DemoRun(lesson, next(self._numbers), self._changed)
+        self._changed()
         await run.start(environment_for(link.settings))
 
     async def stop(self, command: StopDemo) -> None:

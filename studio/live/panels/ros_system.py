@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import RouterGoneError
@@ -39,26 +40,45 @@ class RosSystem:
     def __init__(self, wire: RosConnection) -> None:
         self.connection = wire
         self.changes = changes.Changes()
-        wire.on_change = lambda: self.changes.changed("graph")
+        self._epoch = wire.topics.epoch
+        wire.on_change = self._connection_changed
         self.interfaces = interfaces.InterfaceTypes(wire)
         self.browser_topics = BrowserTopics(wire.topics)
         self.logs = logs.NodeLogs(wire.topics, lambda: self.changes.changed_elsewhere("log"))
         self.graph = graph.GraphViews(wire)
         self.lifecycle = lifecycle.LifecycleNodes(wire)
-        self.diagnostics = diagnostics.PartDiagnostics(wire.topics)
+        elsewhere = self.changes.changed_elsewhere
+        self.diagnostics = diagnostics.PartDiagnostics(
+            wire.topics, partial(elsewhere, "diagnostics")
+        )
         self.offers = offers.Offers(wire, self.interfaces)
         self.calls = calls.ServiceCalls(wire)
-        self.goals = goals.ActionGoals(wire, self.logs)
-        self.goal_statuses = goal_statuses.GoalStatusTopics(wire.topics, self.goals.own_ids)
+        self.goals = goals.ActionGoals(
+            wire, self.logs, partial(self.changes.changed, "goal_statuses")
+        )
+        self.goal_statuses = goal_statuses.GoalStatusTopics(
+            wire.topics,
+            self.goals.own_ids,
+            partial(elsewhere, "goal_statuses"),
+            partial(self.changes.is_followed, "goal_statuses"),
+        )
         self.publishing = publishing.Publishing(wire)
         self.parameters = parameters.NodeParameters(wire)
         self.driving = driving.Driving(wire)
-        self.lessons = lessons.CourseDemos(wire)
+        self.lessons = lessons.CourseDemos(wire, partial(self.changes.changed, "lessons"))
         self._operations = {
             "calls": self.calls.operations,
             "goals": self.goals.operations,
             "publications": self.publishing.operations,
         }
+
+    def _connection_changed(self) -> None:
+        """Have pages ask anew: for all that they follow, where it is another connection."""
+        if self._epoch == self.connection.topics.epoch:
+            self.changes.changed("graph")
+        else:
+            self._epoch = self.connection.topics.epoch
+            self.changes.all_changed()
 
     def check_router(self) -> None:
         """Pass if the router is there, or if there is no connection yet: one is made then.

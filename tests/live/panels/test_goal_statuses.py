@@ -64,6 +64,22 @@ def test_goals_of_another_connection_are_not_told():
     assert shown(topics) == []
 
 
+def test_while_somebody_is_told_of_changes_an_action_stays_subscribed_without_a_question(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    source = MemorySource()
+    changes: list[int] = []
+    topics = GoalStatusTopics(source, frozenset, lambda: changes.append(1), lambda: True)
+    monkeypatch.setattr(goal_statuses, "_ASKED_FOR_S", -1.0)
+    shown(topics)
+    source.offer(TOPIC, ARRAY, qos_profile_action_status_default).say(array((1, 2)))
+    assert changes
+    for number in range(30):
+        shown(topics, f"/other_{number}")
+    names = [one.topic.partition("/_action")[0] for one in source.opened]
+    assert names == [f"/other_{number}" for number in range(10, 30)]
+
+
 def test_an_action_that_nobody_asks_for_any_more_is_unsubscribed(monkeypatch: pytest.MonkeyPatch):
     source = MemorySource()
     topics = GoalStatusTopics(source, frozenset)

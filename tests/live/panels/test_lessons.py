@@ -70,6 +70,10 @@ def pid_of(course: CourseDemos, demo: str) -> int:
     return process.pid
 
 
+def state_of(desk: CourseDemos, demo: str) -> str:
+    return desk._runs[demo].state  # pyright: ignore[reportPrivateUsage]
+
+
 def is_there(pid: int) -> bool:
     try:
         os.kill(pid, 0)
@@ -100,6 +104,27 @@ def test_a_demo_is_started_seen_heard_and_stopped(endpoint: str):
             assert (await view(course, "talker")).state == "stopped"
             with pytest.raises(CommandError, match="does not run"):
                 await course.stop(StopDemo(demo="talker"))
+
+    asyncio.run(run())
+
+
+def test_it_is_told_that_a_demo_began_printed_and_ended(endpoint: str):
+    async def run() -> None:
+        told: list[str] = []
+        wire = RosConnection(WireChoice("off", (endpoint,)))
+        await wire.link()
+        desk = CourseDemos(wire, lambda: told.append(state_of(desk, "talker")))
+        try:
+            await desk.start(StartDemo(demo="talker"))
+            assert told
+            before = len(told)
+            await printed(desk, "talker", "Publishing")
+            assert len(told) > before
+            await desk.stop(StopDemo(demo="talker"))
+            assert told[-1] == "stopped"
+        finally:
+            await desk.close()
+            await wire.close()
 
     asyncio.run(run())
 
