@@ -38,6 +38,8 @@ STEPS: Final = 12
 """What happens at the first few times only is no part of a walk, nor what happens by chance."""
 _WARM: Final = 4
 _QUIET_S: Final = 0.15
+_REST_S: Final = 1.0
+"""From one edit to the next: what is checked when it has been quiet is no part of either."""
 _PATIENCE_S: Final = 60.0
 _STRING: Final = "std_msgs/msg/String"
 
@@ -129,6 +131,7 @@ def slider_walk() -> list[str]:
             for lane in (control, scene):
                 for _ in _received(lane):
                     pass
+            time.sleep(_REST_S)
         control.close()
         scene.close()
         return recorder.files()
