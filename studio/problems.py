@@ -4,6 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import ModuleType
 
 
 class Severity(StrEnum):
@@ -91,3 +98,20 @@ class Problem:
     def __str__(self) -> str:
         """Write the sentence behind its place."""
         return f"{self.place}: {self.sentence}" if self.place else self.sentence
+
+
+def whys(*checks: ModuleType) -> dict[str, dict[str, str]]:
+    """Return why a finding matters, by its code and by language: the `WHY` of every check.
+
+    Args:
+        checks: Packages whose files are checks.
+    """
+    modules = (module for package in checks for module in modules_of(package))
+    return {code: why for one in modules for code, why in getattr(one, "WHY", {}).items()}
+
+
+def modules_of(package: ModuleType) -> Iterator[ModuleType]:
+    """Import every file of a package, in the order of their names."""
+    return (
+        import_module(f"{package.__name__}.{one.name}") for one in iter_modules(package.__path__)
+    )

@@ -20,11 +20,13 @@ from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Final
 
+from studio.description import checks as text_checks
 from studio.documents.engine import Engine
 from studio.errors import SettingsError
 from studio.files import write_whole
+from studio.problems import whys
 from studio.protocol.roles import Role
-from studio.robot.checks.robot_checks import whys
+from studio.robot import checks as robot_checks
 from studio.scene import CLIENT_PATH, viser_client
 from studio.server.app import make_app
 from studio.server.assets import WORDS_OF_CHECKS, Assets, words_of_checks
@@ -204,7 +206,10 @@ class _Visit:
         bound = (settings.host, self._port)
         assets = Assets(
             repository_or_wheel("frontend_assets"),
-            {CLIENT_PATH: viser_client(), WORDS_OF_CHECKS: words_of_checks(whys())},
+            {
+                CLIENT_PATH: viser_client(),
+                WORDS_OF_CHECKS: words_of_checks(whys(robot_checks, text_checks)),
+            },
         )
         app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
         self._server = Server(app, self)

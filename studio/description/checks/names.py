@@ -157,3 +157,42 @@ def _texts(element: SourceElement) -> Iterator[str]:
     for child in element.children:
         if isinstance(child, SourceText) and "$" in child.text:
             yield child.text
+
+
+WHY: Final = {
+    "no-robot-name": {
+        "en": "Tools tell robots apart by the name of the <robot> element; some refuse one "
+        "without.",
+        "de": "Werkzeuge unterscheiden Roboter am Namen des <robot>-Elements; manche lehnen einen "
+        "ohne ab.",
+    },
+    "duplicate-material": {
+        "en": "A material of one name is defined twice and differently; which of the two counts "
+        "depends on the reader.",
+        "de": "Ein Material gleichen Namens ist zweimal verschieden definiert; welches zählt, "
+        "hängt vom Leser ab.",
+    },
+    "duplicate-joint": {
+        "en": "Names of joints are unique in a robot; messages such as JointState tell joints by "
+        "name alone.",
+        "de": "Namen von Gelenken sind in einem Roboter eindeutig; Nachrichten wie JointState "
+        "unterscheiden Gelenke nur am Namen.",
+    },
+    "duplicate-link": {
+        "en": "Names of links are unique in a robot. Two of one name often come from a macro that "
+        "is called twice without a prefix.",
+        "de": "Namen von Gliedern sind in einem Roboter eindeutig. Zwei gleiche kommen oft von "
+        "einem Makro, das zweimal ohne Präfix aufgerufen wird.",
+    },
+    "unused-arg": {
+        "en": "Nothing reads this argument: whoever passes it changes nothing.",
+        "de": "Niemand liest dieses Argument: Wer es übergibt, ändert nichts.",
+    },
+    "unused-property": {
+        "en": "Nothing reads this property: it can go, or the name is misspelt where it should be "
+        "read.",
+        "de": "Niemand liest diese Property: Sie kann weg, oder der Name ist dort verschrieben, wo "
+        "sie gelesen werden soll.",
+    },
+}
+"""By code and language: why a finding matters, as the page explains it."""

@@ -186,3 +186,18 @@ def _in_expressions(element: SourceElement, wrong: str, meant: str) -> Iterator[
         for segment in _SEGMENT.finditer(tree.data, span.start, span.end):
             for found in name.finditer(tree.data, *segment.span()):
                 yield mends.replaced(*found.span(), meant)
+
+
+WHY: Final = {
+    "unknown-element": {
+        "en": "URDF does not know this element here and ignores it without a word: what stands in "
+        "it has no effect.",
+        "de": "URDF kennt dieses Element hier nicht und übergeht es stillschweigend: Was darin "
+        "steht, hat keine Wirkung.",
+    },
+    "unknown-attribute": {
+        "en": "URDF does not know this attribute here and ignores it without a word.",
+        "de": "URDF kennt dieses Attribut hier nicht und übergeht es stillschweigend.",
+    },
+}
+"""By code and language: why a finding matters, as the page explains it."""

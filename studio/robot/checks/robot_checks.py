@@ -5,17 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator
 from functools import cache
-from importlib import import_module
-from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from studio.problems import Problem
+from studio.problems import Problem, modules_of
 from studio.robot import checks
 from studio.robot.checks.mending import Mender
 
 if TYPE_CHECKING:
-    from types import ModuleType
-
     from studio.robot.checks.finding import CheckedRobot, Finding
 
 Check: TypeAlias = Callable[["CheckedRobot"], Iterator["Finding"]]
@@ -58,16 +54,8 @@ def robot_findings(checked: CheckedRobot) -> Iterator[Finding]:
 @cache
 def _checks() -> tuple[Check, ...]:
     """Return the function `findings` of every file in this folder that has one."""
-    return tuple(module.findings for module in _modules() if hasattr(module, "findings"))
-
-
-def whys() -> dict[str, dict[str, str]]:
-    """Return why a finding matters, by its code and by language: the `WHY` of every check."""
-    return {code: why for one in _modules() for code, why in getattr(one, "WHY", {}).items()}
-
-
-def _modules() -> Iterator[ModuleType]:
-    return (import_module(f"{__package__}.{one.name}") for one in iter_modules(checks.__path__))
+    modules = modules_of(checks)
+    return tuple(module.findings for module in modules if hasattr(module, "findings"))
 
 
 def _problem(finding: Finding, checked: CheckedRobot, mender: Mender) -> Problem:

@@ -3,8 +3,11 @@ from __future__ import annotations
 import time
 from itertools import pairwise
 
+from studio.description import checks as text_checks
+from studio.problems import whys
+from studio.robot import checks as robot_checks
 from studio.robot.checks.finding import CheckedRobot
-from studio.robot.checks.robot_checks import ALIKE_AT_MOST, check_robot, whys
+from studio.robot.checks.robot_checks import ALIKE_AT_MOST, check_robot
 from studio.robot.values import (
     Box,
     Collision,
@@ -85,8 +88,8 @@ def test_of_many_alike_the_first_are_told_and_the_others_counted():
 
 
 def test_every_code_that_a_check_explains_is_explained_in_both_languages():
-    found = whys()
-    assert len(found) >= 18
+    found = whys(robot_checks, text_checks)
+    assert len(found) >= 31
     for code, texts in found.items():
         assert set(texts) == {"en", "de"}, code
         assert all(text.endswith((".", "?")) for text in texts.values()), code
