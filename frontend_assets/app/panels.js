@@ -13,6 +13,7 @@ import { until, untilIdle, untilViewFetched } from "../lib/loading.js";
 import { addIcons, Icon, ProgressBar } from "../lib/ui.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";
+import { viewportConnected } from "../model/viewport.js";
 import { ScenePanel } from "../panels/scene/scene.js";
 
 /** What a panel is for, in the order in which menus list them. */
@@ -106,9 +107,16 @@ function Tab({ id }) {
 }
 
 /** A robot that takes longer than this is not waited for. */
-const PATIENCE_MS = 1500;
+const PATIENCE_MS = 3000;
 /** Settles when the panels that were asked for so far are here. @type {Promise<unknown>} */
 let others = Promise.resolve();
+
+/** @returns {boolean} the 3D view has begun and is not connected yet: what is loaded now would keep its robot waiting */
+function viewComes() {
+  const frame = /** @type {HTMLIFrameElement | null} */ (document.querySelector(".scene iframe"));
+  const hasBegun = "studio3d" in (frame?.contentWindow ?? {});
+  return hasBegun && !viewportConnected.value;
+}
 
 /** @param {string} id what takes long comes once the rest of the page stands */
 async function fetched(id) {
@@ -116,7 +124,7 @@ async function fetched(id) {
   if (entry?.heavy) {
     await others;
     await untilViewFetched();
-    await until(() => robot.value !== null, PATIENCE_MS);
+    await until(() => robot.value !== null && !viewComes(), PATIENCE_MS);
     await untilIdle();
     return entry.load();
   }
