@@ -17,7 +17,7 @@ from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from studio.scene import SUBPROTOCOL
-from studio.scene.graph import _PROPS
+from studio.scene.graph import PROPS_OF
 from studio.scene.host import make_server
 from studio.scene.node import PointCloudProps
 from studio.scene.wire import Encoder
@@ -90,10 +90,10 @@ def test_our_short_way_to_encode_a_new_node_says_what_visers_long_way_does():
     assert ours == message.as_serializable_dict([])
 
 
-@pytest.mark.parametrize("kind", _PROPS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("kind", PROPS_OF, ids=lambda kind: kind.__name__)
 def test_every_kind_of_node_that_we_draw_is_one_of_visers(kind: type[_messages.Message]):
     assert kind.lifecycle_phase == "create"
-    assert dataclasses.fields(_PROPS[kind])  # type: ignore[arg-type]
+    assert dataclasses.fields(PROPS_OF[kind])  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
