@@ -63,11 +63,12 @@ def test_a_robot_asks_for_what_it_needs_and_a_link_opens_it_with_its_edits(
     package = write_package(tmp_path / "mast_description", files={"mast.urdf.xacro": MAST})
     context = studio_context(browser)
     with running_studio(["open", str(package / "mast.urdf.xacro")], tmp_path / "data") as studio:
-        tab, other = StudioPage(context.new_page()), StudioPage(context.new_page())
+        tab = StudioPage(context.new_page())
         tab.page.goto(studio.url)
         answer_form(tab)
         dragged = tab.drag_slider("reach", 0.7)
         link = link_of(tab)
+        other = StudioPage(context.new_page())
         other.page.goto(link)
         dialog = other.page.get_by_role("dialog", name="from this link?")
         dialog.get_by_role("button", name="Open", exact=True).click()

@@ -78,8 +78,7 @@ def ensure_chromium() -> Path:
 def open_browser() -> Iterator[Browser]:
     """A running headless Chromium, closed afterwards.
 
-    Playwright leaves its event loop running in this thread until it is stopped, so keep it no
-    longer than one file of tests.
+    Playwright leaves its event loop running in this thread until it is stopped.
     """
     path = ensure_chromium()
     with sync_playwright() as playwright:
