@@ -21,9 +21,9 @@ help:
 demo: $(VENV)/.runs ## open the demo rover in the browser
 	@exec $(BIN)/studio demo $(ARGS)
 
-test: $(VENV)/.tests ## run all tests
+test: $(VENV)/.tests ## run the tests
 	@$(BIN)/python -m tests.support.browser || true
-	@exec $(PYTEST) $(ARGS)
+	@exec $(PYTEST) -m "not sweep" $(ARGS)
 
 lint: style types imports spelling page ## check style, types, rooms and spelling
 
@@ -48,7 +48,9 @@ page: $(TOOLS)/node_modules/.installed
 bench: $(VENV)/.tests ## measure beside the peers
 	@exec $(BIN)/python -m tests.benchmarks $(ARGS)
 
-sweep: $(VENV)/.tests ## send 20,000 random commands to an engine
+sweep: $(VENV)/.tests ## run the tests that repeat others over many, and 20,000 random commands
+	@$(BIN)/python -m tests.support.browser || true
+	@$(PYTEST) -m sweep
 	@exec $(BIN)/python -m tests.support.command_sweep $(ARGS)
 
 constraints: ## pin what a fresh environment resolves to now

@@ -58,6 +58,7 @@ def test_an_upload_of_50_mb_is_refused_before_it_is_sent(tmp_path: Path):
     asyncio.run(run())
 
 
+@pytest.mark.sweep
 def test_ten_thousand_links_open_and_one_of_them_can_be_edited(tmp_path: Path):
     path = robot_of_links(tmp_path, 10_000)
 

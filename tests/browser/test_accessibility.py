@@ -51,6 +51,8 @@ DIALOGS: Final[dict[str, dict[str, Any]]] = {
         "kind": "confirm", "title": "Close", "text": "Unsaved.", "details": ["a"], "action": "Go",
     },
 }  # fmt: skip
+SOME_PANELS: Final = ("properties", "topics", "publish", "masses")
+SOME_DIALOGS: Final = ("open browse", "add_display", "merge")
 _SHOW_PANEL: Final = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
   const { PANELS, panelTitle } = await import(new URL("panels.js", script));
@@ -139,6 +141,16 @@ def dialog_faults(tab: StudioPage, name: str, theme: Theme) -> list[str]:
     return found
 
 
+def test_axe_finds_nothing_on_the_page_nor_on_some_of_its_panels_and_dialogs(tab: StudioPage):
+    found = faults(tab, "page", _WHOLE, "dark")
+    for panel in SOME_PANELS:
+        found += panel_faults(tab, panel, "dark")
+    for name in SOME_DIALOGS:
+        found += dialog_faults(tab, name, "dark")
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.sweep
 @pytest.mark.parametrize("theme", THEMES)
 def test_axe_finds_nothing_on_any_panel_or_dialog(tab: StudioPage, theme: Theme):
     tab.page.evaluate(_SET_THEME, theme)

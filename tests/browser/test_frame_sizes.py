@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
 FINGER_PX = 40
+FINGER_SIZES = [(390, 844), (1024, 768)]
+MORE_FINGER_SIZES = [
+    pytest.param(size, marks=pytest.mark.sweep) for size in [(844, 390), (1180, 820)]
+]
 _SMALL = """(least) => [...document.querySelectorAll(
     ".top-bar button, .top-bar a, .phone-tabs button, .dv-tab, .maximize, .scene-tools button")]
   .filter((one) => one.checkVisibility())
@@ -84,7 +88,7 @@ def opened(
     context.close()
 
 
-@pytest.mark.parametrize("size", [(390, 844), (844, 390), (1024, 768), (1180, 820)])
+@pytest.mark.parametrize("size", [*FINGER_SIZES, *MORE_FINGER_SIZES])
 def test_fingers_find_every_control_of_the_frame(
     browser: Browser, studio: RunningStudio, size: tuple[int, int]
 ):
@@ -94,7 +98,7 @@ def test_fingers_find_every_control_of_the_frame(
         assert not tab.page.evaluate(_OVERLAPS)
 
 
-@pytest.mark.parametrize("size", [(800, 475), (640, 400)])
+@pytest.mark.parametrize("size", [(800, 475), pytest.param((640, 400), marks=pytest.mark.sweep)])
 def test_at_twice_the_size_nothing_is_cut_off(
     browser: Browser, studio: RunningStudio, size: tuple[int, int]
 ):

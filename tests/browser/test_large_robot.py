@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Page
 
-pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.sweep, pytest.mark.timeout(300)]
 
 LINKS = 3000
 MOST_ELEMENTS = 6000

@@ -9,7 +9,7 @@ from tests.support.many_topics import announce_topics, topic_named
 from tests.support.patience import Stopwatch
 from tests.support.wire import open_test_session, running_router
 
-pytestmark = pytest.mark.network
+pytestmark = [pytest.mark.network, pytest.mark.sweep]
 TOPICS = 10_000
 
 

@@ -52,8 +52,8 @@ if (document.cookie.includes("without_view"))
   Object.defineProperty(HTMLIFrameElement.prototype, "src", { set() {} });"""
 """A picture of a busy machine has the pixels of one of an idle one; and that the processor draws is
 not said over the 3D view, where it would be in pictures of it. The 3D view draws fifteen pictures a
-second at most, each of which costs the processor as much as a page does in a second of rest. Without
-the view, its frame stays empty."""
+second at most: software GL takes thirty milliseconds of all cores for one. Without the view, its
+frame stays empty."""
 
 _SEVERAL_FRAMES = """() => new Promise((done) => {
   const view = document.querySelector("iframe")?.contentWindow ?? window;

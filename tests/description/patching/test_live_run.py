@@ -251,6 +251,7 @@ def test_a_lazy_property_is_read_by_the_next_reader_when_its_first_is_gone(tmp_p
     edited(side, site_of(side, "second"), "2")
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     "name", sorted(str(one.relative_to(MODELS)) for one in MODELS.rglob("*.urdf.xacro"))
 )
@@ -261,7 +262,9 @@ def test_every_number_of_our_models_edited_and_edited_back_is_as_in_a_full_run(n
     assert done.patched > done.full
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(seed, marks=pytest.mark.sweep) for seed in range(1, 6))]
+)
 @pytest.mark.parametrize("name", ["rover_description/urdf/rover.urdf.xacro", "arm6_description"])
 def test_a_random_sequence_of_edits_of_our_models_is_as_in_full_runs(name: str, seed: int):
     file = next(iter((MODELS / name).rglob("*.urdf.xacro")), MODELS / name)
