@@ -137,6 +137,12 @@ def test_a_request_of_malformed_bytes_is_refused_and_the_next_one_answered(
     server = node.create_service(ADD, "/careful", add)
     key = str(DataKey(0, "/careful", ADD_NAME, node.wire.types.hash_of(ADD_NAME)))
     with open_test_session(endpoint) as strange:
+
+        def is_reached() -> bool:
+            assert list(strange.zenoh.get(key, payload=b"x", timeout=20.0)) == []
+            return server.refused > 0
+
+        wait_until("the service is known where it is asked", is_reached)
         for payload, attached in ((b"x", None), (b"x", bytes(33)), (b"x", b"y"), (None, None)):
             before = server.refused
             replies = strange.zenoh.get(key, payload=payload, attachment=attached, timeout=20.0)

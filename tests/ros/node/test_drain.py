@@ -89,10 +89,17 @@ def test_what_is_waited_for_is_looked_into_more_often_until_it_is_removed(drain:
     drain.wait_for(awaited)
     wait_until("nothing is expected any more", lambda: not drain.is_flowing)
     idle_before, awaited_before = idle.looks, awaited.looks
-    wait_until(
-        "it was looked into more often",
-        lambda: awaited.looks - awaited_before > 2 * (idle.looks - idle_before) + 10,
-    )
+
+    def more_often() -> bool:
+        nonlocal idle_before, awaited_before
+        awaited_now, idle_now = awaited.looks, idle.looks
+        if awaited_now - awaited_before > 2 * (idle_now - idle_before) + 10:
+            return True
+        if idle_now - idle_before > 50:  # a busy machine woke it late: another stretch
+            idle_before, awaited_before = idle_now, awaited_now
+        return False
+
+    wait_until("it was looked into more often", more_often)
     drain.remove(awaited)
     looks, idle_before = awaited.looks, idle.looks
     wait_until("the other is looked into", lambda: idle.looks > idle_before + 10)
