@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import gc
 import os
 from pathlib import Path
@@ -84,27 +83,12 @@ def endpoint() -> Iterator[str]:
         yield found
 
 
-@pytest.fixture(scope="session")
-def _chromium() -> Iterator[tuple[Browser, asyncio.AbstractEventLoop]]:
-    """A browser, and the loop that Playwright leaves running in this thread, set aside."""
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """A headless Chromium for one file of tests."""
     from tests.support.browser import open_browser
 
-    for browser in open_browser():
-        loop = asyncio.get_running_loop()
-        asyncio._set_running_loop(None)
-        yield browser, loop
-        asyncio._set_running_loop(loop)
-
-
-@pytest.fixture(scope="module")
-def browser(_chromium: tuple[Browser, asyncio.AbstractEventLoop]) -> Iterator[Browser]:
-    """The headless Chromium of all files of tests of a process; what they open in it is closed."""
-    browser, loop = _chromium
-    asyncio._set_running_loop(loop)
-    yield browser
-    for context in browser.contexts:
-        context.close()
-    asyncio._set_running_loop(None)
+    yield from open_browser()
 
 
 @pytest.fixture

@@ -214,8 +214,13 @@ def offers_to_follow(tab: StudioPage, frame: str, answer: str) -> None:
     wait_until("the offer to go", lambda: offer.count() == 0)
 
 
+def is_on_its_round(poses: dict[str, NDArray[np.float64]]) -> bool:
+    return "axis" in poses and abs(math.hypot(*poses["axis"][:2]) - 2.0) < 1e-3
+
+
 def goes_round_in_odom(scene: Scene, robot: str, told: Sequence[Any]) -> None:
     scene.draw_in("odom")
+    wait_until("the robot to be seen from odom", lambda: is_on_its_round(scene.poses(robot)))
     seen = scene.different(robot, "axis", 5)
     for poses in seen:
         x, y, z = poses["axis"][:3]

@@ -74,6 +74,7 @@ def first_line(tab: StudioPage) -> str:
 
 @pytest.mark.without_view
 def test_tab_walks_through_the_source_until_one_has_begun_to_edit(tab: StudioPage):
+    wait_until("the text", lambda: first_line(tab) != "")
     before = first_line(tab)
     walk_into_editor(tab)
     tab.page.keyboard.press("Tab")

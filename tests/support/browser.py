@@ -78,7 +78,8 @@ def ensure_chromium() -> Path:
 def open_browser() -> Iterator[Browser]:
     """A running headless Chromium, closed afterwards.
 
-    Playwright leaves its event loop running in this thread until it is stopped.
+    Playwright leaves its event loop running in this thread until it is stopped, so keep it no
+    longer than one file of tests.
     """
     path = ensure_chromium()
     with sync_playwright() as playwright:

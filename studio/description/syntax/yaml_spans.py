@@ -41,7 +41,7 @@ _PRINTABLE = re.compile(
     "[\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]*"
 )
 _PLAIN = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`]|-(?=\S))(?:.*\S)?")
-_NOT_PLAIN = re.compile(r"[,\[\]{}]|:(?:\s|$)|\s#")
+_NOT_PLAIN = re.compile(r"[,\[\]{}]|:(?:[\s?]|$)|\s#")
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _UNNAMED = "?"
 _DEPTH_LIMIT = 100
