@@ -122,7 +122,9 @@ def test_t4_who_comes_late_is_told_the_last_and_each_end_shows_its_quality(
     with running_demo(router, "qos_topic_node", "--ros-args", "-p", kept):
         row = see_fields(tab, "/reliable_topic", 1)
         assert "reliably: 0" in row.inner_text()
-        tab.page.get_by_role("button", name="Who publishes and subscribes, and how").click()
+        tab.page.get_by_role(
+            "button", name="Publishers, subscribers and their quality of service"
+        ).click()
         ends = tab.page.locator(".topics-ends")
         wait_until("its publisher", lambda: "/qos_topic_node" in (ends.text_content() or ""))
         assert all(word in ends.inner_text() for word in ("reliable", "transient local"))
@@ -130,8 +132,10 @@ def test_t4_who_comes_late_is_told_the_last_and_each_end_shows_its_quality(
         tab.page.get_by_text("Best effort", exact=True).click()
         wait_until("how the studio listens", lambda: "best effort" in ends.inner_text())
         tab.page.get_by_role("button", name="Listen", exact=True).click()
-        tab.page.get_by_text("As fits its publishers", exact=True).click()
-        tab.page.get_by_role("button", name="Who publishes and subscribes, and how").click()
+        tab.page.get_by_text("Match the publishers", exact=True).click()
+        tab.page.get_by_role(
+            "button", name="Publishers, subscribers and their quality of service"
+        ).click()
 
 
 def test_t5_a_pose_unfolds_into_what_it_is_made_of(tab: StudioPage):
@@ -170,7 +174,7 @@ def test_t11_a_pasted_type_is_published_and_echoed_without_a_build(tab: StudioPa
     types.get_by_role("button", name="Add a type").click()
     types.get_by_label("Name").fill(TELEMETRY)
     types.get_by_label("Text").fill("string robot_name\nfloat32 battery_percent\n")
-    types.get_by_role("button", name="Take it").click()
+    types.get_by_role("button", name="Add it").click()
     types.get_by_role("heading", name=TELEMETRY).wait_for()
     assert "RIHS01_" in types.inner_text()
     publish = tab.page.locator("section.operations[aria-label='Publish']")

@@ -78,7 +78,9 @@ def see_topics(tab: StudioPage) -> None:
 
 def see_ends(tab: StudioPage, node: str, reliability: str) -> None:
     """Who publishes the topic that is looked at, and how."""
-    button = tab.page.get_by_role("button", name="Who publishes and subscribes, and how")
+    button = tab.page.get_by_role(
+        "button", name="Publishers, subscribers and their quality of service"
+    )
     button.click()
     ends = tab.page.locator(".topics-ends")
     wait_until("its publisher", lambda: node in (ends.text_content() or ""))

@@ -66,7 +66,7 @@ def test_the_palette_goes_to_a_property_by_some_of_its_letters(tab: StudioPage):
     box = tab.box("wheel_radius")
     wait_until("its box to have the focus", lambda: box.evaluate("it => it.matches(':focus')"))
     tab.page.keyboard.press("Control+k")
-    used = tab.page.get_by_role("group", name="Used last").get_by_role("option")
+    used = tab.page.get_by_role("group", name="Recently used").get_by_role("option")
     assert "wheel_radius" in used.first.inner_text()
 
 
@@ -142,7 +142,7 @@ def test_layouts_travel_as_a_file_and_what_is_no_such_file_is_refused(
     assert "were left out: teapot" in tab.page.locator(".notices").inner_text()
     saved.write_text("[1, 2")
     chooser.set_input_files(saved)
-    tab.page.get_by_text("mine.json is no JSON file").wait_for()
+    tab.page.get_by_text("mine.json is not a JSON file").wait_for()
 
 
 def test_a_closed_3d_view_stays_closed_and_comes_back_when_asked_for(tab: StudioPage):

@@ -88,8 +88,8 @@ def test_the_pose_of_one_frame_in_another_takes_three_clicks(tab: StudioPage):
     hand.click(tab.page.get_by_role("button", name="Poses in this frame"))
     hand.click(link(tab, "camera_head"))
     wait_until("the pose", lambda: panel(tab).locator(".frames-matrix").count() == 1)
-    assert (box(tab, "Frame whose pose is told"), hand.clicks) == ("camera_head", 3)
-    assert box(tab, "Frame in which it is told") == "base_link"
+    assert (box(tab, "Frame whose pose is shown"), hand.clicks) == ("camera_head", 3)
+    assert box(tab, "Reference frame") == "base_link"
     wait_until("both frames in 3D", lambda: tab.page.evaluate(_LIT) == ["base_link", "camera_head"])
     on_chain = panel(tab).locator(".on-chain")
     wait_until("a line through all", lambda: tab.page.evaluate(_CHAIN) == on_chain.count() >= 3)
@@ -100,19 +100,19 @@ def test_the_pose_of_one_frame_in_another_takes_three_clicks(tab: StudioPage):
         "the joint in the tree",
         lambda: link(tab, "camera_yoke").get_attribute("aria-selected") == "true",
     )
-    assert box(tab, "Frame whose pose is told") == "camera_head"
+    assert box(tab, "Frame whose pose is shown") == "camera_head"
 
     there = matrix(tab)
     tab.page.get_by_role("button", name="Swap the two frames").click()
-    wait_until("the other way", lambda: box(tab, "Frame in which it is told") == "camera_head")
+    wait_until("the other way", lambda: box(tab, "Reference frame") == "camera_head")
     assert np.abs(matrix(tab) @ there - np.eye(4)).max() < 1e-9
     assert copied(tab, "Position", "<origin").startswith('<origin xyz="')
 
-    reference = tab.page.get_by_role("combobox", name="Frame in which it is told")
+    reference = tab.page.get_by_role("combobox", name="Reference frame")
     reference.click()
     tab.page.keyboard.type("lidar")
     tab.page.keyboard.press("Enter")
-    wait_until("the lidar", lambda: box(tab, "Frame in which it is told") == "lidar")
+    wait_until("the lidar", lambda: box(tab, "Reference frame") == "lidar")
     tab.page.get_by_role("tab", name="Source").click()
     wait_until("no frames in 3D", lambda: tab.page.evaluate(_LIT) == [])
     wait_until("no line", lambda: tab.page.evaluate(_CHAIN) == 0)
@@ -192,7 +192,7 @@ def test_frames_of_others_stand_in_the_tree_with_who_tells_of_them(
             search = panel(tab).get_by_role("searchbox")
             search.fill("crater")
             wait_until("the way to it", lambda: panel(tab).get_by_role("treeitem").count() == 2)
-            panel(tab).get_by_text("1 refused transform").click()
+            panel(tab).get_by_text("1 rejected transform").click()
             sentences = panel(tab).locator(".tf-refused li").all_inner_texts()
             assert [one.split(":")[1] for one in sentences] == [
                 " a frame cannot be its own parent."
@@ -206,7 +206,7 @@ def sees_the_rover_in_odom(tab: StudioPage) -> None:
     row(tab, "odom").focus()
     tab.page.keyboard.press("Shift+Enter")
     row(tab, "lidar").click()
-    assert box(tab, "Frame in which it is told") == "odom"
+    assert box(tab, "Reference frame") == "odom"
     wait_until("the pose by TF", lambda: panel(tab).locator(".frames-matrix").count() == 1)
     lit = [
         str(one.get_attribute("aria-label")).split(",")[0]
@@ -218,7 +218,7 @@ def sees_the_rover_in_odom(tab: StudioPage) -> None:
     in_odom = matrix(tab)
     row(tab, "base_footprint").focus()
     tab.page.keyboard.press("Shift+Enter")
-    wait_until("in the root", lambda: box(tab, "Frame in which it is told") == "base_footprint")
+    wait_until("in the root", lambda: box(tab, "Reference frame") == "base_footprint")
     wait_until("its pose", lambda: panel(tab).locator(".frames-matrix").count() == 1)
     assert np.abs(in_odom[0, 3] - matrix(tab)[0, 3] - 1.5) < 1e-9
 

@@ -57,7 +57,7 @@ def watch(tab: StudioPage) -> list[int]:
 
 def look_at_a_pixel(panel: Locator) -> None:
     """What is told of it is what the camera sent."""
-    panel.get_by_role("button", name="Closer").click()
+    panel.get_by_role("button", name="Zoom in").click()
     panel.get_by_role("img", name=f"Picture of {TOPIC}").hover()
     told = panel.locator("output")
     wait_until("the pixel", lambda: ": " in told.inner_text())

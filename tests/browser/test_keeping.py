@@ -79,7 +79,7 @@ def test_a_killed_studio_loses_nothing_of_what_was_done_in_the_open_page(
             page.get_by_text("were restored").wait_for()
             wait_until("the reach", lambda: value(tab, "reach") == reach)
             wait_until("the width", lambda: value(tab, "width") == "0.1")
-            steps = [f"width 0.1 → {width}", f"reach 0.4 → {reach}", "As it was opened"]
+            steps = [f"width 0.1 → {width}", f"reach 0.4 → {reach}", "As opened"]
             assert undo_list(tab) == steps
             page.get_by_role("menuitemradio").first.click()
             wait_until("the step to be done again", lambda: value(tab, "width") == width)

@@ -101,8 +101,8 @@ def a_viewer_reads_and_starts_nothing(browser: Browser, studio: RunningStudio) -
         viewer = StudioPage(context.new_page())
         viewer.open(address)
         panel = lessons_of(viewer)
-        panel.get_by_text("Only the presenter starts and stops demos.").wait_for()
-        panel.get_by_text("Has run for").first.wait_for()
+        panel.get_by_text("Only the presenter can start and stop demos.").wait_for()
+        panel.get_by_text("Running for").first.wait_for()
         panel.get_by_role("log").get_by_text("I heard").wait_for()
         assert panel.get_by_role("button", name="Stop").count() == 0
         assert panel.get_by_role("button", name="Start").count() == 0
@@ -116,9 +116,9 @@ def stop_one_and_then_all(panel: Locator) -> None:
     panel.get_by_role("button", name="Start listener").wait_for()
     panel.get_by_text("Stopped", exact=True).wait_for()
     panel.get_by_role("button", name="Back to the list").click()
-    panel.get_by_text("1 demo runs").wait_for()
+    panel.get_by_text("1 demo running").wait_for()
     panel.get_by_role("button", name="Stop all").click()
-    panel.get_by_text("1 demo runs").wait_for(state="hidden")
+    panel.get_by_text("1 demo running").wait_for(state="hidden")
     assert panel.get_by_role("img", name="Runs").count() == 0
 
 

@@ -142,7 +142,7 @@ def test_two_joints_are_measured_with_three_clicks_and_keys_and_stay_true(
     tab.page.get_by_role("treeitem", name="base").focus()
     tab.page.keyboard.press("Escape")
     wait_until("the end", lambda: card(tab).get_by_role("button", name="Measure more").is_visible())
-    card(tab).get_by_role("button", name="Delete this measure").click()
+    card(tab).get_by_role("button", name="Delete this measurement").click()
     wait_until("the card to go", lambda: not card(tab).is_visible())
     assert tab.errors == []
 

@@ -55,7 +55,7 @@ def test_a_pose_of_the_srdf_is_taken_and_one_of_ones_own_is_kept(tab: StudioPage
     wait_until("the arm in its pose", lambda: is_taken(tab, "stowed"))
     tab.show_other_than(before)
 
-    page.get_by_role("button", name="Keep the present positions as a pose").click()
+    page.get_by_role("button", name="Keep the current positions as a pose").click()
     page.keyboard.type("Van")
     page.keyboard.press("Enter")
     wait_until("the new pose", lambda: is_taken(tab, "Van"))
@@ -88,7 +88,7 @@ def test_whoever_only_watches_sees_the_poses_and_takes_none(
     viewer.page.get_by_role("tab", name="Joints").click()
     wait_until("the poses", lambda: pose(viewer, "stowed").count() == 1)
     assert pose(viewer, "stowed").is_disabled()
-    keep = viewer.page.get_by_role("button", name="Keep the present positions as a pose")
+    keep = viewer.page.get_by_role("button", name="Keep the current positions as a pose")
     assert keep.is_disabled()
     assert viewer.errors == []
     context.close()

@@ -157,7 +157,7 @@ def test_a_pasted_text_that_is_no_robot_changes_nothing(tab: StudioPage):
     tab.page.evaluate("() => navigator.clipboard.writeText('some words')")
     tab.page.locator("iframe").click()  # the 3D view has the keys now
     tab.page.keyboard.press("Control+v")
-    tab.page.get_by_text("The clipboard holds no robot description").wait_for()
+    tab.page.get_by_text("The clipboard contains no robot description").wait_for()
     assert tab.page.url == before
 
 

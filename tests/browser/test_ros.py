@@ -85,7 +85,7 @@ def test_the_robot_goes_out_joints_come_in_and_a_router_that_was_away_is_found_a
             wait_until("it is not ours", lambda: tab.row(JOINT).get_by_role("slider").is_disabled())
         router.close()
         wait_until("the page says so", lambda: "router gone" in status(tab))
-        assert tab.page.get_by_role("alert").filter(has_text="The router went away").count() == 1
+        assert tab.page.get_by_role("alert").filter(has_text="The router was stopped").count() == 1
         with router_at(endpoint), node_at(endpoint) as peer:
             descriptions = heard(peer, "std_msgs/msg/String", "/robot_description", LATCHED)
             teller(peer, -0.5)

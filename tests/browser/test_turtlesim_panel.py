@@ -145,7 +145,7 @@ def sv4_a_second_turtle_appears(turtles: Turtles) -> None:
     button = turtles.panel.get_by_role("button", name="New turtle")
     wait_until("it is served", button.is_enabled)
     assert button.evaluate(_FOCUSED_WITH_HINT) == "application"
-    turtles.panel.get_by_text("Click where the new turtle is to stand").wait_for()
+    turtles.panel.get_by_text("Click where the new turtle should appear").wait_for()
     turtles.page.keyboard.press("Enter")
     second = turtles.panel.get_by_role("button", name=re.compile("^turtle2"))
     second.get_by_text("x 5.54 · y 5.54").wait_for()

@@ -61,7 +61,7 @@ def look_as_a_viewer(browser: Browser, studio: RunningStudio, radii: list[str]) 
     given = panel(viewer).get_by_role("row", name="wheel_radius property")
     given.wait_for()
     wait_until("both", lambda: given.get_by_role("cell").all_inner_texts() == radii)
-    switches = panel(viewer).get_by_title("Only who has control can switch")
+    switches = panel(viewer).get_by_title("Only whoever has control can switch")
     assert [one.is_disabled() for one in switches.all()] == [True, True]
     for name in ("Save as variant…", "Over", "End the comparison"):
         assert panel(viewer).get_by_role("button", name=name).is_disabled()
@@ -72,7 +72,7 @@ def look_as_a_viewer(browser: Browser, studio: RunningStudio, radii: list[str]) 
 def compare(tab: StudioPage, was: str, now: str) -> None:
     """Compare the robot of the file with the variant: what was given, and one wheel's radius."""
     panel(tab).get_by_role("button", name="More for Big wheels").click()
-    tab.page.get_by_role("menuitem", name="Compare with the present robot").click()
+    tab.page.get_by_role("menuitem", name="Compare with the current robot").click()
     given = panel(tab).get_by_role("row", name="wheel_radius property")
     given.wait_for()
     wait_until("both", lambda: given.get_by_role("cell").all_inner_texts() == [was, now])

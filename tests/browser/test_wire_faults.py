@@ -185,10 +185,10 @@ def a_publisher_falls_silent(tab: StudioPage, robot: FaultyRobot) -> None:
     said = echo(tab, "/count")
     wait_until("its count", lambda: newest(tab) > 0)
     robot.fall_silent()
-    said.get_by_text("Nothing came for").wait_for()
+    said.get_by_text("No message for").wait_for()
     wait_until("its row says so", lambda: "silent" in row(tab, "/count").inner_text())
     robot.speak_again()
-    said.get_by_text("Nothing came for").wait_for(state="detached")
+    said.get_by_text("No message for").wait_for(state="detached")
 
 
 def a_type_is_unknown_until_somebody_adds_it(tab: StudioPage) -> None:
@@ -222,7 +222,7 @@ def a_goal_is_rejected(tab: StudioPage) -> None:
     actions.get_by_role("button", name="/fibonacci").click()
     actions.get_by_role("textbox", name="order").fill(str(UNWANTED))
     actions.get_by_role("button", name="Send goal").click()
-    actions.get_by_role("alert").filter(has_text="does not take this goal").wait_for()
+    actions.get_by_role("alert").filter(has_text="does not accept this goal").wait_for()
 
 
 def a_tab_sleeps(tab: StudioPage, robot: FaultyRobot) -> None:

@@ -68,8 +68,8 @@ def look_around(window: Locator, alone: str, humble: str) -> None:
     before = address.input_value()
     for place, said, remedy in (
         (free_endpoint(), "No router answers at", "ros2 run rmw_zenoh_cpp rmw_zenohd"),
-        (alone, "is there, but no node is", "export RMW_IMPLEMENTATION=rmw_zenoh_cpp"),
-        (humble, "neither side receives the other's", "Speak humble"),
+        (alone, "is running, but there are no nodes", "export RMW_IMPLEMENTATION=rmw_zenoh_cpp"),
+        (humble, "neither side receives the other's", "Switch to humble"),
     ):
         address.fill(place)
         domain.fill("0")
@@ -84,10 +84,10 @@ def look_around(window: Locator, alone: str, humble: str) -> None:
 def join_where_nodes_are(tab: StudioPage, alone: str, humble: str) -> None:
     tab.page.locator(".ros-status").click()
     window = tab.page.get_by_role("dialog", name="ROS 2")
-    window.get_by_text("No node is in domain 41").wait_for()
+    window.get_by_text("There are no nodes in domain 41").wait_for()
     look_around(window, alone, humble)
     window.get_by_role("button", name="3 nodes in domain 0: switch").click()
-    window.get_by_text("3 nodes are there, in domain 0").wait_for()
+    window.get_by_text("3 nodes are running in domain 0").wait_for()
     assert window.get_by_role("spinbutton", name="Domain").input_value() == "0"
     tab.page.keyboard.press("Escape")
 
@@ -95,9 +95,9 @@ def join_where_nodes_are(tab: StudioPage, alone: str, humble: str) -> None:
 def read_the_log(tab: StudioPage) -> None:
     log = panel(tab, "log")
     log.get_by_role("button", name="a word of warning").wait_for()
-    log.get_by_label("Least level").select_option("error")
-    log.get_by_text("does not fit the filter").wait_for()
-    log.get_by_label("Least level").select_option("info")
+    log.get_by_label("Minimum level").select_option("error")
+    log.get_by_text("does not match the filter").wait_for()
+    log.get_by_label("Minimum level").select_option("info")
     log.get_by_role("searchbox").fill("warning")
     log.get_by_role("button", name="a word of warning").click()
     assert "a word of warning" in log.get_by_role("region", name="The whole line").inner_text()
@@ -125,10 +125,10 @@ def give_a_type(tab: StudioPage) -> None:
     types.get_by_role("button", name="Add a type").click()
     types.get_by_label("Name").fill("my_robot_interfaces/msg/CustomTelemetry")
     types.get_by_label("Text").fill("this is no type !")
-    types.get_by_role("button", name="Take it").click()
+    types.get_by_role("button", name="Add it").click()
     types.get_by_role("alert").wait_for()
     types.get_by_label("Text").fill("string robot_name\nfloat32 battery_percent\n")
-    types.get_by_role("button", name="Take it").click()
+    types.get_by_role("button", name="Add it").click()
     types.get_by_role("heading", name="my_robot_interfaces/msg/CustomTelemetry").wait_for()
     assert "RIHS01_" in types.inner_text()
 
@@ -139,12 +139,12 @@ def use_a_dropped_type(tab: StudioPage) -> None:
     types = panel(tab, "interfaces")
     wait_until("a name is proposed", lambda: types.get_by_label("Name").count() == 1)
     assert types.get_by_label("Name").input_value() == "my_interfaces/msg/Level"
-    types.get_by_role("button", name="Take it").click()
+    types.get_by_role("button", name="Add it").click()
     types.get_by_role("heading", name="my_interfaces/msg/Level").wait_for()
     tab.page.evaluate(SHOW_PANEL, "publish")
     out = tab.page.locator("section.operations[aria-label='Publish']")
     out.get_by_label("Topic", exact=True).fill("/tank")
-    out.get_by_label("Type of the messages").fill("my_interfaces/msg/Level")
+    out.get_by_label("Message type").fill("my_interfaces/msg/Level")
     out.get_by_role("button", name="Take", exact=True).click()
     out.get_by_label("litres").fill("7.25")
     out.get_by_role("button", name="Once a second").click()
@@ -160,10 +160,10 @@ def listen_otherwise(tab: StudioPage) -> None:
     tab.page.evaluate(_PLOT, ["/tank", ".litres"])
     plots = panel(tab, "plot")
     plots.get_by_role("listitem").get_by_text("7.25").wait_for()
-    plots.get_by_role("button", name="How its topics are heard").click()
-    tab.page.get_by_role("menuitemradio", name="With what was said before").click()
+    plots.get_by_role("button", name="Quality of service of its subscriptions").click()
+    tab.page.get_by_role("menuitemradio", name="Transient local").click()
     topics = panel(tab, "topics")
-    topics.get_by_role("button", name="Who publishes and subscribes").click()
+    topics.get_by_role("button", name="Publishers, subscribers").click()
     ends = topics.get_by_role("listitem").filter(has_text="/studio")
     ends.get_by_text("transient local · keep last 4096").wait_for()
 

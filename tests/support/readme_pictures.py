@@ -94,7 +94,7 @@ def compare(tab: StudioPage) -> None:
     save_variant(tab, "Tall grass", "large wheels, a high mast")
     panel = tab.page.get_by_role("region", name="Variants")
     panel.get_by_role("button", name="More for Road").click()
-    tab.page.get_by_role("menuitem", name="Compare with the present robot").click()
+    tab.page.get_by_role("menuitem", name="Compare with the current robot").click()
     panel.get_by_role("row", name="wheel_radius property").wait_for()
     panel.get_by_role("button", exact=True, name="Over").click()
     tab.page.get_by_role("searchbox", name="Filter properties").fill("")
