@@ -8,11 +8,11 @@ import pytest
 
 from studio.live.topics.request import Request
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from tests.support.topic_worlds import BOOL, STRING, MemoryWorld, text_of, zenoh_world
+from tests.support.topic_worlds import BOOL, STRING, text_of
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterable
+    from collections.abc import Iterable
 
     from studio.live.topics.subscription import Subscription
     from studio.ros.node.samples import RawSample
@@ -25,15 +25,6 @@ BEST_EFFORT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 def latched(depth: int = 1) -> QoSProfile:
     return QoSProfile(depth=depth, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-@pytest.fixture(params=["memory", "zenoh"])
-def world(request: pytest.FixtureRequest) -> Generator[World]:
-    if request.param == "memory":
-        yield MemoryWorld()
-    else:
-        with zenoh_world(request.getfixturevalue("endpoint")) as made:
-            yield made
 
 
 def subscribe(world: World, topic: str, **wanted: bool | int | None) -> Subscription:

@@ -8,24 +8,14 @@ import pytest
 
 from studio.live.topics import topic_rates
 from studio.ros.qos import QoSProfile
-from tests.support.topic_worlds import MemoryWorld, zenoh_world
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable
 
     from tests.support.topic_worlds import Speaker, World
 
 pytestmark = pytest.mark.network
-
-
-@pytest.fixture(params=["memory", "zenoh"])
-def world(request: pytest.FixtureRequest) -> Generator[World]:
-    if request.param == "memory":
-        yield MemoryWorld()
-    else:
-        with zenoh_world(request.getfixturevalue("endpoint")) as made:
-            yield made
 
 
 def publishers(world: World, *topics: str) -> list[Speaker]:
