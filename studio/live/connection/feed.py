@@ -42,17 +42,17 @@ class MovesJoints(Protocol):
         ...
 
     def lead(self, leader: str) -> None:
-        """Let something else move them from now on, by `follow`; empty: nobody."""
+        """Let `leader` move the joints from now on, by `follow`; an empty name ends that."""
         ...
 
     def follow(self, positions: Mapping[str, float]) -> None:
-        """Move them, rad or m by name, to where their leader says they are."""
+        """Move the joints to the positions of the leader, rad or m by name."""
         ...
 
 
 @dataclass(slots=True)
 class _Described:
-    """Where the description comes from, and what was wrong with the last one."""
+    """The source of the description, and what was wrong with the last one received."""
 
     description: ReceivedDescription
     data_folder: Path
@@ -60,14 +60,14 @@ class _Described:
 
 
 class RobotFeed:
-    """Carries out what is asked about one document and the wire.
+    """Carries out the commands that connect one document's robot with ROS.
 
     Args:
         model: The document's robot.
         motion: Moves its joints.
         expansion: Gives the last good run; None before the first.
         wire: The connection.
-        audience: Is told what goes out and what comes in.
+        audience: Is sent the state of the feed when it changes.
     """
 
     def __init__(
@@ -91,14 +91,14 @@ class RobotFeed:
         self._closed = False
 
     def events(self) -> Iterable[WireFeed]:
-        """What a newcomer is told."""
+        """Return the events for a new page."""
         yield self._state()
 
     async def choose(self, source: JointSource) -> None:
-        """Let one source move the joints, and no other.
+        """Choose the one source that moves the joints.
 
         Raises:
-            StudioError: There is no way to the wire.
+            StudioError: There is no connection.
         """
         async with self._switching():
             if source == "joint_states" or source == "tf":  # noqa: PLR1714 - it narrows the type
@@ -139,7 +139,7 @@ class RobotFeed:
             self._tell()
 
     async def close(self) -> None:
-        """Say nothing more, and hear nothing; what is being switched on is ended by itself."""
+        """Stop sending and receiving; what is being started ends by itself."""
         self._closed = True
         await self._end()
 
@@ -187,10 +187,10 @@ class RobotFeed:
         await self._sending.pause_joints(paused=False)
 
     def _demand_other_description(self) -> None:
-        """To tell a description where it comes from would be an echo.
+        """Refuse to publish a description that was itself received from ROS.
 
         Raises:
-            CommandError: It comes from the wire.
+            CommandError: The description was received.
         """
         if self._described is not None:
             raise CommandError(
@@ -217,7 +217,7 @@ class RobotFeed:
                 self._take()
                 await self._take_description()
                 await self._sending.step(began_s)
-            except Exception:  # noqa: BLE001 - one robot that cannot be told must not end the rest
+            except Exception:  # noqa: BLE001 - one robot that fails must not end the rest
                 _log.exception("A tick of the wire failed.")
             if began_s - self._told_s >= _TELL_EVERY_S:
                 self._told_s = began_s
@@ -225,7 +225,7 @@ class RobotFeed:
             await asyncio.sleep(max(0.0, began_s + TICK_S - loop.time()))
 
     def _take(self) -> None:
-        """Move the joints to where the wire says they are."""
+        """Move the joints to the newest positions received."""
         following, model = self._following, self._model
         if following is None:
             return

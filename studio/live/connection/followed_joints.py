@@ -32,7 +32,7 @@ SILENT_AFTER_S: Final = 2.0
 _STRANGERS_KEPT: Final = 12
 _RATE_OVER_S: Final = 1.0
 _ARRIVALS_KEPT: Final = 2000
-"""More in a second than this are told as this."""
+"""A higher rate is reported as this one."""
 
 
 class NewestPositions:
@@ -52,7 +52,7 @@ class NewestPositions:
         self._last_s: float | None = None
         self._newest_stamp_ns = 0
         self.stamp_ns = 0
-        """When the source measured what was collected last, by its own clock; 0: it did not say."""
+        """Stamp of the positions last collected, by their source's clock; 0: there was none."""
 
     def fit(self, movable: Iterable[str]) -> None:
         """Take the positions of other joints from now on."""
@@ -123,7 +123,7 @@ class FollowedJoints:
 
     @property
     def stamp_ns(self) -> int:
-        """When what was collected last was measured, as a joint state says; 0: it did not."""
+        """Stamp of the positions last collected, from their joint state; 0: it had none."""
         return self._newest.stamp_ns
 
     def _take_state(self, sample: RawSample) -> None:

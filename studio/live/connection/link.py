@@ -1,6 +1,6 @@
-"""WireLink: the connection itself, its nodes, and the thread that carries out their work.
+"""WireLink: an open connection, its nodes, and the thread that does their work.
 
-It imports Zenoh, by way of ros, so it is imported when the first connection is made.
+It imports Zenoh (through `ros`), so it is imported when the first connection is made.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ _STRING: Final = "std_msgs/msg/String"
 class WireLink:
     """An open connection; made and closed in a thread, for both wait.
 
-    `changed` is called from other threads whenever the connection or who is there changed.
+    `changed` is called from other threads whenever the connection or the graph changed.
 
     Raises:
-        WireError: There is no way to a router; the sentence says why.
+        WireError: The router cannot be reached; the sentence says why.
     """
 
     def __init__(self, choice: WireChoice, changed: Callable[[], None]) -> None:
@@ -74,12 +74,12 @@ class WireLink:
 
     @property
     def settings(self) -> WireSettings:
-        """How it was reached, for others who are to meet it."""
+        """The settings of the connection, for other nodes that are to use the same router."""
         return self._wire.settings
 
     @property
     def endpoint(self) -> str:
-        """Where the router is."""
+        """The address of the router."""
         return ", ".join(self._wire.settings.connect)
 
     @property
@@ -89,12 +89,12 @@ class WireLink:
 
     @property
     def distro(self) -> str:
-        """Whose wire is spoken."""
+        """The ROS distribution whose types and hashes are used."""
         return self._wire.profile.distro
 
     @property
     def zid(self) -> str:
-        """Of the session, by which its own nodes are known."""
+        """The Zenoh id of the session, by which the studio's own nodes are recognised."""
         return self._wire.zid
 
     @property
@@ -104,12 +104,12 @@ class WireLink:
 
     @property
     def types(self) -> TypeLibrary:
-        """All types that are known on this wire."""
+        """All types known on this connection."""
         return self._wire.types
 
     @property
     def graph(self) -> Graph:
-        """Who is there."""
+        """The graph of nodes and endpoints."""
         return self._graph
 
     def node_names(self) -> list[str]:
@@ -122,7 +122,7 @@ class WireLink:
         return [one.node.path for one in found if one.node.zid != self._wire.zid]
 
     def find_robots(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Topics that tell a robot description, and nodes that may have one as a parameter."""
+        """Return topics that carry a robot description, and nodes that may have a parameter of it."""
         self._graph.settle()
         topics = [
             name
@@ -134,10 +134,10 @@ class WireLink:
         return tuple(sorted(topics, key=len)), tuple(nodes)
 
     def robot_out(self) -> RobotOut:
-        """Begin to tell a robot.
+        """Start to publish a robot.
 
         Raises:
-            CommandError: Another document tells one.
+            CommandError: Another document publishes one.
         """
         self._take("robot_state_publisher", "its robot")
         return RobotOut(
@@ -147,7 +147,7 @@ class WireLink:
         )
 
     def joints_out(self) -> JointsOut:
-        """Begin to tell where joints stand; errors as for `robot_out`."""
+        """Start to publish joint states; errors as for `robot_out`."""
         self._take("joint_state_publisher", "its joints")
         return JointsOut(
             self._new_node("joint_state_publisher"),
@@ -191,12 +191,12 @@ class WireLink:
         return RawSubscription(self._node, topic, *named, fit.qos, stream.take)
 
     def measure(self, topic: str, kept_s: float) -> TopicStatistics:
-        """Begin to count what comes on a topic, whatever its type, until nobody asked for so long.
+        """Count what comes on a topic of any type, until nobody asked for `kept_s`.
 
-        Nobody sees it as a subscription.
+        The graph does not list it as a subscription.
 
         Raises:
-            RosNameError: No topic is named so.
+            RosNameError: The name of the topic is not valid.
         """
         return TopicStatistics(self._context, topic, kept_s)
 

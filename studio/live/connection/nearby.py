@@ -1,4 +1,4 @@
-"""Nearby: how many nodes the router of this machine has, looked at while nobody has connected."""
+"""Nearby: counts the nodes at this machine's router while the studio is not connected."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ if TYPE_CHECKING:
     from studio.settings import WireChoice
 
 _PAUSE_S: Final = 5.0
-"""Between two looks."""
+"""Between two checks."""
 
 
 class Nearby:
-    """Looks again and again while `is_wanted`, and calls `changed` when the number is another.
+    """Checks repeatedly while `is_wanted`, and calls `changed` when the number changed.
 
-    Only at a router of this machine: elsewhere nobody asked to be looked at. Where none answers,
-    one connection a look is all that it costs, and Zenoh is not imported.
+    Only the router of this machine is checked, since nobody asked to reach another. Where none
+    answers, a check costs one TCP connection, and Zenoh is not imported.
     """
 
     def __init__(
@@ -34,7 +34,7 @@ class Nearby:
         self._choice, self._is_wanted, self._changed = choice, is_wanted, changed
         self._looking: asyncio.Task[None] | None = None
         self.node_count = 0
-        """Of the domain that would be joined; 0 where nobody looks."""
+        """In the domain that would be joined; 0 while nothing is checked."""
 
     def look(self) -> None:
         """Look from now on, if that is wanted and is not done yet."""
@@ -60,9 +60,9 @@ class Nearby:
 
 
 def nodes_nearby(choice: WireChoice) -> int:
-    """Count the nodes at the router of this machine; 0 where none is looked for or answers.
+    """Count the nodes at this machine's router; 0 if it does not answer or is not wanted.
 
-    Lasts some seconds at most, so in a thread.
+    Takes some seconds at most: call it in a thread.
     """
     try:
         places = [parse_endpoint(one) for one in planned_wire(choice).connect]

@@ -37,7 +37,7 @@ def take_types(location: Location, library: TypeLibrary | None = None) -> tuple[
         from studio.ros.types.files import texts_of_package  # noqa: PLC0415
 
         try:
-            # Only what is new: whoever holds a class of a type that is taken again loses it.
+            # Only what is new: a class kept elsewhere goes stale when its type is added again.
             faults = (library or shared_types()).add_sound_texts(texts_of_package(folder, name))
         except StudioError as error:
             found.append(_problem(name, folder, error))

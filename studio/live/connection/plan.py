@@ -1,4 +1,4 @@
-"""What was chosen and what the environment of ROS says of the wire, before anything is opened."""
+"""The settings of a connection: what was chosen, and ROS's environment for the rest."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _USUAL_PORT = 7447
 
 
 def planned_wire(choice: WireChoice) -> WireSettings:
-    """Where the router is looked for, in which domain, and what is spoken there.
+    """Return the router, the domain and the distribution to use.
 
     Raises:
-        WireSettingsError: The environment says what cannot be.
+        WireSettingsError: A variable of the environment has no valid value.
     """
     named = choice.distro or os.environ.get("ROS_DISTRO", "").lower()
     profile = PROFILES.get(named, JAZZY)
@@ -33,15 +33,15 @@ def planned_wire(choice: WireChoice) -> WireSettings:
 
 
 def chosen_wire(before: WireChoice, place: WirePlace) -> WireChoice:
-    """What was chosen before, with what a person chose on the page in its stead.
+    """Return `before` with what a person chose on the page in its place.
 
     Raises:
-        WireSettingsError: The address is none.
+        WireSettingsError: The address is not valid.
     """
     chosen = before
     if place.address.strip():
         address = _endpoint(place.address.strip())
-        # Wherever a router was to be started before: it is this one that is looked for now.
+        # Even if a router was to be started before: now only this one is used.
         router = "off" if before.router == "off" else "auto"
         chosen = replace(chosen, connect=(address,), router=router)
     if place.domain is not None:

@@ -19,7 +19,7 @@ _EVENTS: Final = Request("/parameter_events", (_EVENT,), depth=1_000, as_known_h
 
 
 class ReadsParameters(Protocol):
-    """What is needed of a connection."""
+    """The part of a connection that reads parameters."""
 
     def parameter(self, node: str, name: str) -> str:
         """Return the value of a parameter that is a text; waits, and raises a StudioError."""
@@ -27,7 +27,7 @@ class ReadsParameters(Protocol):
 
 
 class ParameterPlace(NamedTuple):
-    """Where a parameter is."""
+    """A parameter of a node."""
 
     node: str
     name: str

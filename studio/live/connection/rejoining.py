@@ -23,18 +23,18 @@ if TYPE_CHECKING:
 FILE: Final = "connection.json"
 _LIMIT_BYTES: Final = 64 << 10
 _PAUSE_S: Final = 2.0
-"""Between two looks for a router that is away."""
+"""Between two attempts to reach a router that is away."""
 
 _log = logging.getLogger(__name__)
 
 
 class KeptConnection(msgspec.Struct, frozen=True, omit_defaults=True):
-    """Where the studio was connected when it ended."""
+    """The connection that the studio had when it ended."""
 
     started_for: str = ""
-    """Where the command line had it look; one that looks elsewhere is not connected by itself."""
+    """The address given on the command line; with another one, this is not connected again."""
     connect: tuple[str, ...] = ()
-    """As in a WireChoice, with domain and distribution: a person may have chosen them."""
+    """As in a WireChoice, like domain and distribution: a person may have chosen them."""
     domain: int | None = None
     distro: str = ""
     had_own_router: bool = False
@@ -111,7 +111,7 @@ class Rejoining:
                 _log.warning("The connection is not kept in %s: %s.", self._path, error.strerror)
 
     def _read(self) -> KeptConnection:
-        """What was kept; nothing, if nothing was or it cannot be read."""
+        """Return the connection kept; an empty one if there is none or the file cannot be read."""
         with suppress(OSError, msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
             if self._path.stat().st_size <= _LIMIT_BYTES:
                 return msgspec.json.decode(self._path.read_bytes(), type=KeptConnection)
@@ -119,13 +119,13 @@ class Rejoining:
 
 
 def _chosen_again(now: WireChoice, kept: KeptConnection) -> WireChoice:
-    """What was chosen then; whether a router may be started is what the command line says now."""
+    """Return what was chosen then; the command line now decides whether to start a router."""
     router = now.router if kept.connect == now.connect or now.router == "off" else "auto"
     return WireChoice(router, kept.connect, kept.domain, kept.distro)
 
 
 def place_of(choice: WireChoice) -> str:
-    """Where a connection is looked for, as one word; empty where the settings are wrong."""
+    """Return the address and domain of a choice as one text; empty if the settings are invalid."""
     try:
         planned = planned_wire(choice)
     except StudioError:

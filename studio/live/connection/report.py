@@ -1,6 +1,6 @@
-"""What there is at a place on the wire, and why nobody is met there: looked at, never joined.
+"""Reports what there is at a router and why nodes are not seen, without joining the graph.
 
-Imports Zenoh, by way of ros: it is imported when somebody asks.
+It imports Zenoh (through `ros`), so it is imported when a report is asked for.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ _BRIDGES: Final = "@/*/@ros2_lv/**"
 """Tokens of zenoh-bridge-ros2dds, whose keys are others than rmw_zenoh's."""
 _SHOWN_MAX: Final = 20
 _TYPES_MAX: Final = 400
-"""So many types are compared with every distribution: that is slow, and fewer tell as much."""
+"""At most so many types are compared with every distribution: it is slow, and they suffice."""
 
 
 @dataclass(slots=True)
 class Census:
-    """Who is there, by their tokens.
+    """Who is there, by their liveliness tokens.
 
     Attributes:
-        nodes: How many of others each domain has.
-        endpoints: Of others in the domain that is looked at, one for each form of a type.
-        has_bridge: Somebody bridges to DDS there.
-        unseen: How many processes publish in that domain, of which no node is seen.
+        nodes: Number of other nodes by domain.
+        endpoints: Of others in the domain examined, one for each form of a type.
+        has_bridge: Whether there is a bridge to DDS.
+        unseen: Number of processes that publish in that domain and have no node in the graph.
     """
 
     nodes: Counter[int] = field(default_factory=Counter[int])
@@ -75,15 +75,15 @@ class Census:
 
 
 def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireReport:
-    """Look what there is at a place; lasts some seconds at most, so in a thread.
+    """Report what there is at a place; takes some seconds, so call it in a thread.
 
     Args:
-        choice: The place; whatever it says of starting a router, none is.
+        choice: The place; a router is never started.
         own: Sessions of the studio, whose nodes do not count.
-        request: That is answered.
+        request: The number of the request that is answered.
 
     Raises:
-        WireSettingsError: The settings cannot be.
+        WireSettingsError: The settings are not valid.
     """
     settings = planned_wire(choice)
     answer = _answer_at(settings)
@@ -113,7 +113,7 @@ def count(wire: WireSession, own: Collection[str]) -> Census:
 
 
 def seen_distros(endpoints: Iterable[GraphEndpoint], hashes: DistroHashes) -> tuple[str, ...]:
-    """Name the distributions whose types most of these have; none where nothing tells."""
+    """Return the distributions that most of these types match; empty if nothing decides it."""
     forms = [(one.type_name, one.type_hash) for one in endpoints]
     fitting = {
         distro: sum(hashes(distro, name) == form for name, form in forms) for distro in PROFILES

@@ -1,4 +1,4 @@
-"""Commands about ROS that concern no document yet: join, leave, look around, open a robot."""
+"""Commands about ROS that concern no document yet: join, leave, report, open a robot."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from studio.packages.workspace import Location
 
 _FIRST_PATIENCE_S = 5.0
-"""For a description that is latched: it comes at once, or nobody tells one."""
+"""A latched description comes at once, or there is none."""
 
 
 class LetsGo(Protocol):
@@ -50,12 +50,12 @@ class OpenRobot(Protocol):
 
     @property
     def location(self) -> Location:
-        """Where its files lie."""
+        """The folders of its files."""
         ...
 
     @property
     def feed(self) -> RobotFeed:
-        """Its robot on the wire."""
+        """Connects its robot with ROS."""
         ...
 
 
@@ -64,7 +64,7 @@ class OpenRobots(Protocol):
 
     @property
     def documents(self) -> Mapping[str, OpenRobot]:
-        """By their ids."""
+        """The open documents by id."""
         ...
 
     async def open_at(
@@ -95,7 +95,7 @@ class ConnectionCommands:
         """
         chosen = chosen_wire(self._wire.choice, command)
         if chosen != self._wire.choice:
-            # First, so that whoever asks for a connection meanwhile gets the new one.
+            # First, so that a connection asked for meanwhile is the new one.
             self._wire.choose(chosen)
             await self.disconnect()
         await self._wire.link()
@@ -105,7 +105,7 @@ class ConnectionCommands:
         return await asyncio.to_thread(self._examine, command)
 
     async def find(self, command: FindWireRobots) -> WireRobots:
-        """Where robots are described: topics, and parameters of nodes."""
+        """Return the places that describe a robot: topics, and parameters of nodes."""
         link = await self._wire.link()
         topics, nodes = await asyncio.to_thread(link.find_robots)
         return WireRobots(request=command.request, topics=topics, nodes=nodes)

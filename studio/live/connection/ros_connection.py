@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 _NODES_SHOWN: Final = 200
 _PAUSE_S: Final = 0.25
-"""Between two looks at who is there."""
+"""Between two checks of the graph."""
 
 _CLOSING: Final = "The studio is closing: nothing is connected any more."
 _OPENING_PATIENCE_S: Final = 0.5
@@ -33,9 +33,9 @@ _Phase: TypeAlias = Literal["off", "connecting", "failed"]
 
 
 class RosConnection:
-    """Holds the connection for all documents and tells every page how it stands.
+    """Holds the connection for all documents, and sends every page its state.
 
-    Nothing of Zenoh is imported before the first `link`: who needs no ROS does not pay for it.
+    Zenoh is imported with the first `link` only: users without ROS do not pay for it.
     """
 
     def __init__(self, choice: WireChoice) -> None:
@@ -52,9 +52,9 @@ class RosConnection:
         self.topics = ZenohSource()
         """The topics of whatever system it is connected with."""
         self.on_link: Callable[[WireLink | None], None] = _nobody
-        """Told of each connection that is made, and with None that it was ended on demand."""
+        """Called with each connection that is made, and with None when one was ended on demand."""
         self.on_change: Callable[[], None] = _nothing
-        """Told whenever the connection, or who is there on it, may have changed."""
+        """Called whenever the connection or the graph may have changed."""
         self._turn = asyncio.Lock()
         """A connection is made once the one before is ended: their router has one place."""
 
@@ -75,7 +75,7 @@ class RosConnection:
 
     @property
     def choice(self) -> WireChoice:
-        """Where a connection is looked for."""
+        """The connection to make."""
         return self._choice
 
     def choose(self, choice: WireChoice) -> None:
@@ -172,7 +172,7 @@ class RosConnection:
         if link is not None:
             # Of thousands of nodes it takes its time.
             seen = await asyncio.to_thread(_state_with, link)
-            if link is self._link:  # else it is told how things stood before
+            if link is self._link:  # else the state is of an earlier connection
                 self._tell(seen)
 
     def _tell(self, seen: WireState | None = None) -> None:
@@ -184,7 +184,7 @@ class RosConnection:
         return self._state_without() if self._link is None else _state_with(self._link)
 
     def _state_without(self) -> WireState:
-        """How it stands while there is no connection; what the environment says may be wrong."""
+        """Return the state while there is no connection; the environment may be invalid."""
         trouble, endpoint, domain, distro = self._trouble, "", 0, ""
         try:
             planned = planned_wire(self._choice)
@@ -206,15 +206,15 @@ class RosConnection:
 
 
 def _nothing() -> None:
-    """Do nothing: nobody wants to know of changes."""
+    """Do nothing: the default of `on_change`."""
 
 
 def _nobody(_link: WireLink | None) -> None:
-    """Do nothing: nobody keeps where there is a connection."""
+    """Do nothing: the default of `on_link`."""
 
 
 def _state_with(link: WireLink) -> WireState:
-    """How a connection stands; any thread."""
+    """Return the state of a connection; thread-safe."""
     is_connected = link.is_connected
     nodes = link.node_names() if is_connected else []
     return WireState(

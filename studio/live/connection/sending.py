@@ -1,4 +1,4 @@
-"""RobotSending: a document's robot and its joints, told on the wire as often as is due."""
+"""RobotSending: publishes a document's robot and its joints, at a limited rate."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 MOVING_PERIOD_S: Final = 1 / 30
 RESTING_PERIOD_S: Final = 1 / 16
-"""Between two messages of joints that stand still: they come at more than 10 Hz."""
+"""Between two messages of joints at rest: more than 10 Hz."""
 _PAUSE_SHARE: Final = 4
-"""A robot so large that telling it takes long is told more seldom, by this much of that time."""
+"""A period lasts at least this many times as long as publishing takes."""
 _RIVALS_SHOWN: Final = 3
 DESCRIPTION_PERIOD_S: Final = 0.5
-"""Between two descriptions while somebody drags."""
+"""Between two descriptions during a drag."""
 
 
 class SentRobot(PosedRobot, Protocol):
@@ -35,7 +35,7 @@ class SentRobot(PosedRobot, Protocol):
 
     @property
     def assembly(self) -> Assembly:
-        """Its elements as they were written."""
+        """The elements of its URDF, as written."""
         ...
 
 
@@ -52,19 +52,19 @@ class RobotSending:
         self._robot: RobotOut | None = None
         self._joints: JointsOut | None = None
         self._joints_link: WireLink | None = None
-        """By which joints are to be told; None: they are not."""
+        """The connection on which joints are published; None: on none."""
         self._paused = False
         self._description: Expansion | None = None
-        """The one that was told last."""
+        """The one published last."""
         self._description_s = -DESCRIPTION_PERIOD_S
         self._values: Floats | None = None
-        """The positions that were told last."""
+        """The positions published last."""
         self._values_s = -RESTING_PERIOD_S
         self._stamp_ns = self._told_stamp_ns = 0
-        """Of the positions, as whoever measured them told it; 0: they are of now."""
+        """Stamps of the positions, from the joint states received; 0: the present time."""
         self._took_s = 0.0
         self._turn = asyncio.Lock()
-        """Nothing is ended while it is in use."""
+        """Held while something is published, so that it is not closed meanwhile."""
 
     @property
     def sends_robot(self) -> bool:
@@ -104,9 +104,9 @@ class RobotSending:
         await self._fit_joints()
 
     def measured(self, stamp_ns: int) -> None:
-        """The joints stand where somebody measured them, at this time of theirs; 0: they do not.
+        """Use `stamp_ns`, of a measured joint state, as the stamp of the positions; 0: the present.
 
-        TF then has that stamp, once: told again it would be refused as repeated.
+        TF gets that stamp once: published again it would be refused as repeated data.
         """
         self._stamp_ns = stamp_ns
 

@@ -36,7 +36,7 @@ class RobotOut:
         self._publisher = RobotStatePublisher(node)
         self.place = self._publisher.place
         self._turn = threading.Lock()
-        """Of who edits the robot and who sets the prefix."""
+        """Held while the robot or the prefix changes."""
         self._told: tuple[str, Robot, Kinematics] | None = None
         node.declare_parameter(_DESCRIPTION, "")
         node.declare_parameter(_PREFIX, "")

@@ -1,4 +1,4 @@
-"""What a topic carries: the types of those who publish it, and the display that shows them."""
+"""What a topic carries: the types of its publishers, and the display that shows them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 def carried_types(
     publishers: Iterable[GraphEndpoint], subscribers: Iterable[GraphEndpoint]
 ) -> tuple[str, ...]:
-    """What is published, in the order of the alphabet; what is wished for when nobody publishes.
+    """Return the types published, sorted; the types subscribed when nobody publishes.
 
-    Whoever subscribes with a wrong type hears nothing, so it says nothing of the topic.
+    A subscription with the wrong type receives nothing, so its type does not count.
     """
     types = {one.type_name for one in publishers} or {one.type_name for one in subscribers}
     return tuple(sorted(types))

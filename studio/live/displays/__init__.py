@@ -1,1 +1,1 @@
-"""What is drawn live in a document's 3D view: displays of topics, and frames from TF."""
+"""Displays of topics, and frames from TF, drawn live in a document's 3D view."""

@@ -1,4 +1,4 @@
-"""The kinds of displays as the page is told of them."""
+"""The kinds of displays as the page receives them."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 @cache
 def kind_views() -> tuple[DisplayKindView, ...]:
-    """All kinds, in the order of the alphabet."""
+    """Return all kinds, sorted by name."""
     return tuple(_kind_view(one) for one in sorted(DISPLAYS, key=lambda one: one.KIND.lower()))
 
 
 def property_view(one: Property) -> PropertyView:
-    """One property, as it is set."""
+    """Return one property and its settings."""
     when, when_values = one.when or ("", ())
     return PropertyView(
         name=one.name,

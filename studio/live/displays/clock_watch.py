@@ -20,17 +20,17 @@ CLOCK: Final = Request(
     "/clock", (_TYPE,), newest_only=True, latched=False, usually=(False, False), as_known_here=True
 )
 _JITTER_NS: Final = 100_000_000
-"""Who tells the time from several threads may be that much out of order."""
+"""A publisher with several threads may send times that much out of order."""
 _TELLERS_MAX: Final = 16
 
 
 class ClockWatch:
-    """Takes the messages of /clock, in one thread.
+    """Takes the messages of /clock, in one thread, and notices when time jumps back.
 
-    Each publisher is compared with itself: two that tell different times never jump.
+    Each publisher is compared with itself: two that publish different times do not jump.
 
     Args:
-        jumped: Is called with the new time and the one before, ns, when one went back.
+        jumped: Called with the new time and the one before, ns, when time went back.
     """
 
     def __init__(self, jumped: Callable[[int, int], None]) -> None:

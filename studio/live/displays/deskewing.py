@@ -71,15 +71,15 @@ def _deskewed(shape: Shape, sweep: Sweep, motion: Row) -> Shape:
 def deskewed_points(
     points_m: NDArray[np.float32], shares: NDArray[np.float32], begin_from_end: Row
 ) -> NDArray[np.float32]:
-    """Points as seen from where the sensor was in the beginning.
+    """Return points as seen from the sensor's first pose.
 
-    As laser_geometry: between both ends the sensor moves along a line and turns evenly about one
-    axis, the shorter way.
+    As laser_geometry: the sensor moves along a line, and turns evenly about one axis by the
+    smaller angle.
 
     Args:
-        points_m: Shape (N, 3), each as the sensor saw it at its own time.
-        shares: Shape (N,), of the way: 0 in the beginning, 1 in the end.
-        begin_from_end: The sensor's pose in the end, seen from its pose in the beginning.
+        points_m: Shape (N, 3), each as seen at its own time.
+        shares: Shape (N,), time of each point: 0 at the begin, 1 at the end.
+        begin_from_end: Pose of the sensor at the end, in its frame at the begin.
     """
     quaternion = np.array(begin_from_end[:4])
     if quaternion[0] < 0.0:

@@ -1,4 +1,4 @@
-"""Where the displays of a document are kept: one small file per entry in the data folder."""
+"""Keeps the displays of a document: one small file per entry in the data folder."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _log = logging.getLogger(__name__)
 
 
 class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
-    """What is kept; the order is that of the list."""
+    """The content of the file; displays in the order of the list."""
 
     displays: tuple[DisplaySpec, ...] = ()
     groups_off: tuple[str, ...] = ()
@@ -41,7 +41,7 @@ class DisplayFile:
         self._path = data_folder / FOLDER / f"{name}.json"
 
     def read(self) -> KeptDisplays:
-        """What was kept; nothing, if nothing was or it is broken."""
+        """Return what was kept; an empty list if there is none or the file is broken."""
         try:
             if self._path.stat().st_size > _LIMIT_BYTES:
                 return KeptDisplays()

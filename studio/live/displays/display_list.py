@@ -17,7 +17,7 @@ DISPLAYS_MAX: Final = 200
 
 @dataclass(frozen=True, slots=True)
 class Listening:
-    """How a topic is listened to; None: as fits its publishers."""
+    """QoS of a subscription; None: chosen to fit the publishers."""
 
     reliable: bool | None = None
     latched: bool | None = None
@@ -26,9 +26,9 @@ class Listening:
 
 @dataclass(frozen=True, slots=True)
 class DisplaySpec:
-    """How one display is set.
+    """Settings of one display.
 
-    `values` are the properties that differ from what they are at first.
+    `values` holds the properties that differ from their defaults.
     """
 
     id: str
@@ -105,7 +105,7 @@ class DisplayList:
         return self.put(replace(like, name=self._free_name(like.name)), after=display)
 
     def change(self, spec: DisplaySpec) -> None:
-        """Set one as `spec` of the same id says."""
+        """Replace the display with the id of `spec`."""
         self._specs[self.get(spec.id).id] = spec
 
     def move(self, display: str, before: str) -> None:

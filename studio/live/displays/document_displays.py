@@ -52,30 +52,30 @@ if TYPE_CHECKING:
 
 _TICK_S: Final = 1 / 30
 _LOOK_EVERY_S: Final = 0.5
-"""Between two looks at who publishes, and two words about how displays fare."""
+"""Between two checks of who publishes, and between two states sent of the displays."""
 _UNSEEN_S: Final = 10.0
-"""After so long without a page nothing is heard and drawn; one that is loaded anew misses none."""
+"""After so long without a page, subscribing and drawing stop; a reload is quicker than that."""
 _PAUSE_SHARE: Final = 0.5
 """After a step that took long, others get this share of its time."""
 _ASKED_FOR_S: Final = 5.0
-"""TF is heard so long after somebody asked for frames: a panel of them asks every second."""
+"""TF is subscribed so long after frames were asked for: a panel asks every second."""
 
 _log = logging.getLogger(__name__)
 
 
 class DocumentDisplays:
-    """Carries out what is asked, and ticks while there is anything to draw.
+    """Carries out the commands about displays, and ticks while there is anything to draw.
 
-    Every command raises a CommandError or DisplayError when it cannot be done; then all is as it
+    A command that fails raises a CommandError or DisplayError and leaves everything as it was.
     was.
 
     Args:
-        robot: The document's own, and the scene that the displays draw in.
+        robot: The document's own robot, with the scene that the displays draw in.
         meshes: Loads the meshes that the scene lacks.
         reader: Reads descriptions of other robots.
-        file: Where the displays are kept.
+        file: Keeps the displays.
         wire: The connection.
-        audience: Is told of the displays; they are drawn as long as it is not empty.
+        audience: Is sent the displays; they are drawn as long as it is not empty.
     """
 
     def __init__(
@@ -136,7 +136,7 @@ class DocumentDisplays:
             _log.warning("The display %s was left out: %s", spec.name, error)
 
     def events(self) -> Iterable[Event]:
-        """What a newcomer is told; with somebody there, it is drawn again."""
+        """Return the events for a new page; with a page there, displays are drawn again."""
         self._seen_s = time.monotonic()
         self._go_on()
         yield self._displays()
@@ -220,17 +220,17 @@ class DocumentDisplays:
             await self._connect()
 
     def shown(self, display: str) -> Shown:
-        """What is shown of a display, and where its parts are in the fixed frame."""
+        """Return what a display shows, and the poses of its parts in the fixed frame."""
         return self._room.get(display).placing.shown
 
     def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
-        """Which displays there are."""
+        """Return the kinds of displays."""
         from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
 
         return DisplayKinds(request=command.request, kinds=kind_views())
 
     async def topics(self, command: GetTopics) -> Topics:
-        """Which topics there are; none without a connection."""
+        """Return the topics; none without a connection."""
         link = self._wire.current
         if link is None:
             return Topics(request=command.request, topics=())
@@ -240,7 +240,7 @@ class DocumentDisplays:
         return Topics(request=command.request, topics=found)
 
     async def tf(self, command: GetTf) -> TfFrames:
-        """Which frames there are, and where one is in another; TF is heard from now on."""
+        """Return all frames, and the pose of one in another; subscribes to TF for a while."""
         is_first = not self._is_on
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
@@ -250,11 +250,11 @@ class DocumentDisplays:
         frames.step()
         if command.pose_only:
             return frames.answer(command, frames.fixed)
-        # Thousands of frames in words take a while, and the loop has other work.
+        # Thousands of frames as JSON take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
     def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
-        """Have a frame stand in the scene, for a camera to go with it; TF is heard from now on."""
+        """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
         frame = command.frame.strip().removeprefix("/")
@@ -283,7 +283,7 @@ class DocumentDisplays:
             await self._keeping
 
     async def _connect(self) -> None:
-        """Have a connection; why there is none is told by the displays."""
+        """Ensure a connection; if there is none, the displays' states say why."""
         try:
             await self._wire.link()
         except StudioError as error:
@@ -297,7 +297,7 @@ class DocumentDisplays:
         self._changed()
 
     def _changed(self) -> None:
-        """The list is another: tell it, keep it, draw it."""
+        """Send, keep and draw the list after a change."""
         self._show_and_hide()
         self._tell_displays()
         self._keep()
@@ -368,7 +368,7 @@ class DocumentDisplays:
         room.step(self._list, time.time_ns())
 
     def _log_once(self, error: Exception) -> None:
-        """Say that a tick failed, unless that is what was said last: there are many ticks."""
+        """Log the error of a tick, unless it is the one logged last: there are many ticks."""
         if repr(error) != self._fault:
             self._fault = repr(error)
             _log.error("A tick of the live scene failed.", exc_info=error)
@@ -408,7 +408,7 @@ COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
 
 
 def _first_topic(kind: str) -> str:
-    """What a display listens to when nobody says what.
+    """Return the topic of a new display of a kind.
 
     Raises:
         DisplayError: There is no such kind.

@@ -39,9 +39,9 @@ if TYPE_CHECKING:
     from studio.scene import DocumentScene
 
 _MORE_MAX: Final = 500
-"""Properties of one display that came with messages: more are not told."""
+"""So many properties from messages are sent for each display."""
 _AT_ONCE_S: Final = 0.03
-"""All displays together take messages for so long in one step: the loop has other work, too."""
+"""All displays together take messages for so long in one step: the loop has other work."""
 
 _SENTENCE_MAX: Final = 600
 """Addresses of meshes come from others."""
@@ -58,7 +58,7 @@ class ShownRobot(PosedRobot, Protocol):
 
 
 class Meshes(Protocol):
-    """Who loads the meshes that the scene lacks."""
+    """Loads the meshes that the scene lacks."""
 
     def want(self) -> None:
         """Load them."""
@@ -102,13 +102,13 @@ class DrawingRoom:
         raise CommandError("This display is not there any more: choose another.")
 
     def close(self, display: str) -> RunningDisplay | None:
-        """Take one out of the scene; whoever asks closes it."""
+        """Remove a display from the scene and return it, to be closed by the caller."""
         self._scene.live.drop(display)
         self._faults.pop(display, None)
         return self._running.pop(display, None)
 
     def displays(self) -> dict[str, Display]:
-        """All displays by their ids."""
+        """All displays by id."""
         return {name: running.display for name, running in self._running.items()}
 
     async def subscribe(self, shown: Collection[str]) -> None:
@@ -166,7 +166,7 @@ class DrawingRoom:
         self._scene.live.draw_waiting()
 
     def view(self, spec: DisplaySpec) -> DisplayView:
-        """One display as it is set."""
+        """Return one display and its settings."""
         running = self._running[spec.id]
         fit = _fit(running)
         return DisplayView(
@@ -186,7 +186,7 @@ class DrawingRoom:
         )
 
     def states(self, displays: DisplayList, now_ns: int) -> DisplayStates:
-        """How all fare."""
+        """Return the states of all displays."""
         return DisplayStates(
             states=tuple(self._state(one, displays, now_ns) for one in displays),
             fixed_frame_trouble=self._robot_trouble,
@@ -209,7 +209,7 @@ class DrawingRoom:
         )
 
     def _of_meshes(self, display: str) -> tuple[Status, ...]:
-        """Which meshes cannot be shown; in their places are boxes of wire."""
+        """Return a status for meshes that cannot be shown; wire boxes are in their places."""
         failed = self._scene.live.failed_meshes(display)
         if not failed:
             return ()
@@ -219,7 +219,7 @@ class DrawingRoom:
         return (Status("warn", "no_mesh", words[:_SENTENCE_MAX]),)
 
     def _shown_of(self, displays: DisplayList) -> dict[str, RunningDisplay]:
-        """Those that are seen; what came before time jumped, or before one was hidden, is not."""
+        """Return the displays switched on; for those that are not, forget what was received."""
         shown = {one.id: self._running[one.id] for one in displays if displays.is_shown(one)}
         jumped = self.frames.has_jumped()
         for display, running in self._running.items():

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 FOLLOWED: Final = "followed"
 """Their root in the scene, beside those of displays; the page knows its name."""
 FOLLOWED_MAX: Final = 64
-"""By all presenters, and again by all viewers: these take no room from those."""
+"""Limit for all presenters together, and another such for all viewers."""
 FOLLOWED_BY_VIEWER_MAX: Final = 17
-"""One page marks sixteen at once, and its camera goes with one."""
+"""Limit for one viewer: a page marks sixteen at once, and its camera follows one."""
 FOLLOWED_FOR_NS: Final = 5_000_000_000
 """After the last question of somebody, who asks every two seconds."""
 _TOO_MANY: Final = "{} other frames are followed already: choose one of those."
@@ -51,11 +51,11 @@ class _Asked:
         self._until_ns: dict[Visitor, dict[str, int]] = {}
 
     def frames(self) -> dict[str, None]:
-        """All of them, without order of rank."""
+        """All followed frames, of all roles."""
         return dict.fromkeys(chain.from_iterable(self._until_ns.values()))
 
     def ask(self, frame: str, until_ns: int, visitor: Visitor) -> str:
-        """Follow one more; where there is no room, who has most gives way to who has fewer."""
+        """Follow a frame; when full, whoever follows most loses one to whoever follows fewer."""
         own = self._until_ns.get(visitor, {})
         if frame not in own:
             if len(own) >= self._each_max:
@@ -66,7 +66,7 @@ class _Asked:
         return ""
 
     def forget(self, now_ns: int) -> None:
-        """Follow no more what nobody has asked for of late."""
+        """Stop following frames that nobody has asked for recently."""
         for visitor, own in tuple(self._until_ns.items()):
             left = {frame: until_ns for frame, until_ns in own.items() if until_ns > now_ns}
             self._until_ns[visitor] = left
@@ -83,7 +83,7 @@ class _Asked:
 
 
 class FollowedFrames:
-    """Each is an empty group that stands where the frame is: a pose is all that it costs."""
+    """Keeps an empty group in the scene at each followed frame, at the cost of one pose."""
 
     def __init__(self, scene: DrawsLive) -> None:
         self._scene = scene

@@ -1,4 +1,4 @@
-"""OwnFrames: the frames of the document's own robot, told to its buffer as TF would."""
+"""OwnFrames: puts the frames of the document's own robot into the TF buffer."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ PUBLISHER: Final = "this robot"
 
 
 class JointState(Protocol):
-    """Where the joints of a robot stand."""
+    """Positions of a robot's joints."""
 
     @property
     def values(self) -> Floats:
-        """Of the movable joints in their order, rad or m; another array after each motion."""
+        """Positions of the movable joints in order, rad or m; a new array after each motion."""
         ...
 
     def by_name(self) -> dict[str, float]:
@@ -44,20 +44,20 @@ class PosedRobot(Protocol):
 
     @property
     def kinematics(self) -> Kinematics:
-        """Of this robot; made anew with it."""
+        """Forward kinematics of this robot; a new object with each robot."""
         ...
 
     @property
     def joints(self) -> JointState:
-        """Where its joints stand."""
+        """Its joint positions."""
         ...
 
 
 class OwnFrames:
-    """Tells where the links stand, for all times, as long as nobody on the wire tells of them.
+    """Sets the poses of the links, valid at all times, as long as nobody publishes them in ROS.
 
-    `leave_to_others` may be called in any thread: it has to be before the others' transform is
-    taken in, for a static one is told only once.
+    `leave_to_others` is thread-safe: it is called before the others' transforms are taken in, for
+    a static one is sent only once.
     """
 
     def __init__(self, robot: PosedRobot, buffer: TransformBuffer) -> None:
@@ -67,12 +67,12 @@ class OwnFrames:
         self._values: Floats = np.empty(0)
         self._edges: _Edges | None = None
         self._told: Floats = np.empty((0, 7))
-        """The pose of each edge as it was told last."""
+        """The pose of each edge that was set last."""
         self._rooted: Robot | None = None
         self._root = ""
         self._children: frozenset[str] = frozenset()
         self._told_by_others: dict[str, str] = {}
-        """By whom."""
+        """GID of the publisher by frame."""
 
     @property
     def root(self) -> str:
@@ -84,11 +84,11 @@ class OwnFrames:
 
     @property
     def links(self) -> tuple[str, ...]:
-        """All its links."""
+        """The names of all links."""
         return self._robot.kinematics.link_names
 
     def leave_to_others(self, names: tuple[str, ...], who: str = "") -> None:
-        """Tell no more of frames that somebody on the wire tells of."""
+        """Leave frames to `who`, who publishes them in ROS."""
         if all(name in self._told_by_others for name in names):
             return
         children = frozenset(map(plain_name, names))
@@ -103,13 +103,13 @@ class OwnFrames:
                 self._edges = None
 
     def take_back(self) -> None:
-        """Tell of all again: nobody is heard any more."""
+        """Set all frames again: nobody is subscribed any more."""
         with self._lock:
             self._told_by_others, self._children = {}, frozenset()
             self._kinematics = self._edges = None
 
     def take_back_from(self, gone: Collection[str]) -> None:
-        """Tell again of links that those told of who are gone; in any thread."""
+        """Set the frames again whose publishers are gone; thread-safe."""
         with self._lock:
             free = {child for child, who in self._told_by_others.items() if who in gone}
             if not free:
@@ -153,7 +153,7 @@ class OwnFrames:
 
 
 class _Edges(NamedTuple):
-    """Which link hangs on which, and where each child is among all links."""
+    """The parent and child of each edge, and the index of each child among the links."""
 
     parents: tuple[str, ...]
     children: tuple[str, ...]

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Drawing, Placed, Pose
 
 PATIENCE_NS: Final = 500_000_000
-"""How long a drawing waits for transforms that come after its message."""
+"""So long a drawing waits for transforms that arrive after its message."""
 _WAITING_MAX: Final = 30
 
 Lookup: TypeAlias = "Callable[[str, int], Pose]"
-"""From a frame and a time, ns since the epoch (0: the newest); raises a FrameError."""
+"""Looks up a frame at a time, ns since the epoch (0: the newest); raises a FrameError."""
 
 
 class Shown(NamedTuple):
@@ -41,14 +41,14 @@ class _Tried:
     poses: dict[str, Pose | None] = field(default_factory=dict[str, "Pose | None"])
     troubles: dict[str, FrameError] = field(default_factory=dict[str, FrameError])
     ends: dict[str, Pose] = field(default_factory=dict[str, "Pose"])
-    """Of what was not met all at once: where its frame was in the end."""
+    """Last pose of the frame, for a drawing of points measured one after another."""
 
 
 class Placing:
     """Holds back a drawing until its transforms are known, and keeps the one before on screen.
 
-    As tf2's message filter does: a message waits for the transform of its stamp; when it waited
-    for long enough, what cannot be placed is left out, and `troubles` says why.
+    As tf2's message filter does: a message waits for the transform of its stamp; after
+    `PATIENCE_NS`, parts without a pose are left out, and `troubles` says why.
     """
 
     def __init__(self) -> None:
@@ -61,11 +61,11 @@ class Placing:
         self._ends: Mapping[str, Pose] = {}
         self._deskewing = Deskewing()
         self.troubles: Mapping[str, FrameError] = {}
-        """By path, why a part of what is shown, or would be, has no place."""
+        """By path, why a part of the drawing has no pose."""
 
     @property
     def shown(self) -> Shown:
-        """What is shown now, and where; or would be if it had a place."""
+        """Return what is shown, or waits to be, with its poses."""
         return self._shown
 
     def offer(self, drawing: Drawing, now_ns: int) -> None:
@@ -91,7 +91,7 @@ class Placing:
         return self._follow(lookup)
 
     def renew(self) -> None:
-        """All poses are to be looked up again: the fixed frame is another, or time jumped."""
+        """Look up all poses again: the fixed frame changed, or time jumped."""
         self._placed = {}
         self._shown = Shown(self._shown.drawing, {})
 
@@ -163,5 +163,5 @@ def _moves(placed: Placed) -> bool:
 
 
 def _may_come(error: FrameError) -> bool:
-    """Whether a transform that is on its way could mend it; of unknown frames, too."""
+    """Whether a transform still to come could mend it; true for unknown frames, too."""
     return not isinstance(error, ExtrapolationError) or error.may_come

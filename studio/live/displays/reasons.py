@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _REASONS: Final[dict[StateKind, str]] = {"refused": "not_heard", "other_form": "other_hash"}
 _SHOWN_MAX: Final = 6
 _FRAMES_MAX: Final = 3
-"""A robot has many links: what else is wrong is said, too."""
+"""So many frames are named: a robot has many links, and other faults matter, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,19 +27,19 @@ class Facts:
     """What is known of a display that may show nothing.
 
     Attributes:
-        spec: How it is set.
-        topic: How its subscription stands.
-        shown: Whether it is switched on, and its group with it.
-        types: Of messages that it shows; empty: it listens to no topic.
+        spec: Its settings.
+        topic: State of its subscription.
+        shown: Whether it and its group are switched on.
+        types: Message types that it shows; empty: it subscribes to no topic.
         fitting_kind: The display that shows what is published on the topic; empty: none.
-        instead: A topic that is published and would fit; empty: there is none.
-        heard: Messages that came.
-        silent_s: Since the last one, when it is longer ago than is usual of them.
-        frames: Why parts of the drawing have no place.
-        frame: In it everything can be drawn so that the first of them has a place; empty: in none.
-        stamp_zero: Whether messages come without a time.
-        statuses: What the display itself says.
-        draws: Whether anything of it is on screen.
+        instead: A published topic that would fit; empty: there is none.
+        heard: Number of messages received.
+        silent_s: Time since the last one, when that is longer than usual.
+        frames: Why parts of the drawing have no pose.
+        frame: A fixed frame in which the first of them would have a pose; empty: none.
+        stamp_zero: Whether messages have no stamp.
+        statuses: Reported by the display itself.
+        draws: Whether any of it is on screen.
         waits: Whether a message waits for its transforms.
     """
 
@@ -60,7 +60,7 @@ class Facts:
 
 
 def remarks_on(facts: Facts) -> tuple[Remark, ...]:
-    """What is to be said, the first thing that is in the way first; "ok" when all is well."""
+    """Return the remarks to show, the most pressing first; one of level "ok" when all is well."""
     found = list(_remarks(facts))[:_SHOWN_MAX]
     if not found and facts.shown and not facts.waits:
         return (_well(facts),)
@@ -68,7 +68,7 @@ def remarks_on(facts: Facts) -> tuple[Remark, ...]:
 
 
 def _well(facts: Facts) -> Remark:
-    """Nothing is in the way."""
+    """Return the remark of a display without problems."""
     if facts.draws:
         return Remark(level="ok", reason="", sentence="Shown.")
     if facts.heard:

@@ -1,4 +1,4 @@
-"""RobotModels: gives each RobotModel display the robot that its description tells."""
+"""RobotModels: gives each RobotModel display the robot of its description."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
     from studio.robot.values import Robot
 
 _PAUSE_S: Final = 0.5
-"""Between two readings of one description: whoever publishes it may do so all the time."""
+"""Between two readings of one description: it may be published all the time."""
 _ASK_AGAIN_S: Final = 2.0
-"""A node that does not answer may be on its way."""
+"""Between two requests to a node that does not answer yet."""
 _NOT_CONNECTED: Final = "There is no connection with a ROS 2 system, where the parameter would be."
 
 _log = logging.getLogger(__name__)
 
 
 class _Model:
-    """One display, and how far its description is."""
+    """A RobotModel display and its description."""
 
     def __init__(self, display: RobotModelDisplay) -> None:
         self.display = display
@@ -95,7 +95,7 @@ class RobotModels:
             model.close_description()
 
     async def close(self) -> None:
-        """End the worker, and all that is under way."""
+        """End the worker, and all that is running."""
         for model in self._models.values():
             model.is_gone = True
         self.let_go()
@@ -130,7 +130,7 @@ class RobotModels:
             model.display.fail(str(error))
 
     def _begin_anew(self, model: _Model, source: DescriptionSource) -> None:
-        """Another source was chosen: what was heard of the one before does not count."""
+        """Start with another source; what was received from the one before is dropped."""
         model.source, model.wanted, model.done, model.ask_after_s = source, "", "", 0.0
         model.own = None
         model.display.fail("")
@@ -167,7 +167,7 @@ class RobotModels:
                 model.display.fail(_kept(model.display, str(error)))
 
     def _hear(self, model: _Model) -> None:
-        """Take what the parameter told; ask for it where that was not done, or in vain."""
+        """Take the parameter's answer, and ask again if there is none."""
         if model.received is not None:
             text = model.received.newest()
             self._want(model, model.wanted if text is None else text)
@@ -211,12 +211,12 @@ class RobotModels:
 
 
 def _shown(model: _Model, described: DescribedRobot) -> str:
-    """Show a robot, and give what is to be said of it.
+    """Show a robot, and return a message about it.
 
-    What is broken comes after a good one only if that is none; else the good one stays.
+    A broken description after a good one leaves the good one shown.
 
     Raises:
-        DisplayError: It is more than can be drawn.
+        DisplayError: It is too large to draw.
     """
     display, robot = model.display, described.robot
     fault = described.fault or ("" if robot.links else "It describes no link.")

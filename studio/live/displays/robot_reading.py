@@ -20,15 +20,15 @@ _NAME: Final = "robot_description"
 
 
 class RobotFiles(Protocol):
-    """Where the files of robots are found."""
+    """Finds the files of robots."""
 
     @property
     def policy(self) -> ReadPolicy:
-        """What a description may read."""
+        """The files that a description may read."""
         ...
 
     def resolve_uri(self, uri: str) -> Path:
-        """The file of a URI; looks at the disk, may run in any thread.
+        """Return the file of a URI; reads the disk, thread-safe.
 
         Raises:
             PackageError: It names no file that may be read.
@@ -44,12 +44,12 @@ class DescribedRobot(NamedTuple):
 
 
 class RobotReader:
-    """Reads one after the other; a text that came on the wire reads no file at all.
+    """Reads descriptions, one at a time; a text received from ROS may read no file.
 
     Args:
-        take_worker: Gives a worker; asked for at the first description.
-        files: Where descriptions in files are found, and what they may read.
-        nowhere: A folder where nothing is: texts stand there, and look for all else in vain.
+        take_worker: Returns a worker; called for the first description.
+        files: Finds descriptions in files, and says what they may read.
+        nowhere: An empty folder, the base of texts, so that relative paths find nothing.
     """
 
     def __init__(

@@ -56,7 +56,7 @@ class RunningDisplay:
         self.drawn: Drawing = NOTHING
         """What stands in the scene."""
         self._subscriptions: dict[str, Subscription] = {}
-        """By the names of its roles."""
+        """By role."""
         self._closed = False
         self._instead = ""
         self._bad_message = ""
@@ -64,7 +64,7 @@ class RunningDisplay:
 
     @property
     def topics(self) -> tuple[str, ...]:
-        """Of all its roles."""
+        """The topics of all roles."""
         if not self.spec.topic:
             return ()
         return tuple(role.topic(self.spec.topic) for role in self.display.roles())
@@ -79,9 +79,9 @@ class RunningDisplay:
         return self.display.values[name]
 
     def subscribe(self, source: TopicSource) -> bool:
-        """Subscribe to the topics that it wants now; return whether that is another one.
+        """Subscribe to the topics that it needs now; return whether that changed anything.
 
-        `facts` tells what is in the way of one.
+        `facts` reports what prevents one.
         """
         wanted: dict[str, Request] = {}
         if self.spec.topic and not self._closed:
@@ -96,7 +96,7 @@ class RunningDisplay:
         return bool(new)
 
     def look_around(self, topics: TopicsNow) -> None:
-        """Find a topic to subscribe to instead, as long as nobody publishes its own."""
+        """Find another topic to subscribe to while nobody publishes its own."""
         main = self._subscriptions.get("")
         lacks = main is not None and main.state.publishers == 0
         self._instead = topics.instead_of(self.spec.topic, self.display) if lacks else ""
@@ -133,9 +133,9 @@ class RunningDisplay:
         return self.placing.step(lookup, now_ns)
 
     def reset(self) -> None:
-        """Forget what came: time jumped, or nobody wants to see it.
+        """Forget what was received: time jumped, or the display is hidden.
 
-        What is latched is told once, so it holds for all times.
+        Latched messages come only once, so they stay.
         """
         fit = self.fit
         if fit is None or not fit.latched:
@@ -148,7 +148,7 @@ class RunningDisplay:
 
     @property
     def fit(self) -> Fit | None:
-        """How the main topic is subscribed; None: it is not."""
+        """QoS of the main subscription; None: not subscribed."""
         main = self._subscriptions.get("")
         return main.fit if main else None
 
@@ -169,7 +169,7 @@ class RunningDisplay:
         return sum(one.dropped for one in self._subscriptions.values())
 
     def facts(self, now_ns: int, *, shown: bool, more: tuple[Status, ...] = ()) -> Facts:
-        """What is known of why it shows what it shows, with more that is to be said."""
+        """Return the facts about what it shows; `more` are further statuses."""
         main, age_s = self._subscriptions.get(""), self.age_s(now_ns)
         state = main.state if main else SubscriptionState(self.spec.topic)
         roles = self.display.roles()
@@ -195,7 +195,7 @@ class RunningDisplay:
 
     @property
     def _patience_s(self) -> float:
-        """What is latched says one thing and then nothing."""
+        """How long a topic may be silent; a latched one is silent after its first message."""
         fit = self.fit
         return math.inf if fit and fit.latched else _SILENT_S
 
@@ -211,7 +211,7 @@ class RunningDisplay:
             self._bad_message = ""
         except StudioError as error:
             self._bad_message = str(error)
-        except Exception:  # noqa: BLE001 - a message of a kind that nobody thought of must not end the rest
+        except Exception:  # noqa: BLE001 - an unforeseen message must not end the rest
             self._not_drawn()
 
     def _drawing(self, now_ns: int) -> Drawing:
@@ -224,7 +224,7 @@ class RunningDisplay:
         return NOTHING
 
     def _not_drawn(self) -> None:
-        """The terminal says why, once: it may be so with every message."""
+        """Log the error, once: every message may cause it."""
         if self._bad_message != _NOT_DRAWN:
             _log.exception("A message on %s could not be drawn.", self.spec.topic)
         self._bad_message = _NOT_DRAWN
@@ -246,7 +246,7 @@ def request_for(role: TopicRole, topic: str, chosen: Listening) -> Request:
 
 
 def _first_of_each(errors: Iterable[FrameError]) -> Iterator[FrameError]:
-    """Of errors that say the same, one."""
+    """Return one error of each message."""
     return iter({str(error): error for error in errors}.values())
 
 

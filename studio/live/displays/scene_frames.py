@@ -111,19 +111,19 @@ class SceneFrames:
         self._forget()
 
     def close(self) -> None:
-        """Receive TF no more, whoever subscribes to it."""
+        """End the subscriptions to TF."""
         self._closed = True
         self.unsubscribe()
 
     def has_jumped(self) -> bool:
         """Whether time went back since this was asked last, as of a bag that begins anew."""
         if not self._jumped:
-            return False  # what is said of it at this moment is told the next time
+            return False  # a change during the notification is found the next time
         self._jumped = False
         return True
 
     def step(self) -> None:
-        """Put in the robot's own links where nobody else publishes them."""
+        """Set the robot's own links that nobody else publishes."""
         self._keep_epoch()
         self.own.step()
 
@@ -142,7 +142,7 @@ class SceneFrames:
         return pose.wxyz, pose.xyz
 
     def now(self) -> FramesNow:
-        """All frames with their ages, each by the newest transforms on its way."""
+        """Return all frames and their ages, by the newest transforms."""
         self._now_of = self.buffer.changes, self.fixed
         self._now = self.buffer.all_in(self.fixed)
         return self._now
@@ -154,7 +154,7 @@ class SceneFrames:
         return self._now
 
     def robot_pose(self) -> tuple[Pose | None, str]:
-        """Where the robot's root link is in the fixed frame, and why it is not known."""
+        """Return the pose of the robot's root link in the fixed frame, or why it is unknown."""
         root = self.own.root
         if not root:
             return None, ""
@@ -164,10 +164,10 @@ class SceneFrames:
             return None, str(error)
 
     def offered_for(self, frame: str) -> str:
-        """In which frame everything may be drawn so that a part in this one has a place.
+        """Return a fixed frame in which everything may be drawn, this frame's part included.
 
-        Where nothing tells of the fixed frame it is the same for all parts; where nothing tells of
-        the frame of the part it is none, which is empty, unless nobody tells of any frame at all.
+        If no transform names the fixed frame, it is the same for all parts; if none names the
+        frame of the part, it is empty, unless there are no transforms at all.
         """
         now = self._newest()
         if not now.names:
@@ -185,7 +185,7 @@ class SceneFrames:
         return ""
 
     def answer(self, asked: GetTf, fixed: str) -> TfFrames:
-        """All frames, as the page lists them, and where one is in another; in any thread."""
+        """Return all frames for the page, and the pose of one in another; thread-safe."""
         pose, trouble = self._pose(asked.seen_from, asked.frame)
         if asked.pose_only:
             return TfFrames(
@@ -252,7 +252,7 @@ class SceneFrames:
             self._jumped |= one.kind == "time_jumped"
 
     def _clock_jumped(self, now_ns: int, before_ns: int) -> None:
-        """As tf2 does: what was told of later times does not hold."""
+        """Drop transforms from the future, as tf2 does."""
         self.buffer.jump_back(now_ns, before_ns)
         sentence = (
             f"Time went back by {(before_ns - now_ns) / 1e9:.3f} s on /clock: what was told of "
@@ -262,7 +262,7 @@ class SceneFrames:
         self._jumped = True
 
     def _publisher(self, gid: bytes) -> str:
-        """Return the node that has a GID; one that is not known yet is looked up again."""
+        """Return the name of the node that has a GID; an unknown one is looked up again."""
         if name := self._publishers.get(gid):
             return name
         name = self._source.sender(gid)

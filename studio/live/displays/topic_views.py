@@ -1,4 +1,4 @@
-"""Topics as the page is told of them, each with the display that shows it."""
+"""Topics as the page receives them, each with the display that shows it."""
 
 from __future__ import annotations
 

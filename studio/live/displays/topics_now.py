@@ -1,4 +1,4 @@
-"""TopicsNow: what is published at one moment, for displays whose topic nobody publishes."""
+"""TopicsNow: the topics published at one moment, for displays whose topic nobody publishes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class HasCatalogue(Protocol):
-    """What is needed of a source of topics."""
+    """The part of a topic source that lists topics."""
 
     def catalogue(self) -> Sequence[Topic]:
         """Return all topics by name."""
@@ -29,9 +29,9 @@ class TopicsNow:
         self._source = source
 
     def instead_of(self, topic: str, display: Display) -> str:
-        """Return the topic that a display may show instead; empty: nobody publishes one.
+        """Return the topic that a display may show instead; empty: there is none.
 
-        One of the same last name is the best, as of another namespace; else the first that is not
+        One with the same last name is the best, as of another namespace; else the first that is not
         hidden.
         """
         roles = display.roles()

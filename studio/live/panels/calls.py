@@ -41,7 +41,7 @@ class Call:
         return self.state != "calling"
 
     def view(self) -> CallView:
-        """As the page is told."""
+        """The call as the page receives it."""
         return CallView(**{name: getattr(self, name) for name in CallView.model_fields})
 
 
@@ -91,7 +91,7 @@ class ServiceCalls:
         await self._running.end_all("The connection with ROS 2 was ended.")
 
     async def close(self) -> None:
-        """End all that runs, and tell nobody any more."""
+        """End all that runs, and send no more events."""
         await self.let_go()
         await self.operations.close()
 

@@ -50,7 +50,7 @@ class Changes:
             followers.remove(listener)
 
     def is_followed(self, subject: Subject) -> bool:
-        """Return whether a page wants to be told of its changes."""
+        """Return whether a page follows the changes of a subject."""
         return bool(self._followers[subject])
 
     def all_changed(self) -> None:
@@ -81,7 +81,7 @@ class Changes:
         await asyncio.gather(*(one.close() for one in self._throttles.values()))
 
     def _wake(self, subject: Subject) -> None:
-        self._woken.discard(subject)  # before it is told: what changes from now on is told again
+        self._woken.discard(subject)  # before sending: what changes from now on is sent again
         self.changed(subject)
 
     async def _tell(self, subject: Subject) -> None:

@@ -70,7 +70,7 @@ class Parts:
                     self._left_out.add(name)
 
     def views(self) -> tuple[tuple[DiagnosticView, ...], int]:
-        """All parts in order, and how many there was no room for."""
+        """Return all parts in order, and how many were left out for want of room."""
         now_s = self._clock()
         with self._lock:
             said = sorted(self._said.items())

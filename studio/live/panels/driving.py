@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _SILENCE_S: Final = 0.5
 _DRIVEN_MAX: Final = 20
 _ROUTER_PATIENCE_S: Final = 120.0
-"""For a router that went away amid a drive: the robot behind it may move on until it is back."""
+"""When a router goes away during a drive: the robot may move on until it is back."""
 
 
 SPEED_MAX: Final = 100.0
@@ -75,7 +75,7 @@ class VelocityPublisher:
 
 
 class _Driver:
-    """One who drives on one topic."""
+    """A page that drives on one topic."""
 
     def __init__(self, listener: Listener) -> None:
         self.listener = listener
@@ -87,7 +87,7 @@ class _Driver:
 
 
 class Driving:
-    """Lets one page drive on each topic, and stops what nobody drives.
+    """Lets one page drive on each topic, and sends a stop when it ends.
 
     Used on the event loop only.
     """
@@ -150,7 +150,7 @@ class Driving:
             driver.publisher = await asyncio.to_thread(
                 VelocityPublisher, link, command.topic, command.stamped
             )
-        # What was told before the end, and waited until after it, moves nothing any more.
+        # A command sent before the end that waited until after it must not move anything.
         if driver.publisher is not None and not driver.is_over:
             await asyncio.to_thread(driver.publisher.steer, command.x, command.y, command.yaw)
 
@@ -171,7 +171,7 @@ class Driving:
                 await asyncio.to_thread(driver.publisher.close)
 
     async def _router_is_back(self, publisher: VelocityPublisher) -> None:
-        """Wait for who is to stand still, if nobody could hear it now and we are to stay."""
+        """Wait for the router, if the stop could not be sent and the studio stays."""
         from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh
 
         if not publisher.is_reached:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
 
 _ASKED_FOR_S: Final = 10.0
-"""How long an action is subscribed after it was asked for, where nobody is told of changes."""
+"""So long an action stays subscribed after a request, unless a page follows its changes."""
 _FOLLOWED_MAX: Final = 20
 """Actions that are subscribed while somebody is: those that were asked for last."""
 _SHOWN: Final = 50
@@ -39,13 +39,13 @@ class _Statuses:
 
 
 class GoalStatusTopics:
-    """Subscribes to the status of actions while somebody asks, or is told of changes.
+    """Subscribes to the status of actions while they are asked for, or a page follows them.
 
     Args:
-        source: Where topics come from.
-        own_ids: Gives the ids of our own goals.
+        source: The source of topics.
+        own_ids: Returns the ids of our own goals.
         changed: Called when a status came, in a thread of the source.
-        is_followed: Tells whether a page waits to be told of changes before it asks again.
+        is_followed: Returns whether a page follows the changes.
     """
 
     def __init__(
@@ -104,7 +104,7 @@ class GoalStatusTopics:
         return _Statuses(made, now_s, self._source.epoch)
 
     def _forget(self, action: str, now_s: float) -> None:
-        """End what nobody waits for, but never the action that is asked for just now."""
+        """Unsubscribe actions that nobody waits for, except the one just asked for."""
         others = {name: one.asked_s for name, one in self._of_actions.items() if name != action}
         if self._is_followed():
             oldest_last = sorted(others, key=lambda name: -others[name])

@@ -1,6 +1,6 @@
-"""GoalRequest: one goal on its way, from the sending to its result; clients of actions are shared.
+"""GoalRequest: one goal, from sending it to its result; clients of actions are shared.
 
-It imports Zenoh, by way of ros, so it is imported when it is first used.
+It imports Zenoh (through `ros`), so it is imported when it is first used.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _REFUSALS: Final = {
 
 
 class ActionClients:
-    """Clients of actions, one for all goals of an action that are under way; any thread."""
+    """Clients of actions, one for all running goals of an action; thread-safe."""
 
     def __init__(self, link: WireLink) -> None:
         self._link = link
@@ -93,7 +93,7 @@ class GoalRequest:
 
     @property
     def status(self) -> GoalStatus:
-        """How far it is, as its server told last."""
+        """The status that the server reported last."""
         return GoalStatus.UNKNOWN if self._handle is None else self._handle.status
 
     @property
@@ -103,17 +103,17 @@ class GoalRequest:
 
     @property
     def goal_id(self) -> str:
-        """In hex; empty before it is accepted."""
+        """The id in hex; empty before the goal is accepted."""
         return "" if self._handle is None else bytes(self._handle.goal_id.uuid).hex()
 
     async def accepted(self, timeout_s: float, on_feedback: Callable[[Any], None]) -> bool:
-        """Send it, and give whether its server takes it.
+        """Send it, and return whether its server accepts it.
 
         Raises:
             NotServedError: Nobody serves the action.
             ServedOtherwiseError: Somebody does, with another type.
             RouterGoneError: The router ended meanwhile.
-            NoAnswerError: The server says nothing in time.
+            NoAnswerError: The server does not answer in time.
         """
         is_ready = self._client.server_is_ready
         if not await came_true(is_ready, min(timeout_s, SERVER_PATIENCE_S)):
@@ -144,11 +144,11 @@ class GoalRequest:
         return GoalStatus(answer.status), written
 
     async def cancel(self) -> None:
-        """Ask its server to let it end.
+        """Ask the server to cancel it.
 
         Raises:
-            CommandError: The server says no.
-            NoAnswerError: It says nothing.
+            CommandError: The server refuses.
+            NoAnswerError: The server does not answer.
         """
         if self._handle is None:
             raise CommandError("It is not accepted yet: wait for its server.")

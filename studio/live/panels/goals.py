@@ -27,9 +27,9 @@ _RUNNING_MAX: Final = 30
 _FEEDBACK_KEPT: Final = 50
 _FEEDBACK_CHARACTERS: Final = 4_000
 _LOOK_S: Final = 0.2
-"""Between two looks at what a server tells of a goal that has no feedback."""
+"""Between two checks of the status of a goal without feedback."""
 _LOG_PATIENCE_S: Final = 1.0
-"""What a server logs may come later than its answer."""
+"""A server's log may arrive later than its answer."""
 _CLOCKS_APART_S: Final = 1.0
 _OVER: Final = frozenset({"succeeded", "canceled", "aborted", "rejected", "failed"})
 
@@ -57,7 +57,7 @@ class Goal:
         default_factory=lambda: deque(maxlen=_FEEDBACK_KEPT)
     )
     told: int = 0
-    """Number of the last feedback that all who follow were told."""
+    """Number of the last feedback sent to all who follow."""
 
     @property
     def is_over(self) -> bool:
@@ -65,12 +65,12 @@ class Goal:
         return self.state in _OVER
 
     def heard(self, feedback: object) -> None:
-        """Take in what its server says."""
+        """Take in a feedback message."""
         self.feedback_count += 1
         self.kept.append((self.feedback_count, time.time_ns() / 1e9 - self.began_s, feedback))
 
     def view(self, *, is_whole: bool) -> GoalView:
-        """As the page is told: with all feedback that is kept, or with what is new."""
+        """Return the goal for the page: with all feedback kept, or with what is new."""
         from studio.ros.types.convert import to_json  # noqa: PLC0415 - takes its time
 
         kept = [one for one in tuple(self.kept) if is_whole or one[0] > self.told]
@@ -91,9 +91,9 @@ def _event_of(is_whole: bool, goals: tuple[Goal, ...]) -> Goals:  # noqa: FBT001
 
 
 class ActionGoals:
-    """Sends goals and has them cancelled; `operations` has their state.
+    """Sends goals and cancels them; `operations` has their state.
 
-    `named` is called when a goal of ours has its id, by which its server tells of it.
+    `named` is called when a goal of ours gets its id, which is in its server's status messages.
     """
 
     def __init__(
@@ -129,10 +129,10 @@ class ActionGoals:
         return Begun(request=command.request, operation=number)
 
     async def cancel(self, command: CancelGoal) -> None:
-        """Ask that a goal end; done when its server agrees.
+        """Ask a server to cancel a goal.
 
         Raises:
-            StudioError: There is no such goal, or its server says no.
+            StudioError: There is no such goal, or its server refuses.
         """
         goal = self.operations.get(command.operation)
         request = self._requests.get(command.operation)
@@ -163,7 +163,7 @@ class ActionGoals:
         self._clients = None
 
     async def close(self) -> None:
-        """End all that runs, and tell nobody any more."""
+        """End all that runs, and send no more events."""
         await self.let_go()
         await self.operations.close()
 
@@ -201,7 +201,7 @@ class ActionGoals:
         return _ended(status.name.lower()), result
 
     async def _look(self, goal: Goal, request: GoalRequest) -> None:
-        """See what its server tells of it by the topic of all goals."""
+        """Follow its status on the topic of all goals."""
         while True:
             if goal.state == "accepted" and request.status.name == "EXECUTING":
                 goal.state = "executing"

@@ -53,7 +53,7 @@ class GraphViews:
 
 def _answer(link: WireLink, request: int) -> GraphAnswer:
     graph = link.graph
-    # What changes meanwhile is told with the next answer.
+    # A change during the answer is in the next one.
     version = graph.version
     nodes = _nodes(graph.nodes(), link.zid)
     shown = nodes[:NODES_MAX]
@@ -70,7 +70,7 @@ def _answer(link: WireLink, request: int) -> GraphAnswer:
 
 
 def _nodes(found: Iterable[GraphNode], own: str) -> list[GraphNodeView]:
-    """Those of one name as one, in order."""
+    """Return one view for all nodes of the same name, sorted."""
     by_name: dict[str, list[GraphNode]] = {}
     for one in found:
         by_name.setdefault(one.path, []).append(one)

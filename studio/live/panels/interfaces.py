@@ -33,10 +33,10 @@ if TYPE_CHECKING:
 
 
 _NODES_MAX: Final = 8
-"""So many nodes are asked for one type: each may be silent for as long as one waits."""
+"""So many nodes are asked for one type: each may make one wait."""
 _REASONS_SHOWN: Final = 2
 _PAUSE_S: Final = 5.0
-"""Whoever did not tell a type is not asked for it again at once, however often pages ask."""
+"""Before a node is asked again for a type that it did not describe."""
 _UNTOLD_MAX: Final = 500
 _NOBODY: Final = "no known package defines it, and no node that is there tells it"
 _ADVICE: Final = "drop its .{kind} file, or its package's folder, on the page"
@@ -49,13 +49,13 @@ class TypeLearner:
         self._wire = wire
         self._turn = asyncio.Lock()
         self._untold: dict[str, tuple[float, str]] = {}
-        """Names that nobody told: when, and why."""
+        """Names of types that no node described: when, and why."""
 
     async def learn(self, name: str) -> None:
-        """Have a type be known; it may be known already when its turn comes.
+        """Learn a type from other nodes, unless it is known by now.
 
         Raises:
-            UnknownTypeError: Nobody tells it; why, and what to do, is said.
+            UnknownTypeError: No node describes it; the sentence says why and what to do.
         """
         async with self._turn:
             asked_s, why = self._untold.get(name, (float("-inf"), ""))
@@ -66,7 +66,7 @@ class TypeLearner:
             raise UnknownTypeError(name, f"{why}; {_ADVICE.format(kind=_kind_of(name))}")
 
     async def texts(self, name: str) -> dict[str, str]:
-        """Have how a known type, and what it is made of, are written; empty: nobody tells it."""
+        """Return the definitions of a known type and of those it uses; empty: no node has them."""
         async with self._turn:
             asked_s, _ = self._untold.get(name, (float("-inf"), ""))
             if time.monotonic() - asked_s < _PAUSE_S:
@@ -108,7 +108,7 @@ def _texts(link: WireLink | None, name: str) -> dict[str, str]:
 
 
 def _others(link: WireLink, name: str) -> list[GraphEndpoint]:
-    """One endpoint of each node that uses a type, of a few nodes; not the studio's own."""
+    """Return one endpoint of each of a few nodes that use a type; not the studio's own."""
     from studio.ros.type_lookup import users_of  # noqa: PLC0415
 
     others = {one.node: one for one in users_of(link.graph, name) if one.node.zid != link.zid}
@@ -116,7 +116,7 @@ def _others(link: WireLink, name: str) -> list[GraphEndpoint]:
 
 
 def _kind_of(name: str) -> str:
-    """Which file defines it."""
+    """Return the extension of the file that defines it."""
     return next((kind for kind in ("srv", "action") if f"/{kind}/" in name), "msg")
 
 
@@ -130,14 +130,14 @@ class InterfaceTypes:
         self._wire = wire
         self._learner = TypeLearner(wire)
         self._texts: dict[str, str] = {}
-        """Of types that only a distribution has, as nodes told them: with comments."""
+        """Definitions, with comments, from nodes: of types that only a distribution has."""
 
     async def interface(self, command: GetInterface) -> InterfaceAnswer:
-        """Tell what a type is made of; what is not known here, nodes that use it are asked for.
+        """Return the definition of a type; one not known here is learned from nodes that use it.
 
         Raises:
-            RosNameError: No type is named so.
-            UnknownTypeError: It, or what it is made of, is not known, nor told by a node.
+            RosNameError: It is not a valid name of a type.
+            UnknownTypeError: It, or a type it uses, is neither known nor described by a node.
         """
         try:
             answer = await asyncio.to_thread(self._answer, command)
@@ -154,14 +154,14 @@ class InterfaceTypes:
         return await asyncio.to_thread(self._names, command.request)
 
     async def add(self, command: AddInterfaces) -> InterfacesAdded:
-        """Take up texts, for this studio and as long as it runs; files stay where they are.
+        """Add definitions, for this studio and as long as it runs; files stay where they are.
 
-        Of several texts the sound ones are taken, and the answer says what is wrong with others.
+        Of several, the valid ones are added, and the answer reports the faults of the others.
 
         Raises:
-            InterfaceTextError: A text that came alone breaks a rule, or makes a type too large or
-                part of itself.
-            RosNameError: Its name does.
+            InterfaceTextError: A single definition breaks a rule, or makes a type too large or
+                a part of itself.
+            RosNameError: Its name is not valid.
         """
         return await asyncio.to_thread(self._add, command)
 
@@ -187,7 +187,7 @@ class InterfaceTypes:
 
         library = self.library()
         faults: dict[str, InterfaceTextError] = {}
-        # Only what is new: whoever holds a class of a type that is taken again loses it.
+        # Only what is new: a class kept elsewhere goes stale when its type is added again.
         if len(command.texts) > 1:
             faults = library.add_sound_texts(InterfaceTexts(dict(command.texts)))
         elif any(library.text_of(name) != text for name, text in command.texts.items()):
@@ -218,7 +218,7 @@ class InterfaceTypes:
         )
 
     def _commented(self, message: Message, library: TypeLibrary) -> Message:
-        """Give the same message with the comments that a node told."""
+        """Return the same message with the comments of a node's definition."""
         from studio.ros.types.definitions import messages_of  # noqa: PLC0415
         from studio.ros.types.interface_text import parse_interface  # noqa: PLC0415
         from studio.ros.types.type_descriptions import owner_of  # noqa: PLC0415

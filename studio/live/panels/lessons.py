@@ -97,9 +97,9 @@ class DemoRun:
     """One demo that runs as a process; used on the event loop, which it never blocks.
 
     Attributes:
-        number: Of this run among all.
-        printed: The last that it printed.
-        zids: Of the sessions that its node was seen in; empty: it was not seen yet.
+        number: Counts all runs.
+        printed: Its last output.
+        zids: Sessions that its node was seen in; empty: it was not seen yet.
     """
 
     def __init__(
@@ -123,7 +123,7 @@ class DemoRun:
 
     @property
     def state(self) -> Literal["starting", "running", "stopping", "stopped", "ended"]:
-        """How it fares, as pages are told."""
+        """The state as pages receive it."""
         if self.is_over:
             return "stopped" if self._is_told else "ended"
         if self._is_told:
@@ -131,7 +131,7 @@ class DemoRun:
         return "running" if self.zids else "starting"
 
     def view(self) -> DemoView:
-        """Tell how it fares."""
+        """Return the demo as pages receive it."""
         return DemoView(
             demo=self.lesson.demo,
             state=self.state,
@@ -152,12 +152,12 @@ class DemoRun:
             raise CommandError(f"{self.lesson.demo} was not started: {self.printed.last_words}")
 
     def see(self, zids: frozenset[str]) -> None:
-        """Its node is there, in these sessions; what comes later is somebody else's."""
+        """Take the sessions in which its node is seen first; later ones belong to others."""
         if not self.is_over and not self.zids:
             self.zids = zids
 
     def press(self, key: str) -> None:
-        """Press a key of it; one that has ended hears none."""
+        """Press a key of it, if it still runs."""
         if self._process is not None and self._process.stdin is not None and not self.is_over:
             self._process.stdin.write(f"{key}\n".encode())
 
@@ -354,7 +354,7 @@ def _lesson(name: str) -> Lesson:
 
 
 class _Sessions:
-    """The session of each node, by the node's full name; looked up anew when the graph changed."""
+    """The session of each node by its full name; read again when the graph changed."""
 
     def __init__(self) -> None:
         self._of: tuple[str, int] | None = None

@@ -27,9 +27,9 @@ _SERVICE: Final = "/get_state"
 _TYPE: Final = "lifecycle_msgs/srv/GetState"
 _ANSWER_S: Final = 2.0
 _CHANGE_S: Final = 30.0
-"""A node may drive motors home before it says that it did."""
+"""A node may drive motors home before it answers."""
 _KEPT_S: Final = 20.0
-"""Clients stay so long after the last question: whoever looks asks every second."""
+"""So long clients are kept after the last request: users ask every second."""
 _AT_ONCE: Final = 8
 _LEFT: Final = "Not connected to ROS 2: connect first."
 
@@ -46,7 +46,7 @@ class LifecycleNodes:
         self._end: asyncio.Task[None] | None = None
 
     async def managed(self, command: GetManaged) -> ManagedNodes:
-        """Tell in which states the managed nodes are; a silent one is told with why."""
+        """Return the states of the managed nodes; a silent one has the reason instead."""
         link = self._wire.current
         if link is None:
             return ManagedNodes(request=command.request, nodes=(), more=0)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 KEPT_MAX: Final = 10_000
 CHARACTERS_MAX: Final = 8_000_000
-"""Of all lines together; the oldest go."""
+"""Limit of all lines together; the oldest go."""
 TEXT_MAX: Final = 20_000
 _NAME_MAX: Final = 500
 _WARNING: Final = 30
@@ -68,10 +68,10 @@ class LogRing:
     def newest_warning(
         self, loggers: Iterable[str], *, after: int, since_s: float
     ) -> LogLine | None:
-        """Give the newest warning or error of some loggers, or of those below them.
+        """Return the newest warning or error of some loggers, or of those below them.
 
-        It came after the line of that number, and was not said before `since_s`: who joins late
-        is told what was said earlier, too.
+        It came after the line of that number, and is not older than `since_s`: a late subscriber
+        receives earlier lines, too.
         """
         wanted = tuple(loggers)
         with self._lock:
@@ -113,10 +113,10 @@ _REQUEST: Final = Request(
 
 
 class NodeLogs:
-    """Keeps the newest lines for whoever comes later, also after the connection has ended.
+    """Keeps the newest lines for later pages, also after the connection has ended.
 
     Args:
-        source: Where topics come from.
+        source: The source of topics.
         grew: Called after each new line, in a thread of the source.
     """
 
@@ -164,7 +164,7 @@ class NodeLogs:
         try:
             async with asyncio.timeout(patience_s):
                 while True:
-                    came.clear()  # before it is looked for: what comes from now on wakes again
+                    came.clear()  # before the search: what comes from now on wakes again
                     last = self._ring.last
                     found = self._ring.newest_warning(loggers, after=after, since_s=since_s)
                     if found is not None:

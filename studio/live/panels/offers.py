@@ -1,4 +1,4 @@
-"""Which services and actions are offered, and YAML read as values of a type."""
+"""The services and actions offered, and YAML read as values of a type."""
 
 from __future__ import annotations
 

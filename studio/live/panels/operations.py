@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 
 _PAUSE_S: Final = 0.1
-"""Between two events of what changed: feedback may come a thousand times a second."""
+"""Between two events of changes: feedback may come a thousand times a second."""
 
 
 class Operation(Protocol):
     """Something that was begun and that has an end."""
 
     operation: int
-    """Its number among all of its kind."""
+    """Its number, of its kind."""
 
     @property
     def is_over(self) -> bool:
@@ -39,13 +39,13 @@ OperationT = TypeVar("OperationT", bound=Operation)
 
 
 class Operations(Generic[OperationT]):
-    """Operations of one kind by their numbers, and the pages that get events of them.
+    """Operations of one kind by number, and the pages that get events of them.
 
     Used on the event loop only.
 
     Args:
-        event_of: Makes the event of some operations; the first argument says whether these are all.
-        kept: How many that have ended are kept.
+        event_of: Makes the event of some operations; the first argument is whether these are all.
+        kept: How many are kept after they ended.
         running: How many may run at once.
     """
 
@@ -92,11 +92,11 @@ class Operations(Generic[OperationT]):
         return found
 
     def all(self) -> tuple[OperationT, ...]:
-        """Those that are kept, the oldest first."""
+        """The operations kept, the oldest first."""
         return tuple(self._operations.values())
 
     def under_way(self) -> list[OperationT]:
-        """Those that are not over."""
+        """The operations that run."""
         return [one for one in self._operations.values() if not one.is_over]
 
     def changed(self, operation: OperationT) -> None:
@@ -166,7 +166,7 @@ class RunningTasks:
         end.add_done_callback(self._ends.discard)
 
     def cancel(self, number: int, reason: str = "") -> None:
-        """Wait no longer; with a reason it is said to have failed."""
+        """Stop waiting; with a reason, the operation failed."""
         if number in self._waits:
             self._waits[number].cancel(reason)
 
@@ -188,7 +188,7 @@ class RunningTasks:
 
 
 async def outcome_of(wanted: Awaitable[ValueT]) -> Outcome[ValueT]:
-    """Wait for something; errors and ends become words."""
+    """Wait for something, and return its value or its error as an outcome."""
     try:
         return Outcome("done", await wanted)
     except StudioError as error:
@@ -196,6 +196,6 @@ async def outcome_of(wanted: Awaitable[ValueT]) -> Outcome[ValueT]:
     except asyncio.CancelledError as error:
         reason = str(error)
         return Outcome("failed" if reason else "cancelled", trouble=reason)
-    except Exception:  # noqa: BLE001 - an operation whose end nobody learns of would seem to run for ever
+    except Exception:  # noqa: BLE001 - an operation without an outcome would seem to run for ever
         _log.exception("What was asked of a node could not be carried through.")
         return Outcome("failed", trouble="It failed in the studio: the terminal says why.")

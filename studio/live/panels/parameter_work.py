@@ -1,6 +1,6 @@
-"""RemoteParameters: the parameters of another node, asked and set without a thread that waits.
+"""RemoteParameters: gets and sets the parameters of another node, without a thread that waits.
 
-It imports Zenoh, by way of ros, so it is imported when it is first used.
+It imports Zenoh (through `ros`), so it is imported when it is first used.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ _BY_WORDS: Final = {kind.words: kind for kind in ParameterType}
 
 
 class RemoteParameters:
-    """Those of one node; made and closed in a thread.
+    """The parameters of one node; made and closed in a thread.
 
-    Questions raise NotServedError when the node does not serve its parameters, and NoAnswerError
-    when it is silent.
+    Requests raise NotServedError when the node does not serve its parameters, and NoAnswerError
+    when it does not answer.
     """
 
     def __init__(self, link: WireLink, node: str) -> None:
@@ -44,7 +44,7 @@ class RemoteParameters:
         self._client.destroy()
 
     async def views(self) -> tuple[ParameterView, ...]:
-        """Give all, with what the node says of them."""
+        """Return all, with their descriptors."""
         names = await self._names()
         values = await self._values(names)
         described = await self._ask(
@@ -57,7 +57,7 @@ class RemoteParameters:
         """Set one.
 
         Raises:
-            CommandError: The node refuses it; its reason is told.
+            CommandError: The node refuses it; the sentence has its reason.
             InvalidParameterTypeError: The text is no value of that type.
         """
         wanted = parameter_of(name, text, value_type)
@@ -71,11 +71,11 @@ class RemoteParameters:
         return write_parameters(self.node, {one.name: one for one in found})
 
     async def load(self, text: str) -> tuple[int, tuple[ParameterRefusal, ...]]:
-        """Set what a file says of the node; gives how many were set, and what was refused.
+        """Set what a parameter file has for the node; return how many were set, and the refusals.
 
         Raises:
-            ParameterFileError: It is no such file.
-            CommandError: It says nothing of this node.
+            ParameterFileError: The file is not valid.
+            CommandError: It has nothing for this node.
         """
         wanted = read_parameters(text, self.node, "The text")
         if not wanted:
@@ -115,7 +115,7 @@ class RemoteParameters:
 
 
 def parameter_of(name: str, text: str, value_type: str) -> Parameter:
-    """Make a parameter of a text; of a type that is known, a number or a word is taken as that.
+    """Make a parameter of a text; if its type is known, a number or bare text becomes that.
 
     Raises:
         InvalidParameterTypeError: It is no value of that type.
@@ -135,7 +135,7 @@ def parameter_of(name: str, text: str, value_type: str) -> Parameter:
 
 
 def changed_view(message: MessageValue) -> ParameterView:
-    """Tell what a `rcl_interfaces/msg/Parameter` says."""
+    """Return the view of a `rcl_interfaces/msg/Parameter`."""
     return _view(_known(str(message.name), message.value), None)
 
 

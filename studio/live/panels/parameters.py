@@ -44,7 +44,7 @@ _EVENTS: Final = Request("/parameter_events", (_EVENT_TYPE,), depth=1_000, as_kn
 _SUBSCRIBED_WITHIN_S: Final = 2.0
 _PAUSE_S: Final = 0.1
 _NEWS_MAX: Final = 2_000
-"""Of one node between two words about it."""
+"""Changes of one node in one event."""
 
 
 class NodeParameters:
@@ -67,20 +67,20 @@ class NodeParameters:
         return ParameterNodes(request=command.request, nodes=found)
 
     async def parameters(self, command: GetParameters) -> Parameters:
-        """Tell all of a node.
+        """Return all parameters of a node.
 
         Raises:
-            StudioError: The node does not tell them.
+            StudioError: The node does not answer.
         """
         remote = await self._remote(command.node)
         views = await remote.views()
         return Parameters(request=command.request, node=remote.node, parameters=views)
 
     async def set(self, command: SetParameter) -> None:
-        """Have a node set one.
+        """Set a parameter of a node.
 
         Raises:
-            StudioError: It does not; its reason is told.
+            StudioError: It was not set; the sentence says why.
         """
         remote = await self._remote(command.node)
         await remote.set(command.name, command.text, command.value_type)
@@ -92,10 +92,10 @@ class NodeParameters:
         return ParameterDump(request=command.request, node=remote.node, text=text)
 
     async def load(self, command: LoadParameters) -> ParametersLoaded:
-        """Have a node set what a file says.
+        """Set the parameters that a file has for a node.
 
         Raises:
-            StudioError: It is no such file, says nothing of the node, or the node is silent.
+            StudioError: The file is not valid or has nothing for the node, or the node is silent.
         """
         remote = await self._remote(command.node)
         count, refused = await remote.load(command.text)

@@ -1,6 +1,6 @@
-"""Saying: a publisher and the message that it sends, made anew where it holds the time.
+"""Saying: a publisher and its message, which is made again each time if it holds the time.
 
-It imports Zenoh, by way of ros, so it is imported when it is first used.
+It imports Zenoh (through `ros`), so it is imported when it is first used.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ _NOW_WORDS: Final = frozenset({"now", "auto"})
 
 
 class Saying:
-    """One message on one topic; made and closed in a thread, said in any.
+    """One message on one topic; made and closed in a thread, published in any.
 
     Raises:
-        StudioError: The topic cannot be named so, its type is not known, or the values do not
-            fit it.
+        StudioError: The name of the topic is not valid, its type is not known, or the values do
+            not fit it.
     """
 
     def __init__(self, link: WireLink, asked: Publish) -> None:
@@ -86,7 +86,7 @@ def _profile(asked: Publish) -> QoSProfile:
 
 
 def _holds_word(values: object) -> bool:
-    """Whether a word that stands for the time is anywhere in it."""
+    """Whether a keyword for the time (`now`, `auto`) is anywhere in the values."""
     if isinstance(values, dict):
         return any(map(_holds_word, cast("dict[object, object]", values).values()))
     if isinstance(values, list):

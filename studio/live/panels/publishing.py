@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 _KEPT: Final = 20
 _RUNNING_MAX: Final = 20
 _LISTENER_PATIENCE_S: Final = 1.0
-"""For somebody who listens to what is published once."""
+"""So long a single publication waits for a subscriber."""
 _STAY_S: Final = 0.2
-"""After what is published once, for it to be on its way."""
+"""After a single publication, before the publisher closes."""
 _LOOK_S: Final = 0.5
 _GRACE_S: Final = 3.0
 """A page that is loaded anew is back within this time."""
@@ -38,7 +38,7 @@ _OWN: Final = tuple(name for name in PublicationView.model_fields if name not in
 
 @dataclass
 class Publication:
-    """What is published, and how often it was; counted in the connection's thread."""
+    """What is published, and how often so far; counted in the connection's thread."""
 
     operation: int
     name: str
@@ -60,7 +60,7 @@ class Publication:
         self.sent += 1
 
     def view(self) -> PublicationView:
-        """As the page is told."""
+        """The publication as the page receives it."""
         own = {name: getattr(self, name) for name in _OWN}
         return PublicationView(**own, **self.asked.model_dump(include=_AS_ASKED))
 
@@ -119,7 +119,7 @@ class Publishing:
             self._presenters.add(listener)
 
     def detach(self, listener: Listener) -> None:
-        """A page is gone; when nobody is left who could stop it, what runs ends in a moment."""
+        """Remove a page; when nobody is left who could stop it, what runs ends in a moment."""
         was_there = listener in self._presenters
         self._presenters.discard(listener)
         if was_there and not self._presenters and self.operations.under_way():
@@ -132,7 +132,7 @@ class Publishing:
         await self._running.end_all("The connection with ROS 2 was ended.")
 
     async def close(self) -> None:
-        """End all that runs, and tell nobody any more."""
+        """End all that runs, and send no more events."""
         if self._leaving is not None:
             self._leaving.cancel()
         await self.let_go()

@@ -1,4 +1,4 @@
-"""How often messages come on topics, how large they are, and how old the last one is."""
+"""Rates, sizes and ages of the messages of topics."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What asks other nodes on behalf of panels: a service called, and how long one waits for it.
+"""Service calls on behalf of panels, and the errors of requests without an answer.
 
-It imports Zenoh, by way of ros, so it is imported when it is first used.
+It imports Zenoh (through `ros`), so it is imported when it is first used.
 """
 
 from __future__ import annotations
@@ -32,20 +32,20 @@ if TYPE_CHECKING:
     from studio.ros.node.task import Future
 
 SHOWN_CHARACTERS: Final = 60_000
-"""Of a reply, a result and the like: more is not read by anybody."""
+"""Limit of a reply, a result and the like: nobody reads more."""
 SERVER_PATIENCE_S: Final = 3.0
-"""For somebody who serves: it was listed, or it comes up at this moment."""
+"""So long a server is waited for: it was listed, or it is just starting."""
 _LOOK_S: Final = 0.05
 _ROUTER_SEEN_S: Final = 0.5
-"""A call ends as its router does, which is told a moment later."""
+"""A call ends with its router, whose end is noticed a moment later."""
 
 
 class ServiceRequest:
     """One request, ready to be sent; made and closed in a thread.
 
     Raises:
-        StudioError: The service cannot be named so, its type is not known, or the values do not
-            fit it.
+        StudioError: The name of the service is not valid, its type is not known, or the values do
+            not fit it.
     """
 
     def __init__(self, link: WireLink, asked: CallService) -> None:
@@ -101,7 +101,7 @@ def wire_name(text: str) -> str:
 
 
 def not_served(what: str, name: str, type_name: str, types: Sequence[str]) -> CallError:
-    """Say why nobody answers: nobody is there, or all have other types."""
+    """Return why nobody answers: there is no server, or all have other types."""
     if types:
         return ServedOtherwiseError(what, name, type_name, tuple(types))
     return NotServedError(what, name)
@@ -118,7 +118,7 @@ async def came_true(holds: Callable[[], bool], timeout_s: float) -> bool:
 
 
 async def why_ended(link: WireLink, otherwise: WireError) -> WireError:
-    """Say what ended a question that was under way: the end of the router, or something else."""
+    """Return what ended a request: the end of the router, or `otherwise`."""
     is_away = await came_true(lambda: not link.is_connected, _ROUTER_SEEN_S)
     return RouterGoneError(link.endpoint) if is_away else otherwise
 

@@ -1,4 +1,4 @@
-"""Which topics there are, who is at their ends, and what keeps those apart."""
+"""The topics, their endpoints, and why endpoints do not match."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from studio.ros.graph.endpoints import GraphEndpoint
 
 ENDS_MAX: Final = 100
-"""Of a side that are told; `/rosout` has one for every node."""
+"""Endpoints listed of one side; `/rosout` has one for every node."""
 MISFITS_MAX: Final = 20
 
 
@@ -60,7 +60,7 @@ def _rows(link: WireLink) -> tuple[TopicRow, ...]:
     found: list[TopicRow] = []
     for name, types in link.graph.topics():
         publishing, hearing = link.graph.publishers(name), link.graph.subscriptions(name)
-        # What the studio publishes somebody wanted; what it hears only serves to show it.
+        # A user asked for what the studio publishes; what it subscribes only serves to show it.
         publishers, subscribers = len(publishing), _others(hearing, link.zid)
         if publishers or subscribers:
             carried = carried_types(publishing, hearing)
@@ -77,7 +77,7 @@ def _rows(link: WireLink) -> tuple[TopicRow, ...]:
 
 
 def _others(ends: Iterable[GraphEndpoint], own_zid: str) -> int:
-    """How many are not the studio's own."""
+    """Count the endpoints that are not the studio's own."""
     return sum(one.node.zid != own_zid for one in ends)
 
 
@@ -100,7 +100,7 @@ def _end(endpoint: GraphEndpoint, own_zid: str) -> TopicEnd:
 
 
 def _words(name: str) -> str:
-    """As `ros2 topic info` writes a policy, in small letters."""
+    """Return a policy's value as `ros2 topic info` does, in lower case."""
     return name.lower().replace("_", " ")
 
 

@@ -31,7 +31,7 @@ _TICK_S: Final = 1 / 60
 _TICK_SLACK_S: Final = 0.004
 """A tick that comes a little early is the one that was meant."""
 SUBSCRIPTIONS_MAX: Final = 200
-"""Of one browser."""
+"""Limit for one browser."""
 _STATES: Final[dict[StateKind, SubscriptionStatus]] = {
     "not_connected": "not_connected",
     "connection_lost": "not_connected",
@@ -49,7 +49,7 @@ class DataLaneEnd(Protocol):
     """The sending end of one browser's data lane."""
 
     def say(self, message: BaseModel, /) -> None:
-        """Queue one message in words."""
+        """Queue one JSON message."""
         ...
 
     def take(self, tick: Tick, /) -> None:
@@ -88,7 +88,7 @@ class _Channel:
         self.close = self._subscription.close
 
     def state(self, subscription: int) -> SubscriptionView:
-        """How it stands, as a browser is told that has given it this number."""
+        """Return the state of a subscription, by the number that the browser gave it."""
         state = self._subscription.state
         told = _STATES[state.kind]
         fit = None if told == "not_connected" else state.fit
@@ -106,7 +106,7 @@ class _Channel:
         )
 
     def take(self, now_s: float) -> Chunk | None:
-        """What came and is due now."""
+        """Return the messages that are due."""
         if now_s < self._due_s or not (samples := self._subscription.take()):
             return None
         if not self._keeps_all:
@@ -114,7 +114,7 @@ class _Channel:
         return self._chunk(samples)
 
     def kept(self) -> Chunk | None:
-        """What a latched topic told before, for one who comes now."""
+        """Return the latched messages, for a browser that subscribes later."""
         kept = self._subscription.kept()
         return self._chunk(kept) if kept else None
 
@@ -124,19 +124,19 @@ class _Channel:
         return chunk_of(self.number, samples, lost, keeps_all=self._keeps_all)
 
     def _tell_if_due(self) -> None:
-        """In a thread of the source; what is not due yet goes with a tick."""
+        """Send what is due at once, in a thread of the source; the rest goes with a tick."""
         if time.monotonic() >= self._due_s:
             self._arrived()
 
 
 class _Browser:
-    """The channels of one browser by its own numbers, and what it was told of each."""
+    """The channels of one browser by its own numbers, and the states sent of each."""
 
     def __init__(self, lane: DataLaneEnd) -> None:
         self._lane = lane
         self.channels: dict[int, _Channel] = {}
         self.numbers: tuple[int, ...] = ()
-        """Of its channels, each once and in their order: looked at in every tick."""
+        """Of its channels, each once and in order: read in every tick."""
         self._sent: dict[int, SubscriptionView] = {}
 
     def tell(self) -> None:
@@ -161,9 +161,9 @@ class _Browser:
 
 
 class BrowserTopics:
-    """What the data lanes of all browsers want, and what they are given.
+    """The subscriptions of all browsers' data lanes, and what they receive.
 
-    All calls are made on the loop.
+    Used on the event loop only.
     """
 
     def __init__(self, source: TopicSource) -> None:
@@ -184,7 +184,7 @@ class BrowserTopics:
         self._close_unwanted()
 
     def carry_out(self, lane: DataLaneEnd, command: SubscriptionCommand) -> None:
-        """Subscribe or unsubscribe for a browser, which is told how that stands."""
+        """Subscribe or unsubscribe for a browser, and send it the state."""
         browser = self._browsers.get(lane)
         if browser is None or self._closed:
             return
@@ -257,7 +257,7 @@ class BrowserTopics:
             await asyncio.sleep(max(0.0, began_s + _TICK_S - loop.time()))
 
     def _tell(self) -> None:
-        self._is_telling = False  # before it is told: what changes from now on is told again
+        self._is_telling = False  # before sending: what changes from now on is sent again
         for browser in self._browsers.values():
             browser.tell()
 

@@ -1,10 +1,10 @@
-"""Frames of the data lane: many messages of many topics, as they came, in one binary message.
+"""Frames of the data lane: many messages of many topics in one binary message.
 
-All numbers are little-endian. A frame begins with 16 bytes: version, three of nothing, how many
-messages follow, how many this browser was too slow for since it came, four of nothing. Each
-message begins with 28 bytes: channel, length, when it came and when it was sent (ns since the Unix
-epoch), how many of its channel were lost on their way so far. Then come its bytes, filled up to a
-multiple of 8: so the body of its CDR lies at one, and arrays need not be copied to be read.
+All numbers are little-endian. A frame begins with 16 bytes: version, three zero bytes, the number
+of messages, the number of messages dropped since the browser came because it was too slow, four
+zero bytes. Each message begins with 28 bytes: channel, length, times of arrival and sending (ns
+since the Unix epoch), number of messages of its channel lost so far. Then come its bytes, padded to
+a multiple of 8, so that the body of its CDR is aligned and arrays can be read without a copy.
 The page reads them in `frontend_assets/workers/frames.js`. The bulk lane carries the same frames.
 """
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 VERSION: Final = 1
 LARGE_BYTES: Final = 256 << 10
-"""Of a message: longer ones go by the bulk lane where a browser has one."""
+"""Longer messages go by the bulk lane where a browser has one."""
 FRAME_HEAD: Final = struct.Struct("<B3xII4x")
 MESSAGE_HEAD: Final = struct.Struct("<IIqqI")
 _FILLING: Final = tuple(bytes(count) for count in range(8))
@@ -31,12 +31,12 @@ _LOST_MOD: Final = 1 << 32
 
 @dataclass(frozen=True, slots=True)
 class Chunk:
-    """What came on one channel since the last tick, ready to be sent to any number of browsers."""
+    """The messages of one channel since the last tick, ready to be sent to several browsers."""
 
     channel: int
     count: int
     parts: tuple[bytes, ...]
-    """To be sent one after the other: what is large is not copied to be one."""
+    """To be sent one after the other: large messages are not copied."""
     size: int
     """Bytes of all parts."""
     keeps_all: bool
@@ -85,7 +85,7 @@ def frame_of(
 
 
 class Tick:
-    """What one tick brings to all who hear the same channels; its frame is written once."""
+    """The messages of one tick for all who subscribe to the same channels; written once."""
 
     def __init__(self, chunks: tuple[Chunk, ...]) -> None:
         self.chunks = chunks

@@ -11,11 +11,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
 DEPTH_MAX: Final = 1_000
-"""Of what somebody chooses."""
+"""Limit of a depth that a user chooses."""
 EVERY_DEPTH: Final = 4_096
-"""So long may a subscriber be busy with other work: four seconds of a thousand messages each."""
+"""So long a subscriber may be busy: four seconds of a thousand messages each."""
 WAITING_BYTES_MAX: Final = 64 << 20
-"""Of one subscriber's queue."""
+"""Limit of one subscriber's queue."""
 
 StateKind: TypeAlias = Literal[
     "not_connected", "connection_lost", "no_publisher", "other_type", "other_form", "refused",
@@ -24,9 +24,9 @@ StateKind: TypeAlias = Literal[
 
 
 class Endpoint(NamedTuple):
-    """A publisher or a subscription of somebody.
+    """A publisher or a subscription.
 
-    `node` is a full name, `own` tells whether it is the studio's, `type_hash` is as keys carry it.
+    `node` is a full name, `own` is true for the studio's, `type_hash` is as in liveliness tokens.
     """
 
     node: str
@@ -38,19 +38,19 @@ class Endpoint(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What is wanted of a topic.
+    """A subscription to be made.
 
     Attributes:
-        topic: In full.
-        types: Of messages that can be used, the best first; empty: whatever is published.
-        newest_only: Whether an older message is of no worth once there is a newer one.
-        reliable: As somebody chose; None: as fits the publishers.
-        latched: Whether messages from before are asked for (transient local); None: as fits.
-        depth: The history's; None: as deep as a queue of this kind needs.
-        usually: `reliable` and `latched` while nobody publishes and nobody chose.
-        as_known_here: Whether the bytes are read here, so that the type's form must be ours.
-        at_once: Whether somebody waits for each message.
-        waiting_max: Messages that wait to be taken; then the oldest are given up.
+        topic: Full name.
+        types: Types that can be used, the best first; empty: whatever is published.
+        newest_only: Whether an older message is of no use once there is a newer one.
+        reliable: As a user chose; None: as fits the publishers.
+        latched: Whether earlier messages are wanted (transient local); None: as fits.
+        depth: Of the history; None: as deep as a queue of this kind needs.
+        usually: `reliable` and `latched` while nobody publishes and no user chose.
+        as_known_here: Whether the messages are decoded, so that the type's hash must be ours.
+        at_once: Whether each message is waited for.
+        waiting_max: Length of the queue; when full, the oldest are dropped.
     """
 
     topic: str
@@ -79,7 +79,7 @@ class Fit(NamedTuple):
 
     @property
     def qos(self) -> QoSProfile:
-        """As a subscription shows it."""
+        """The QoS of the subscription."""
         reliable, latched = self.reliable, self.latched
         return QoSProfile(
             depth=self.depth,
@@ -90,13 +90,13 @@ class Fit(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SubscriptionState:
-    """How a subscription stands.
+    """State of a subscription.
 
     Attributes:
-        kind: The first thing that is in the way; `receiving`: nothing is.
-        fit: How it is subscribed; None: it is not.
+        kind: The first problem; `receiving`: there is none.
+        fit: Type and QoS; None: not subscribed.
         publishers: Of the topic, of any type.
-        types: Under which it is published.
+        types: Types published.
         reason: Why it was refused, in a sentence.
     """
 
@@ -109,7 +109,7 @@ class SubscriptionState:
 
     @property
     def sentence(self) -> str:
-        """What is in the way; empty: nothing is."""
+        """The problem in a sentence; empty: there is none."""
         if self.kind == "refused":
             return self.reason
         wanted = self.fit.type_name if self.fit else "anything else"
@@ -139,21 +139,21 @@ def fit_request(
     before: Fit | None,
     own_hash: Callable[[str], str | None],
 ) -> Fit | None:
-    """Fit a request to those who publish, unless somebody chose otherwise.
+    """Fit a request to the publishers, unless a user chose otherwise.
 
-    A topic that is latched by one is asked for what it said before; reliably, if all send so. While
-    nobody publishes it is subscribed as most do: somebody who says one thing and is gone is heard
-    only where nothing has to be opened anew. When all are gone, it stays subscribed as it was.
+    If one publisher is latched, earlier messages are asked for; reliable, if all are. While nobody
+    publishes, the usual QoS is used, for a publisher that sends one message and ends is received
+    only if nothing has to be subscribed again. When all are gone, the fit stays.
 
     Args:
-        request: What is wanted.
+        request: The subscription to be made.
         publishers: Of the topic, of any type.
-        before: How it was subscribed until now.
-        own_hash: Gives the hash of a type as publishers show it who have it as it is known here;
-            None: it is not known.
+        before: The fit until now.
+        own_hash: Returns the hash that publishers with our definition of a type show; None: the
+            type is not known.
 
     Returns:
-        How to subscribe; None while it is not known with which type.
+        Type and QoS; None while the type is not known.
     """
     name = _type_of(request, publishers)
     fitting = [one for one in publishers if one.type_name == name]

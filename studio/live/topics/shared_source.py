@@ -40,10 +40,10 @@ class _Key(NamedTuple):
 
 
 class SharedSource(ABC):
-    """Keeps what is wanted, and one stream for all who want a topic in the same way.
+    """Keeps the subscriptions, and one stream for all of a topic that fit together.
 
-    Whoever derives says who publishes and begins to receive; it calls `fit_all` once `doubt` was
-    called, and `change_epoch` when what came before does not go with what comes.
+    A subclass knows the publishers and starts to receive; it calls `fit_all` after `doubt`, and
+    `change_epoch` when earlier messages do not belong to those that follow.
     """
 
     def __init__(self) -> None:
@@ -57,7 +57,7 @@ class SharedSource(ABC):
 
     @property
     def epoch(self) -> int:
-        """Another number once what came before does not go with what comes now."""
+        """Another number once earlier messages do not belong to those that follow."""
         return self._epoch
 
     @property
@@ -71,7 +71,7 @@ class SharedSource(ABC):
 
     @abstractmethod
     def publishers(self, topic: str) -> Sequence[Endpoint]:
-        """Give who publishes a topic; nobody where it cannot be a topic's name."""
+        """Return the publishers of a topic; none if the name is not valid."""
 
     @abstractmethod
     def sender(self, gid: bytes) -> str | None:
@@ -100,14 +100,14 @@ class SharedSource(ABC):
 
     @abstractmethod
     def measure(self, topic: str, kept_s: float) -> Meter | None:
-        """Begin to count what comes on a topic, until nobody asked for so long.
+        """Count the messages of a topic, until nobody asked for `kept_s`.
 
-        None: nobody publishes it, or nothing can come.
+        None: nobody publishes it, or the source has ended.
         """
 
     @abstractmethod
     def doubt(self) -> None:
-        """Something may have changed: have all be fitted soon. Any thread may say so."""
+        """Have all subscriptions fitted again soon; thread-safe."""
 
     @abstractmethod
     def hand_over(self, subscription: Subscription) -> None:
@@ -121,7 +121,7 @@ class SharedSource(ABC):
         arrived: Callable[[], object] | None = None,
         changed: Callable[[], object] | None = None,
     ) -> Subscription:
-        """Subscribe, as `TopicSource` says."""
+        """Implement `TopicSource.subscribe`."""
         made = Subscription(request, self._left, take, arrived, changed)
         with self._lock:
             self._subscriptions[made] = None
@@ -129,7 +129,7 @@ class SharedSource(ABC):
         return made
 
     def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
-        """Give how what others publish comes, as `TopicSource` says."""
+        """Implement `TopicSource.flows`."""
         return self.rates.flows(topics)
 
     def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:
@@ -157,7 +157,7 @@ class SharedSource(ABC):
             stream.close()
 
     def change_epoch(self) -> None:
-        """What came before does not go with what comes."""
+        """Begin a new epoch: earlier messages do not belong to those that follow."""
         self._epoch += 1
 
     @property
@@ -201,7 +201,7 @@ class SharedSource(ABC):
     def _fitted(
         self, one: Subscription, connection: Connection, publishers: Sequence[Endpoint]
     ) -> SubscriptionState:
-        """Have one share the stream that fits, and tell how it stands then."""
+        """Let a subscription share the stream that fits, and return its state."""
         request = one.request
         if connection != "there":
             kind = "not_connected" if connection == "none" else "connection_lost"

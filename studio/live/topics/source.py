@@ -35,10 +35,10 @@ class TopicSource(Protocol):
 
     @property
     def epoch(self) -> int:
-        """Another number once what came before does not go with what comes now.
+        """Another number once earlier messages do not belong to those that follow.
 
-        Whoever keeps transforms, trails or plots clears them: another system was connected, or a
-        recording jumped.
+        Users clear transforms, trails and plots: another system was connected, or a recording
+        jumped.
         """
         ...
 
@@ -57,7 +57,7 @@ class TopicSource(Protocol):
         ...
 
     def publishers(self, topic: str) -> Sequence[Endpoint]:
-        """Give who publishes a topic; nobody where it cannot be a topic's name."""
+        """Return the publishers of a topic; none if the name is not valid."""
         ...
 
     def sender(self, gid: bytes) -> str | None:
@@ -88,10 +88,10 @@ class TopicSource(Protocol):
         ...
 
     def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
-        """Give how often, how large and how old what comes on some topics is.
+        """Return rates, sizes and ages of the messages of some topics.
 
-        They are measured from the first question on, whatever their types, and for some seconds
-        after the last. Those that nobody publishes are left out.
+        They are measured from the first request on, whatever their types, and for some seconds
+        after the last. Topics that nobody publishes are left out.
         """
         ...
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from studio.ros.node.samples import RawSample
 
 _CACHE_BYTES: Final = 16 << 20
-"""Of a latched topic, for those who come later."""
+"""Limit of the latched messages of a topic that are kept for later subscribers."""
 _SENDERS_MAX: Final = 10_000
 _ARRIVALS_MAX: Final = 400
 _RATE_OVER_NS: Final = 2_000_000_000
@@ -59,7 +59,7 @@ class Subscription:
 
     @property
     def fit(self) -> Fit | None:
-        """How it is subscribed, or was when it last was."""
+        """Type and QoS, or those of the last stream."""
         return self.state.fit
 
     @property
@@ -99,7 +99,7 @@ class Subscription:
             yield sample
 
     def kept(self) -> list[RawSample]:
-        """Give what a latched topic told before, of each sender as much as is deep; it stays."""
+        """Return the latched messages, as many of each sender as the depth; they stay."""
         stream, fit = self._stream, self.fit
         return [] if stream is None or fit is None else stream.kept(fit.depth)
 
@@ -155,7 +155,7 @@ class Subscription:
                     _log.exception("A message on %s could not be used.", self.request.topic)
 
     def stand(self, state: SubscriptionState) -> None:
-        """Take another state, and say so where it is news."""
+        """Take another state, and notify if it is new."""
         if state != self.state:
             self.state = state
             if self._changed is not None:
@@ -183,7 +183,7 @@ class Subscription:
 
 
 class WireSubscription(Protocol):
-    """What a source has subscribed for a stream."""
+    """The subscription of a source behind a stream."""
 
     @property
     def lost(self) -> int:
@@ -208,18 +208,18 @@ class WireSubscription(Protocol):
 
 
 class Stream:
-    """One subscription of a source, for all who want a topic in the same way.
+    """One subscription of a source, shared by all subscribers with the same fit.
 
-    The deepest subscriber sets the depth. Of a latched topic what came is kept, as much of each
-    sender as is deep, for those who come later.
+    The deepest subscriber sets the depth. Latched messages are kept for later subscribers, as many
+    of each sender as the depth.
 
     Args:
-        fit: Type, QoS, and the depth at first.
-        subscribe: Begins to receive; is given what takes the samples, in a thread of the source.
-        hand_over: Sees to it that `Subscription.hand_over` is called.
+        fit: Type, QoS, and the first depth.
+        subscribe: Starts to receive; its callback takes the samples, in a thread of the source.
+        hand_over: Makes sure that `Subscription.hand_over` is called.
 
     Raises:
-        StudioError: It cannot be subscribed so.
+        StudioError: It cannot be subscribed.
     """
 
     def __init__(
@@ -235,9 +235,9 @@ class Stream:
         self._subscribers: tuple[Subscription, ...] = ()
         self._cache = Cache() if fit.latched else None
         self._repeats_to: dict[bytes, int] = {}
-        """By sender: what has no greater number has come before it was deepened."""
+        """By sender: samples up to this number came before the depth grew, and come again."""
         self._newcomers: frozenset[Subscription] = frozenset()
-        """Who joined since then, and so wants what comes again."""
+        """Subscribers that joined since then, and take those that come again."""
         self._wire = subscribe(self)
 
     @property
@@ -251,7 +251,7 @@ class Stream:
         return self._wire.lost
 
     def kept(self, depth: int) -> list[RawSample]:
-        """Give what a latched topic told, so much of each sender, in the order in which it came."""
+        """Return the latched messages in order of arrival, at most `depth` of each sender."""
         with self._lock:
             return [] if self._cache is None else self._cache.samples(depth)
 
@@ -262,7 +262,7 @@ class Stream:
                 self._cache.keep_senders(there)
 
     def join(self, one: Subscription, depth: int) -> None:
-        """Give to one more, to whom a latched topic is told anew; in a thread, for it may wait."""
+        """Add a subscriber and give it the latched messages; call in a thread, for it may wait."""
         if one in self._subscribers:
             if depth <= self.depth:
                 return
@@ -349,7 +349,7 @@ class Stream:
 
 
 class Arrivals:
-    """When samples came, of late; those that came together count as one entry."""
+    """Times at which samples came recently; samples that came together are one entry."""
 
     def __init__(self) -> None:
         self._entries: deque[tuple[int, int]] = deque(maxlen=_ARRIVALS_MAX)
@@ -406,7 +406,7 @@ class Cache:
         return sorted(found, key=lambda one: one.received_ns)
 
     def keep_senders(self, there: frozenset[bytes]) -> None:
-        """Drop what senders said that were seen before and are not there any more."""
+        """Drop the latched messages of senders that were seen before and are gone."""
         for gone in (self._seen - there) & self._kept.keys():
             while gone in self._kept:
                 self._drop_first(gone)

@@ -1,4 +1,4 @@
-"""TopicRates: how often, how large and how old what others publish is, while somebody looks."""
+"""TopicRates: rates, sizes and ages of the messages of topics, measured while asked for."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 TOPICS_MAX: Final = 200
 """Measured at once; of those that are asked for beyond, nothing is known."""
 KEPT_S: Final = 5.0
-"""A topic is measured so long after somebody asked: whoever looks asks every second or so."""
+"""So long a topic is measured after a request: users ask every second or so."""
 BYTES_MAX: Final = 64_000_000
-"""In a second, of all that are measured: the heaviest beyond it rest."""
+"""Limit per second of all topics together: beyond it the heaviest pause."""
 _REST_S: Final = 8.0
 _MEASURED_S: Final = 2.0
 """A topic is measured at least so long before it rests."""
 
 
 class Meter(Protocol):
-    """Counts what comes on a topic, of whatever type, and ends once nobody asks."""
+    """Counts the messages of a topic of any type, and ends once nobody asks."""
 
     @property
     def is_open(self) -> bool:
@@ -51,21 +51,21 @@ class _Measured:
 
 @dataclass(frozen=True, slots=True)
 class _Rest:
-    """How a topic came that is not measured for a while, for it is heavy."""
+    """The last flow of a topic whose measuring pauses because it is heavy."""
 
     flow: Flow
     until_s: float
 
 
 class TopicRates:
-    """Measures topics for those who ask; all who ask for one topic share its meter.
+    """Measures topics on request; requests for the same topic share one meter.
 
-    Nothing is measured before the first question, nor for longer than `KEPT_S` after the last.
-    Any thread may ask.
+    Nothing is measured before the first request, nor for longer than `KEPT_S` after the last.
+    Thread-safe.
 
     Args:
-        measure: Begins to count on a topic, until nobody asked for so many seconds; None: nothing
-            can come, or nobody publishes there.
+        measure: Starts to count a topic, until nobody asked for so many seconds; returns None if
+            the source has ended or nobody publishes it.
     """
 
     def __init__(self, measure: Callable[[str, float], Meter | None]) -> None:
@@ -80,9 +80,9 @@ class TopicRates:
         return tuple(name for name, one in tuple(self._measured.items()) if one.meter.is_open)
 
     def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
-        """Return how these come; of one that nobody asked for before, nothing is known yet.
+        """Return the flows of topics; one asked for the first time has nothing measured yet.
 
-        Those that nobody publishes are left out, and those for which there is no room.
+        Topics that nobody publishes are left out, and those beyond the limits.
         """
         with self._lock:
             self._forget()

@@ -30,13 +30,13 @@ if TYPE_CHECKING:
 _PAUSE_S: Final = 0.05
 """What changes meanwhile is fitted together."""
 _AGAIN_S: Final = 0.5
-"""Until what was refused is tried again."""
+"""Until a refused subscription is tried again."""
 
 _log = logging.getLogger(__name__)
 
 
 class Link(Protocol):
-    """What is needed of a connection."""
+    """The part of a connection that a source uses."""
 
     @property
     def is_connected(self) -> bool:
@@ -45,17 +45,17 @@ class Link(Protocol):
 
     @property
     def graph(self) -> Graph:
-        """Who is there."""
+        """The graph of nodes and endpoints."""
         ...
 
     @property
     def types(self) -> TypeLibrary:
-        """All types that are known on it."""
+        """All types known on it."""
         ...
 
     @property
     def zid(self) -> str:
-        """Of the studio's own session."""
+        """Zenoh id of the studio's own session."""
         ...
 
     def shown_hash(self, type_name: str) -> str:
@@ -67,7 +67,7 @@ class Link(Protocol):
         ...
 
     def measure(self, topic: str, kept_s: float) -> Meter:
-        """Begin to count, until nobody asked for so long; raises a RosNameError."""
+        """Count messages until nobody asked for `kept_s`; raises a RosNameError."""
         ...
 
 
@@ -220,7 +220,7 @@ class ZenohSource(SharedSource):
 def _publishers(link: Link, topic: str) -> list[GraphEndpoint]:
     try:
         return link.graph.publishers(topic)
-    except RosNameError:  # which is said when it is to be subscribed
+    except RosNameError:  # reported when it is subscribed
         return []
 
 
