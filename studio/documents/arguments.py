@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from studio.packages.workspace import Location
 
 _NAMES_READ: Final = 1000
-"""Of one folder; more choices than that nobody reads."""
+"""Limit for one folder: nobody reads more choices."""
 
 
 class RoomWorld:
@@ -43,7 +43,7 @@ class RoomWorld:
         return str(folders[0]) if folders else None
 
     def names(self, folder: str) -> tuple[str, ...]:
-        """What a folder holds; nothing when it is none or lies outside."""
+        """Return the names in a folder; none if it is no folder or lies outside."""
         if folder not in self._names:
             self._names[folder] = self._listed(folder)
         return self._names[folder]
@@ -68,7 +68,7 @@ class RoomWorld:
 async def form_of(
     workspace: Workspace, last_run: LastRun, sites: SiteTable, request: int
 ) -> Arguments:
-    """What an open document is launched with, and could be."""
+    """Return the arguments that an open document is launched with, and those it could have."""
     path, sources = workspace.path, workspace.sources
     world = RoomWorld(workspace.location, sources.overlay())
     passed, files = sources.arguments, last_run.files
@@ -81,7 +81,7 @@ async def form_of(
 
 
 async def form_at(location: Location, request: int) -> Arguments:
-    """What a file that is not open yet can be launched with.
+    """Return the arguments that a file can be launched with before it is opened.
 
     Raises:
         CommandError: There is no robot file.

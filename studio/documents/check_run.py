@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 _AT_ONCE: Final = (os.cpu_count() or 1) + 2
 """Robots that are open at the same time: each core has work while others wait for quiet."""
 _QUIET_S: Final = 0.05
-"""Nobody edits: what comes so shortly after something else is looked at together with it."""
+"""Between a change and the checks: nobody edits, so it is short."""
 _OF_FRAGMENTS: Final = frozenset(
     {
         *("dangling-parent", "dangling-child", "several-roots", "no-links", "no-robot-name"),
@@ -52,7 +52,7 @@ _UNREADABLE: Final = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class CheckedFile:
-    """One robot description and all that was found wrong with it."""
+    """One robot description and the problems found in it."""
 
     path: Path
     problems: tuple[Problem, ...]
@@ -81,13 +81,13 @@ async def check_path(
 ) -> list[CheckedFile]:
     """Check a file, or every robot file of a folder or zip that can be opened.
 
-    What is unsaved in a running studio does not count: only what the disk has.
+    Unsaved edits of a running studio do not count, only what is on disk.
 
     Args:
-        settings: Where packages are looked for, and what is remembered.
+        settings: Packages and the data folder.
         path: What to check.
         arguments: Passed to xacro for each of them.
-        tell: Told how far it is, from any thread.
+        tell: Called with the progress, from any thread.
 
     Raises:
         PackageError: Nothing there can be opened.
@@ -198,7 +198,7 @@ class _Run:
 
 
 def _types_below(location: Location, path: Path) -> list[Problem]:
-    """What is wrong with the types of packages below a path, told once for all robots there."""
+    """Return the problems of types of packages below a path, once for all robots there."""
     real = Path(os.path.realpath(path))
     return [
         one for one in take_types(location) if one.place and is_below(Path(one.place.file), real)
@@ -206,7 +206,7 @@ def _types_below(location: Location, path: Path) -> list[Problem]:
 
 
 def _as_checked(problem: Problem) -> Problem:
-    """A robot that waits for an argument has nothing wrong with it: it could not be looked at."""
+    """Return a robot without a needed argument as a warning: it could not be checked."""
     if problem.fix is None or problem.fix.action != "give_arguments":
         return problem
     sentence = f"{problem.sentence} It was not checked."
@@ -231,7 +231,7 @@ class _LentWorker(DescriptionWorker):
 
 
 class _CheckServices(Services):
-    """Services whose workers are used again for the next robot, which nobody edits meanwhile."""
+    """Services whose workers are used again for the next robot."""
 
     def __init__(self, settings: Settings) -> None:
         super().__init__(settings)
@@ -318,9 +318,9 @@ _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 
 
 def _findings(files: Sequence[CheckedFile]) -> Iterator[tuple[str, Problem]]:
-    """Each finding once, though several robots may share the file that it is in.
+    """Yield each finding once, though several robots may share the file that it is in.
 
-    What robots share may have another prefix in the names of its links and joints in each.
+    Names of links and joints are ignored: what robots share may have another prefix in each.
     """
     listed: set[object] = set()
     told_by_others: set[object] = set()
@@ -338,7 +338,7 @@ def _findings(files: Sequence[CheckedFile]) -> Iterator[tuple[str, Problem]]:
 
 
 def _sentences(problem: Problem) -> tuple[str, str]:
-    """What a problem says, and the same without the names of its links and joints."""
+    """Return a problem's sentence, and the same without the names of links and joints."""
     nameless = problem.sentence
     for part in problem.parts:
         nameless = nameless.replace(f'"{part.partition(":")[2]}"', '""')

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Audience
 
 _SHOWN: Final = 50
-"""Collisions of one file that are shown; of more than that nobody reads every one."""
+"""Collisions shown of one file: nobody reads more."""
 _SHOWN_BYTES: Final = 4000
 
 
@@ -103,10 +103,10 @@ class DiskSync:
         await self._edits.follow_disk(edits)
 
     def collisions(self, command: GetCollisions) -> Collisions:
-        """Where a file's unsaved edits collide with what changed on disk.
+        """Return where a file's unsaved edits collide with changes on disk.
 
         Raises:
-            EditError: They do not.
+            EditError: There are none.
         """
         file = self._name(command.file)
         merged = self._sources.collisions(file)

@@ -1,4 +1,4 @@
-"""One open description: builds its parts, and has each follow what the others change."""
+"""One open description: builds its parts, and connects those that follow others' changes."""
 
 from __future__ import annotations
 
@@ -170,7 +170,7 @@ class Document:
 
     @property
     def location(self) -> Location:
-        """Where its files lie, as that is now."""
+        """The folders of its files at present."""
         return self.workspace.location
 
     @property
@@ -179,11 +179,11 @@ class Document:
         return bool(self.sources.unsaved_files)
 
     def packages_used(self) -> dict[str, str]:
-        """Each package that a file of the last run or a mesh lies in, and which copy it is."""
+        """Return each package that the last run or a mesh used, and its folder."""
         return self.workspace.packages_of((*self.last_run.files, *self._meshes.files))
 
     def start(self) -> None:
-        """Begin the first run; the audience is told how it goes."""
+        """Start the first run; the audience is sent its progress."""
         self.sources.track([self.path])
         self.drafts.restore()
         self.live.restore()
@@ -218,7 +218,7 @@ class Document:
         self.scene.close()
 
     def attach(self, listener: Listener) -> None:
-        """Tell a newcomer the whole state, and every change from then on."""
+        """Send a new page the whole state, and every change from then on."""
         for event in self._snapshot():
             tell(listener, event)
         self.audience.add(listener)
@@ -227,8 +227,8 @@ class Document:
     async def choose_package(self, name: str, folder: str) -> None:
         """Use a folder for a package from now on, read-only.
 
-        On the owner's own machine it may lie anywhere, for a missing package lies where nothing
-        is served; whoever presents from elsewhere chooses among the served folders.
+        On the owner's own machine it may be anywhere, for a missing package is where nothing is
+        served; a remote presenter chooses among the served folders.
         """
         chosen = Path(folder)
         if self._services.settings.host not in LOOPBACK_HOSTS:
@@ -280,7 +280,7 @@ class Document:
         self.audience.tell(Progress(task="expand", label=label, done=done, total=1))
 
     def _take(self, outcome: Outcome, version: int) -> None:
-        """A run ended: show what it gave, or say why the last good one stays."""
+        """Show the outcome of a run, or report why the last good one stays."""
         before, self._state_before = self._state_before, self._run_state()
         match outcome:
             case Failure():
@@ -292,11 +292,11 @@ class Document:
             self.findings.tell()
         self._watch_files()
         self.texts_changed()
-        if self.sources.conflicts:  # an undo, say, may have ended them
+        if self.sources.conflicts:  # an undo may have ended them
             self._spawn("disk", self.disk.changed(set(self.sources.conflicts)))
 
     def _run_state(self) -> tuple[object, ...]:
-        """What the state event tells of the last run."""
+        """The part of the state event that comes from the last run."""
         last = self.last_run
         return last.phase, last.files, last.failed
 

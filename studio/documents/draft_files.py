@@ -38,7 +38,7 @@ _PLAN_DECODER: Final = msgspec.json.Decoder(tuple[PlannedFile, ...])
 
 
 class SaveJournal:
-    """A small file that is there while a save is under way, and after one that was cut off."""
+    """A small file that exists during a save, and after one that was interrupted."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -87,7 +87,7 @@ _LOOKED_AT: Final = 50
 _TRIES: Final = 5
 _TRY_AGAIN_S: Final = 0.01
 _LIMIT_BYTES: Final = 256 << 20
-"""Of a draft's file: more than is ever written."""
+"""Limit of a draft's file, above anything that is written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,10 +118,10 @@ class DraftFile:
         return SaveJournal(self._path.with_suffix(".saving"))
 
     def read(self) -> Draft | None:
-        """What an earlier run left, its steps only where they fit its texts; None: nothing.
+        """Return the draft of an earlier run, with its undo steps if they fit its texts.
 
         Raises:
-            DraftError: It cannot be read; what is no draft was put aside.
+            DraftError: It cannot be read, and was put aside.
         """
         try:
             if self._path.stat().st_size > _LIMIT_BYTES:
@@ -158,11 +158,11 @@ class DraftFile:
             self._path.unlink(missing_ok=True)
 
     def close(self) -> None:
-        """Leave the draft to whoever opens the file next."""
+        """Release the draft, which the next one to open the file takes."""
         self._lock.close()
 
     def _put_aside(self, reason: str) -> DraftError:
-        """Keep what cannot be read where nobody takes it for a draft."""
+        """Rename a file that cannot be read, so that it is not taken for a draft."""
         aside = self._path.parent / _BROKEN / self._path.name
         try:
             aside.parent.mkdir(exist_ok=True)
@@ -173,10 +173,10 @@ class DraftFile:
 
 
 def draft_file(data_folder: Path, entry: Path) -> DraftFile:
-    """The first place for a draft of this file that nobody holds, where an earlier run left one.
+    """Return the first free place for a draft of this file, one with a draft if there is any.
 
     Raises:
-        DraftError: The data folder cannot be written, or too many documents hold the file.
+        DraftError: The data folder is not writable, or too many documents hold the file.
     """
     folder = data_folder / FOLDER
     try:
@@ -190,7 +190,7 @@ def draft_file(data_folder: Path, entry: Path) -> DraftFile:
 
 
 def _hold_soon(path: Path) -> IO[bytes] | None:
-    """Hold a draft; whoever only looked whether it is held has let go of it a moment later."""
+    """Hold a draft; a mere check whether it is held releases it a moment later."""
     for _ in range(_TRIES if path.exists() else 1):
         if lock := hold_file(path.with_suffix(".lock")):
             return lock
@@ -215,7 +215,7 @@ def left_drafts(data_folder: Path) -> list[Draft]:
 
 
 def _newest(folder: Path) -> list[Path]:
-    """So many of the files that one look does not take long."""
+    """Return the newest files, so few that checking them does not take long."""
     try:
         known = [(path.stat().st_mtime, path) for path in folder.glob("*.json")]
     except OSError:
@@ -233,7 +233,7 @@ def _left(path: Path) -> Draft | None:
             return None
         draft = _DECODER.decode(path.read_bytes())
     except (OSError, *_BROKEN_JSON):
-        return None  # whoever opens its file is told
+        return None  # reported when its file is opened
     return draft if draft.version == _VERSION and draft.kept.unsaved_files else None
 
 

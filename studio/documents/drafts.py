@@ -1,4 +1,4 @@
-"""Nothing that was edited is lost with the process: kept beside the edits, back at the opening."""
+"""Drafts: unsaved edits outlive the process, and are restored when the file is opened."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 _WRITE_AFTER_S: Final = 0.3
-"""From a draft to the next one; the first edit of a pause is written at once."""
+"""Between two drafts; the first edit after a pause is written at once."""
 _WRITE_LARGE_AFTER_S: Final = 3.0
 _LARGE_BYTES: Final = 1 << 20
 _LIMIT_BYTES: Final = 64 << 20
@@ -35,14 +35,14 @@ _STEPS_KEPT: Final = 300
 
 
 class Drafts:
-    """Keeps the draft of one document, off the way of its edits.
+    """Keeps the draft of one document, in the background.
 
     Args:
-        workspace: The texts that are kept.
+        workspace: The texts to keep.
         disk: Reads the files of a restored draft, and all of them when it is discarded.
-        findings: Gets why a draft is not kept, and which save was cut off.
-        audience: Is told what was restored.
-        data_folder: Where drafts are.
+        findings: Takes why a draft is not kept, and which save was interrupted.
+        audience: Is sent what was restored.
+        data_folder: The folder of the drafts.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class Drafts:
         self._ended = asyncio.Event()
 
     def events(self) -> Iterable[Restored]:
-        """What a newcomer is told."""
+        """Return the events for a new page."""
         if self._restored.at:
             yield self._restored
 
@@ -92,7 +92,7 @@ class Drafts:
 
     @contextmanager
     def saving(self, files: Collection[str] | None) -> Generator[None]:
-        """Write these changed files, or all, inside: a kill meanwhile is told at the next run."""
+        """Enclose writing these changed files, or all: a kill inside is reported later."""
         sources = self._sources
         chosen = [one for one in sources.unsaved_files if files is None or one in files]
         if self._file is None:
@@ -136,7 +136,7 @@ class Drafts:
         texts = tuple(one for one in kept.texts if served.serves(one.file))
         if texts != kept.texts:  # other folders are open than were then
             kept = replace(kept, texts=texts, done=(), undone=())
-        if draft.opened_with != self._opened_with:  # whoever names arguments wants these
+        if draft.opened_with != self._opened_with:  # arguments given now come first
             kept = replace(kept, arguments=self._opened_with)
         sources.put(kept)
         self._disk.refresh([one.file for one in texts])
@@ -145,7 +145,7 @@ class Drafts:
             self._audience.tell(self._restored)
 
     def _end_notice(self) -> None:
-        """What was saved or taken back needs no word any more."""
+        """Remove the notice of what was restored, once it is saved or discarded."""
         if not self._restored.at:
             return
         sources = self._sources

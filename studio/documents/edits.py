@@ -46,14 +46,14 @@ class EditObserver(Protocol):
 
 
 class Edits:
-    """Makes edits of values and arguments, and undoes steps; each returns when that is shown.
+    """Makes edits of values and arguments, and undoes steps; each returns when the result shows.
 
     Args:
         sources: The texts and arguments.
         runs: Runs them.
         sites: The sites in the texts.
-        audience: Is told how long each run took.
-        observer: Is called when the sources have changed.
+        audience: Is sent the duration of each run.
+        observer: Called when the sources have changed.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class Edits:
             late.cancel()
 
     async def reset_site(self, site: str) -> None:
-        """Put a site back to what the disk says."""
+        """Put a site back to its text on disk."""
         if edit := self._sources.reset_site(site):
             await self.timed(self._runs.edit((edit,)))
 
@@ -149,7 +149,7 @@ class Edits:
         self._observer.texts_changed()
 
     async def timed(self, run: Awaitable[None]) -> None:
-        """Wait for a run, and tell how long it took from the edit to the scene."""
+        """Wait for a run, and report the time from the edit to the scene."""
         began_s = time.perf_counter()
         await run
         took_ms = (time.perf_counter() - began_s) * 1000

@@ -100,7 +100,7 @@ class Engine:
         await asyncio.gather(*(document.close() for document in documents), self._services.close())
 
     def attach(self, listener: Listener) -> None:
-        """A control lane was opened: tell it what is open."""
+        """Send the list of documents to a new control lane."""
         self._lobby.add(listener)
         tell(listener, self._list())
         self.left_work.attach(listener)
@@ -202,7 +202,7 @@ class Engine:
         return await form_at(await self._locate(path, within=self.served), command.request)
 
     async def open_link(self, command: OpenLink) -> LinkOpened:
-        """Open what a link holds by the ordinary way, then make its edits."""
+        """Open the file of a link as usual, then make its edits."""
         shared = read_link(command.link)
         locations = [one.location for one in self.documents.values()]
         path = found_again(shared.entry, self.served, locations)
@@ -244,7 +244,7 @@ class Engine:
         return next(name for name in names if name not in self.documents)
 
     def watch(self, document: Document, listener: Listener) -> None:
-        """Let somebody hear one document, and no other."""
+        """Send a listener the events of one document, and of no other."""
         if before := self._watching.pop(listener, None):
             before.audience.remove(listener)
         self._watching[listener] = document
@@ -270,7 +270,7 @@ class Engine:
         asyncio.get_running_loop().call_soon(gc.collect)
 
     async def list_folder(self, command: ListFolder) -> Folder:
-        """What a served folder holds."""
+        """Return the content of a served folder."""
         listed = await asyncio.to_thread(list_folder, command.path, self.served)
         return Folder(
             request=command.request,

@@ -79,12 +79,12 @@ class _Copies:
         return self.names[file]
 
     def beside(self, file: Path, mesh: Path) -> str:
-        """The name of what a mesh draws on: where the mesh looks for it."""
+        """Return the name of a file that a mesh uses, so that the mesh finds it."""
         folder = self.names[mesh].rpartition("/")[0]
         return f"{folder}/{file.relative_to(mesh.parent).as_posix()}"
 
     def _free(self, wanted: str) -> str:
-        """Two folders of one name, say: the second gets a number."""
+        """Return `wanted` or, if it is taken, the name with a number."""
         taken, number, name = set(self.names.values()), 2, wanted
         while name in taken:
             head, _, tail = wanted.partition(f"{_MESHES}/")[2].partition("/")
@@ -210,7 +210,7 @@ class Exports:
         ]
 
     def _loose_files(self) -> list[PackedFile]:
-        """Of an entry file in no package: what the run read below its folder."""
+        """Return the files that the run read below an entry file in no package."""
         folder = self._workspace.entry.parent
         read = (Path(file) for file in self._last_run.files)
         return [

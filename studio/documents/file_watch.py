@@ -1,4 +1,4 @@
-"""Which of a document's files changed on disk, as soon as they did."""
+"""FileWatch: notices which of a document's files changed on disk."""
 
 # watchfiles' stub names anyio's events, which name trio's, which is not installed.
 # pyright: reportUnknownVariableType=false
@@ -29,17 +29,17 @@ class FileWatch:
     """Watches the folders of a set of files and reports those of the set that changed.
 
     Folders are watched rather than files, because editors replace a file instead of writing it.
-    Whoever asks has read the files since it asked before, so what changed between then and now,
-    when nobody watched yet, is told as well; now and then that is a word too many.
+    `watch` is called after the files were read, so changes since the call before are reported, too,
+    even if nothing was watched then; some of them may have been read already.
 
-    Where the system has no watch left it is tried again every two seconds, and what changed until
-    then is told at each try.
+    When the system refuses to watch, it is tried again every two seconds, and each attempt reports
+    the changes until then.
 
     Args:
-        changed: Told of each bundle of changes.
+        changed: Called with each set of changed files.
         fits: Whether a path that is not of the set is reported, too, when it comes, changes or
             goes; asked for each change in a watched folder.
-        troubled: Told why the system does not watch, and an empty text when it does again.
+        troubled: Called with the reason when the system refuses, and "" when it watches again.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class FileWatch:
                     await asyncio.wait_for(stop.wait(), _RETRY_S)
 
     async def _watch_until(self, folders: frozenset[str], stop: asyncio.Event) -> None:
-        """Raises what the system says when it does not watch, or no longer."""
+        """Report changes until `stop`; raises the system's error when it cannot watch."""
         watched = awatch(
             *folders,
             recursive=False,
@@ -149,12 +149,12 @@ class FileWatch:
 
 
 def _touched(paths: Iterable[str], since_ns: int, until_ns: int) -> set[str]:
-    """Those of the paths that were written or removed at that time."""
+    """Return the paths written or removed in that time."""
     return {path for path in paths if since_ns <= _changed_at_ns(Path(path)) <= until_ns}
 
 
 def _changed_at_ns(path: Path) -> int:
-    """When it was written last, or its folder if it is not there; 0 if that is not either."""
+    """When it was last written, or its folder if it does not exist; 0 without either."""
     for one in (path, path.parent):
         with contextlib.suppress(OSError):
             return one.stat().st_mtime_ns

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 OF_A_CODE = 500
-"""So many findings of one code are told: a large robot may have the same fault everywhere."""
+"""Limit of the findings of one code: a large robot may have the same fault everywhere."""
 _ORIGINS: Final = ("packages", "expansion", "robot", "mesh", "checks", "validation")
-"""In the order in which they are told; any other origin comes after these."""
+"""The order of origins; any other one comes after these."""
 _RANK = {Severity.ERROR: 0, Severity.WARNING: 1, Severity.INFO: 2}
 
 
@@ -26,8 +26,8 @@ class Findings:
     """Problems by origin (`expansion`, `robot`, `mesh` ...): each origin replaces its own.
 
     Args:
-        audience: Is told of all problems whenever one came or went.
-        last_run: Whether the robot is older than the texts.
+        audience: Is sent all problems whenever one came or went.
+        last_run: Knows whether the robot is older than the texts.
     """
 
     def __init__(self, audience: Audience, last_run: LastRun) -> None:
@@ -54,7 +54,7 @@ class Findings:
         self._audience.tell(self.event())
 
     def event(self) -> Problems:
-        """All problems, and whether the robot is older than the texts."""
+        """Return all problems, and whether the robot is older than the texts."""
         last = self._last_run
         return Problems(
             problems=self.all(), showing_last_good=last.failed and last.expansion is not None
@@ -62,7 +62,7 @@ class Findings:
 
 
 def _bounded(problems: Iterable[Problem]) -> Iterator[Problem]:
-    """The first of each code; how many more there are is said behind them."""
+    """Yield the first problems of each code, and a problem with the number left out."""
     counts: Counter[str] = Counter()
     last: dict[str, Problem] = {}
     for problem in problems:

@@ -1,4 +1,4 @@
-"""What a page measures the robot by: the frames of its joints, the masses of its links."""
+"""What a page shows of the robot's mechanics: frames of joints, masses of links."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Inspection:
         """By digest of the mesh."""
 
     def frames(self, command: GetFrames) -> Frames:
-        """Where the joints stand."""
+        """Return the frames of the joints."""
         model = self._model
         return Frames.model_construct(
             request=command.request,
@@ -48,15 +48,15 @@ class Inspection:
         )
 
     async def masses(self, command: GetMasses) -> Masses:
-        """What the links weigh."""
+        """Return the masses of the links."""
         robot = self._model.robot
         weighed = [link for link in robot.links.values() if link.inertial]
         volumes = await self._volumes_of(_mesh_uris(weighed))
-        # a large robot takes a while, and nobody else shall wait for it
+        # a large robot takes a while, and other work should not wait for it
         return await asyncio.to_thread(masses_event, command.request, robot, volumes.get)
 
     async def _volumes_of(self, uris: Iterable[str]) -> dict[str, Volume]:
-        """By URI; without the meshes that cannot be read, of which the problems tell."""
+        """Return the volumes by URI, without meshes that cannot be read, which are problems."""
         asked = list(uris)
         found = await asyncio.gather(*map(self._volume, asked))
         return {uri: one for uri, one in zip(asked, found, strict=True) if one is not None}
@@ -107,6 +107,6 @@ def _volume_view(found: Volume | None) -> VolumeView | None:
 
 
 def _mesh_uris(links: Iterable[Link]) -> dict[str, None]:
-    """Each mesh of these links once."""
+    """Return each mesh of these links once."""
     shapes = (shape for link in links for shape in (*link.visuals, *link.collisions))
     return {one.geometry.uri: None for one in shapes if isinstance(one.geometry, Mesh)}

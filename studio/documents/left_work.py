@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 
 class LeftDrafts:
-    """Finds drafts of served files that nobody holds, and tells the presenters of them.
+    """Finds drafts of served files that no document holds, and reports them to presenters.
 
     Args:
         served: The folders that are served now.
-        data_folder: Where drafts are.
+        data_folder: The folder of the drafts.
     """
 
     def __init__(self, served: Callable[[], ServedRoots], data_folder: Path) -> None:

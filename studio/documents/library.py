@@ -1,4 +1,4 @@
-"""What is opened beside the served folders: recent files, examples, and what is new."""
+"""What is opened besides the served folders: recent files, examples, new robots."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _Opening: TypeAlias = OpenRecent | OpenExample | NewRobot | NewUntitled | SaveAs
 
 
 class Opener(Protocol):
-    """What the engine does for the library."""
+    """The part of the engine that the library uses."""
 
     @property
     def served(self) -> ServedRoots:
@@ -82,7 +82,7 @@ class Opener(Protocol):
 
 
 class Library:
-    """Carries out the commands of `messages.opening`; `noted` is told of every opening."""
+    """Carries out the commands of the start page; `noted` is called for every opening."""
 
     def __init__(self, settings: Settings, opener: Opener) -> None:
         self._settings, self._opener = settings, opener
@@ -92,7 +92,7 @@ class Library:
 
     @property
     def robots_folder(self) -> Path:
-        """Where new robots go; served and writable, though it may not be there yet."""
+        """The folder of new robots; served and writable, though it may not exist yet."""
         return self._data_folder / ROBOTS
 
     async def recent(self, command: ListRecent | ForgetRecent) -> Recent:

@@ -1,8 +1,8 @@
 """A robot as a link: its file, its arguments and its unsaved edits in one line of text.
 
 Compressed JSON in base64url, behind a digit that names the format. A link may come from anybody:
-it is bounded, names files below the served folders only, and what it asks for goes the way of
-every opening and edit.
+it is bounded, names files below the served folders only, and is opened and edited by the ordinary
+commands.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class SharedPath(Message):
 
 
 class SharedEdit(Message):
-    """At byte `at`, `old` gives way to `new`; bytes are written as Latin-1 letters."""
+    """Replace `old` at byte `at` by `new`; bytes are written as Latin-1 letters."""
 
     at: int = Field(ge=0, le=1 << 32)
     old: _Text
@@ -71,7 +71,7 @@ class SharedFile(Message):
 
 
 class SharedRobot(Message):
-    """What a link holds."""
+    """The content of a link."""
 
     entry: SharedPath
     arguments: dict[ArgumentName, _Text] = Field(default_factory=dict[str, str], max_length=1000)
@@ -103,7 +103,7 @@ def link_to(sources: Sources, location: Location, request: int) -> Link:
 
 
 def read_link(text: str) -> SharedRobot:
-    """What a link holds.
+    """Return the content of a link.
 
     Raises:
         CommandError: It is no link of this studio, or it is damaged.
@@ -122,10 +122,10 @@ def read_link(text: str) -> SharedRobot:
 
 
 def found_again(shared: SharedPath, served: ServedRoots, locations: Iterable[Location]) -> Path:
-    """Where a shared file lies here.
+    """Return the file on this machine that a link means.
 
     Raises:
-        CommandError: It lies nowhere below the served folders.
+        CommandError: It is not below the served folders.
     """
     if served.serves(shared.path) and Path(shared.path).is_file():
         return served.resolve(shared.path)
@@ -179,7 +179,7 @@ def _edit_file(
 
 
 def _place(text: bytes, edit: SharedEdit, *, exact: bool) -> int | None:
-    """Where an edit belongs: where it says, else the one place with the same text around it."""
+    """Return where an edit applies: at its own place, else the one with the same text around."""
     try:
         old = edit.old.encode("latin-1")
         edit.new.encode("latin-1")

@@ -29,10 +29,10 @@ class MeshLoading:
     """Loads by URI; `arrived(uri, mesh)` is called for each, with None when it failed.
 
     Args:
-        library: Loads a file once, whatever the number of askers.
-        resolve: From a URI to a file and the folders that may be read; raises PackageError.
-        arrived: Told of each mesh as it comes.
-        progress: Called with (done, total) of the batch under way.
+        library: Loads each file once for all.
+        resolve: Returns the file of a URI and the folders it may use; raises PackageError.
+        arrived: Called with each mesh as it comes.
+        progress: Called with (done, total) of the running batch.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class MeshLoading:
         self.problems: dict[str, Problem] = {}
 
     def want(self, uris: Iterable[str]) -> None:
-        """Load these in the background, but for those under way."""
+        """Load these in the background, except those being loaded."""
         for uri in uris:
             if uri not in self._tasks:
                 self._total += 1
@@ -64,12 +64,12 @@ class MeshLoading:
         self.problems = {uri: found for uri, found in self.problems.items() if uri in kept}
 
     async def settled(self) -> None:
-        """Wait until nothing is under way."""
+        """Wait until nothing is being loaded."""
         while self._tasks:
             await asyncio.wait(tuple(self._tasks.values()))
 
     async def close(self) -> None:
-        """Give up what is under way."""
+        """Cancel what is being loaded."""
         tasks = tuple(self._tasks.values())
         for task in tasks:
             task.cancel()
@@ -115,14 +115,14 @@ def _fix_of(error: Exception) -> Fix | None:
 
 
 class Meshes:
-    """Keeps what is loaded in step with what the scene needs.
+    """Loads the meshes that the scene needs, and forgets the others.
 
     Args:
-        workspace: Where the meshes lie.
+        workspace: Resolves the URIs of the meshes.
         model: Names the meshes, and its scene draws them.
-        library: Loads a file once, whatever the number of askers.
-        findings: Gets what is wrong with them.
-        audience: Is told how many are loaded.
+        library: Loads each file once for all.
+        findings: Takes their problems.
+        audience: Is sent the progress.
         arrived: Called when a mesh came, or failed to.
     """
 
@@ -147,7 +147,7 @@ class Meshes:
         return tuple(self._loading.files.values())
 
     def want(self) -> None:
-        """Load what the scene lacks, and forget what nobody names any more."""
+        """Load the meshes that the scene lacks, and forget those no longer used."""
         scene = self._model.scene
         self._loading.forget(self._model.mesh_uris() | scene.live.mesh_uris())
         self._loading.want(scene.missing_meshes())
@@ -164,7 +164,7 @@ class Meshes:
 
     @property
     def problems(self) -> dict[str, Problem]:
-        """What is wrong with meshes of the robot by URI, each at the first link that names it."""
+        """Return the problems of the robot's meshes by URI, each at the first link that uses it."""
         model, found = self._model, self._loading.problems
         if not found:
             return {}
@@ -174,7 +174,7 @@ class Meshes:
         }
 
     def trouble_of(self, uri: str) -> str:
-        """Why a mesh cannot be shown, whoever names it, in a sentence."""
+        """Return why a mesh cannot be shown, in a sentence; empty if it can."""
         found = self._loading.problems.get(uri)
         return found.sentence if found else f"Mesh {uri} cannot be shown."
 
@@ -184,11 +184,11 @@ class Meshes:
         self._report_problems()
 
     async def settled(self) -> None:
-        """Wait until nothing is under way."""
+        """Wait until nothing is being loaded."""
         await self._loading.settled()
 
     async def close(self) -> None:
-        """Give up what is under way."""
+        """Cancel what is being loaded."""
         await self._loading.close()
 
     def _arrived(self, uri: str, mesh: LoadedMesh | None) -> None:
@@ -205,7 +205,7 @@ class Meshes:
         self._audience.tell(Progress(task="meshes", label="Loading meshes", done=done, total=total))
 
     def _resolve(self, uri: str) -> tuple[Path, tuple[Path, ...]]:
-        """Where a mesh lies, and the folders that it may draw on."""
+        """Return the file of a mesh, and the folders of the files that it may use."""
         return self._workspace.resolve_uri(uri), self._workspace.served.all
 
 

@@ -62,7 +62,7 @@ class JointPositions:
         self._set_all(self.kinematics.positions_with_mimic(self.by_name() | asked))
 
     def follow(self, positions: Mapping[str, float]) -> None:
-        """Stand where a robot that runs says it does, be it beyond the limits of the model."""
+        """Take the positions of a running robot, even beyond the limits of the model."""
         free = set(self.kinematics.free)
         reported = {
             name: value
@@ -72,15 +72,15 @@ class JointPositions:
         self._set_all(self.kinematics.positions_with_mimic(self.by_name() | reported))
 
     def zero(self) -> None:
-        """All to zero, or to the nearest position within the limits."""
+        """Move all joints to zero, or to the nearest position within the limits."""
         self._set_all(self.kinematics.zero_positions())
 
     def randomize(self) -> None:
-        """All to random positions within the limits."""
+        """Move all joints to random positions within the limits."""
         self._set_all(self.kinematics.random_positions(self._rng))
 
     def swing(self, time_s: float, start: NDArray[np.float64]) -> None:
-        """Where the joints are `time_s` into their swing, which began at `start`."""
+        """Move the joints to where they are `time_s` into a swing that began at `start`."""
         self._set_all(self.kinematics.swing(time_s, start))
 
     def by_name(self) -> dict[str, float]:
@@ -98,11 +98,11 @@ class JointPositions:
 
 @dataclass(frozen=True, slots=True)
 class Taken:
-    """What a run came to in the model."""
+    """The result of a run, after the model has taken it."""
 
     structural: bool
     problems: tuple[Problem, ...]
-    """All problems of the robot now."""
+    """All present problems of the robot."""
     new_meshes: bool
     """The robot names other meshes than before."""
 
@@ -120,7 +120,7 @@ class Model:
         self.posed: Callable[[tuple[str, ...], Floats], None] | None = None
         """Called with the links and their poses whenever they were moved, before that is sent."""
         self._meshes: dict[str, tuple[str, ...]] = {}
-        """By link, the meshes that it names."""
+        """The meshes of each link."""
 
     @property
     def robot(self) -> Robot:
@@ -167,7 +167,7 @@ class Model:
         return dict.fromkeys(uri for uris in self._meshes.values() for uri in uris).keys()
 
     def mesh_users(self) -> dict[str, Part]:
-        """For each mesh, the first link that names it, as it was written."""
+        """For each mesh, the first link that uses it, as written."""
         users: dict[str, Part] = {}
         for link, uris in self._meshes.items():
             if uris and (part := self.assembly.part(f"link:{link}")):

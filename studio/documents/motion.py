@@ -62,7 +62,7 @@ class Glide:
 
     @property
     def running(self) -> bool:
-        """Whether the joints are on their way."""
+        """Whether the joints swing."""
         return self._animation.running
 
     def start(
@@ -95,7 +95,7 @@ class Glide:
 
 
 class Motion:
-    """Moves the joints of a robot and tells the audience of its view where they stand."""
+    """Moves the joints of a robot, and sends their positions to the audience of its view."""
 
     def __init__(self, model: Model, view: RobotView) -> None:
         self._model, self._view = model, view
@@ -103,7 +103,7 @@ class Motion:
         self._glide = Glide(self._move)
         self._swing_start = model.joints.values
         self.leader = ""
-        """What else moves the joints, in a word; while it does, nobody else may. Empty: nothing."""
+        """Keyword of what else moves the joints; while it does, no page may. Empty: nothing."""
 
     @property
     def swinging(self) -> bool:
@@ -125,13 +125,13 @@ class Motion:
         self._glide.start(self._model.joints.by_name(), positions, duration_s)
 
     def zero(self) -> None:
-        """All joints to zero."""
+        """Move all joints to zero."""
         self._begin()
         self._model.joints.zero()
         self._show()
 
     def randomize(self) -> None:
-        """All joints to random positions."""
+        """Move all joints to random positions."""
         self._begin()
         self._model.joints.randomize()
         self._show()
@@ -149,17 +149,17 @@ class Motion:
         self._tell()
 
     def lead(self, leader: str) -> None:
-        """Let something else move the joints from now on, by `follow`; empty: nobody."""
+        """Let `leader` move the joints from now on, by `follow`; an empty name ends that."""
         self._stop_swinging()
         self.leader = leader
 
     def follow(self, positions: Mapping[str, float]) -> None:
-        """Move joints, rad or m by name, to where their leader says they are."""
+        """Move joints to the positions of the leader, rad or m by name."""
         self._model.joints.follow(positions)
         self._show()
 
     def close(self) -> None:
-        """End a swing without telling anybody."""
+        """End a swing without an event."""
         self._glide.stop()
         self._animation.stop()
 

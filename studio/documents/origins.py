@@ -1,4 +1,4 @@
-"""Where the parts of a robot come from, and what each text shapes, as the page asks for it."""
+"""Where the parts of a robot come from, and what each text changes, as the page receives it."""
 
 from __future__ import annotations
 
@@ -34,19 +34,19 @@ class Origins:
         self._runs, self._model = runs, model
 
     async def origin(self, command: GetOrigin, asker: Listener) -> Origin:
-        """Where a part comes from.
+        """Return where a part comes from.
 
         Raises:
-            CommandError: There is no such part, or nobody can tell.
+            CommandError: There is no such part, or it cannot be found out.
         """
         origin = await self._runs.answer(PartOriginQuery(command.part), PartOrigin, asker)
         return Origin(request=command.request, origin=origin)
 
     async def effects(self, command: GetEffects, asker: Listener) -> Effects:
-        """What a text shapes.
+        """Return what a text changes.
 
         Raises:
-            CommandError: There is no such text, or nobody can tell.
+            CommandError: There is no such text, or it cannot be found out.
         """
         query = SiteEffectsQuery(command.site)
         found = await self._runs.answer(query, SiteEffects, asker)
@@ -91,9 +91,9 @@ def effects_event(request: int, found: SiteEffects, robot: Robot) -> Effects:
 
 
 def _there(found: SiteEffects) -> frozenset[str]:
-    """Links and joints that are there as a whole because of a text.
+    """Return links and joints whose presence depends on a text.
 
-    What else it does to them goes without saying.
+    Its other effects on them are left out.
     """
     return frozenset(
         effect.part

@@ -37,13 +37,13 @@ _WORTH: Final = (b"group_state", b"include")
 
 @dataclass(frozen=True, slots=True)
 class FoundPoses:
-    """What was found, and the files that were read for it."""
+    """The poses found, and the files that were read for them."""
 
     group_states: tuple[NamedPose, ...] = ()
     initial: tuple[NamedPose, ...] = ()
     files: frozenset[str] = frozenset()
     folders: frozenset[str] = frozenset()
-    """Where others would be found."""
+    """Folders in which more could be found."""
 
 
 async def read_poses_around(
@@ -164,7 +164,7 @@ class PoseSearch:
         """Read the files around the robot; whether that was done."""
         if self._last_run.expansion is None:
             return False
-        # Also those that nobody passed: an SRDF asks for the same prefixes, and has no defaults.
+        # Also those without a value: an SRDF needs the same prefixes, and has no defaults.
         location, passed = self._workspace.location, self._workspace.sources.arguments
         arguments, name = self._sites.argument_values() | passed, self._model.robot.name
         made_from = (arguments, id(location.index), name)

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 
 
 _PAUSE_S: Final = 0.2
-"""Between two searches while somebody edits."""
+"""Between two searches during edits."""
 _NAMES_SHOWN: Final = 12
 _SLACK: Final = 1e-6
-"""rad or m by which a limit may be passed without a word: files round."""
+"""rad or m by which a limit may be exceeded without a warning: files round."""
 _SHELF: Final = ItemKind("pose", read_poses, write_poses)
 
 _Kind: TypeAlias = Literal["own", "srdf", "initial"]
@@ -56,7 +56,7 @@ class NamedPoses:
         self._throttle = Throttle(self._refresh, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[Poses]:
-        """What a newcomer is told."""
+        """Return the events for a new page."""
         yield self._list()
 
     def trigger(self) -> None:
@@ -139,7 +139,7 @@ class NamedPoses:
         self._tell()
 
     def _fitting(self) -> Iterator[tuple[_Kind, NamedPose]]:
-        """One's own, all of them; of those that were found the ones that mean this robot."""
+        """Yield the user's own poses, and of those found in files the ones for this robot."""
         for pose in self._shelf.items:
             yield "own", pose
         movable = frozenset(self._model.kinematics.movable)
@@ -188,7 +188,7 @@ def _known(pose: NamedPose, free: frozenset[str]) -> dict[str, float]:
 
 
 class _Views:
-    """Makes what the page is told of poses of one robot."""
+    """Makes the views of the poses of one robot."""
 
     def __init__(self, kinematics: Kinematics) -> None:
         self._kinematics = kinematics

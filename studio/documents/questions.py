@@ -18,16 +18,16 @@ if TYPE_CHECKING:
 
 
 KEPT: Final = 4
-"""Of one asker and one kind in `_TOGETHER`."""
+"""Limit for one asker and one kind in `_TOGETHER`."""
 _TOGETHER: Final = frozenset({PartOriginQuery, LookUpQuery})
-"""Kinds that a page asks together: a link, its joint and the part that a panel explains; the word
+"""Kinds that a page asks together: a link, its joint and the part that a panel explains; the text
 under the pointer and the one whose definition is wanted. Of all others only the newest counts."""
 WAITING_LIMIT: Final = 64
-"""Questions of viewers that wait: whoever is no browser has no number, and may ask at will."""
+"""Limit of waiting questions of viewers: a client that is no browser may ask without end."""
 
 
 class Waiting:
-    """One question and all who have asked it."""
+    """One question and all who asked it."""
 
     def __init__(self, query: Query) -> None:
         self.query = query
@@ -42,7 +42,7 @@ class Waiting:
 
     @property
     def askers(self) -> set[Listener]:
-        """Those who still wait for the answer."""
+        """Those who wait for the answer."""
         return {asker for answer, asker in self._answers.items() if not answer.done()}
 
     def supersede(self, asker: Listener) -> None:
@@ -62,7 +62,7 @@ class Waiting:
             answer.set_exception(error)
 
     def cancel(self) -> None:
-        """Have nobody wait any more."""
+        """Cancel it for all askers."""
         for answer in self._open():
             answer.cancel()
 
@@ -71,10 +71,10 @@ class Waiting:
 
 
 class QuestionQueue:
-    """The questions of one document, oldest first; one that several ask alike is in it once.
+    """The questions of one document, the oldest first; equal ones of several askers are one.
 
-    Of one asker and kind only the newest are kept, for a page asks again whenever somebody looks
-    elsewhere; those before end in a SupersededError.
+    Of one asker and kind only the newest are kept, for a page asks again with each selection;
+    earlier ones end in a SupersededError.
     """
 
     def __init__(self) -> None:
@@ -83,7 +83,7 @@ class QuestionQueue:
         """Who got the last answer: the next one goes to another viewer, if one waits."""
 
     def __len__(self) -> int:
-        """How many questions wait."""
+        """The number of waiting questions."""
         return len(self._waiting)
 
     def add(self, query: Query, asker: Listener) -> asyncio.Future[Reply]:
@@ -110,7 +110,7 @@ class QuestionQueue:
         return taken
 
     def cancel(self) -> None:
-        """Have nobody wait any more."""
+        """Cancel all questions."""
         waiting, self._waiting = self._waiting, []
         for one in waiting:
             one.cancel()
@@ -151,14 +151,14 @@ REST_S: Final = 0.3
 
 
 class Questions:
-    """No question is begun while a run is under way or waits: an edit overtakes all but one.
+    """Answers questions between runs: an edit overtakes all but the one being answered.
 
-    What takes long to answer waits, too, while somebody drags or types.
+    Slow ones also wait until a drag or typing has ended.
 
     Args:
-        runs_end: Waits until no run is under way; does not wait when none is.
+        runs_end: Waits while there is a run; returns at once without one.
         gesture_ended_s: When the last run of a drag, or of typing, ended, by the loop's clock.
-        reply: Gives the answer to one question.
+        reply: Returns the answer to one question.
     """
 
     def __init__(
@@ -171,7 +171,7 @@ class Questions:
         self._queue = QuestionQueue()
         self._answering: asyncio.Task[None] | None = None
         self._rest: asyncio.TimerHandle | None = None
-        """Has what waits for a rest answered then."""
+        """Answers slow questions when the pause after a gesture is over."""
 
     async def ask(self, query: Query, asker: Listener) -> Reply:
         """Wait for the turn of a question, and for its answer.
@@ -184,7 +184,7 @@ class Questions:
         return await answer
 
     async def close(self) -> None:
-        """Answer nothing any more; whoever waits is cancelled."""
+        """Answer nothing any more; those waiting are cancelled."""
         self._end_rest()
         self._queue.cancel()
         if self._answering is not None:

@@ -1,4 +1,4 @@
-"""Names and words that change in all texts of a document at once, as one step of undo."""
+"""Names and texts replaced in all files of a document at once, as one undo step."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ _SHOWN: Final = 240
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """What is looked for; never a pattern, which a text could make run for ever."""
+    """A text to find; never a pattern, which could be made to run for ever."""
 
     text: str
     match_case: bool = False
     whole_word: bool = False
 
     def spans(self, text: str) -> Iterator[tuple[int, int]]:
-        """Where they stand, [start, end) as indices, one behind the other.
+        """Yield the places, [start, end) as indices, none overlapping.
 
         Not by a regular expression: one that ignores case takes the length of both multiplied.
         """
@@ -68,7 +68,7 @@ class Words:
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """One place, as its line shows it: `line` begins at column `line_column`, from 1."""
+    """One place with its line: `line` begins at column `line_column`, from 1."""
 
     place: TextPlace
     line: str
@@ -85,7 +85,7 @@ class Matches:
 
 
 def matches_in(texts: Iterable[tuple[str, bytes]], words: Words, limit: int) -> Matches:
-    """Look for words in the bytes of files, by name."""
+    """Find a text in the bytes of files, by name."""
     shown: list[Match] = []
     count = files = 0
     for file, data in texts:
@@ -102,9 +102,9 @@ def matches_in(texts: Iterable[tuple[str, bytes]], words: Words, limit: int) -> 
 def replacements_in(
     file: str, data: bytes, words: Words, text: str, most: int | None = None
 ) -> list[Edit]:
-    """The edits that write `text` wherever the words stand, the last place first.
+    """Return the edits that write `text` at each place, the last place first.
 
-    Of more than `most` places the first ones.
+    Of more than `most` places only the first.
 
     Raises:
         EditError: The file's encoding lacks a letter of it.
@@ -145,13 +145,13 @@ _LABEL_LENGTH: Final = 30
 
 
 class Rewriting:
-    """Tells the places first, then writes them, when they are still the same.
+    """Lists the places first, then writes them if they are still the same.
 
     Args:
         workspace: The texts, and which files may be written.
-        runs: Asks the worker where a name stands, and which files belong to the robot.
-        texts: Gives the texts to whoever may see them.
-        edits: Runs what a step has changed.
+        runs: Asks the worker for the places of a name and the files of the robot.
+        texts: Sends the texts to those who may read them.
+        edits: Runs an undo step.
     """
 
     def __init__(self, workspace: Workspace, runs: Runs, texts: Texts, edits: Edits) -> None:
@@ -160,10 +160,10 @@ class Rewriting:
         self._steps = count(1)
 
     async def renaming(self, command: GetRenaming, asker: Listener) -> RenamingAnswer:
-        """What a renaming would change.
+        """Return the changes that a renaming would make.
 
         Raises:
-            CommandError: What stands there cannot be renamed so; the sentence says why.
+            CommandError: The name cannot be changed; the sentence says why.
         """
         found = await self._ask(command, asker)
         places = [
@@ -200,16 +200,16 @@ class Rewriting:
         await self._write(edits, f"Rename {renaming.old} → {renaming.new}", renaming)
 
     async def find(self, command: FindTexts, asker: Listener) -> TextsFound:
-        """Where words stand in the files of the robot."""
+        """Return the places of a text in the files of the robot."""
         texts = self._robot_texts(asker)
         found = await asyncio.to_thread(matches_in, texts, _words(command), PLACES_SHOWN)
         return _texts_found(command.request, found)
 
     async def replace(self, command: ReplaceTexts, asker: Listener) -> None:
-        """Replace words in the files of the robot, and show what that does.
+        """Replace a text in the files of the robot, and run them.
 
         Raises:
-            CommandError: They stand at other places by now, or at too many.
+            CommandError: The places have changed, or are too many.
             ReadOnlyTextError: A file may not be written.
             EditError: A file's encoding lacks a letter, or it would grow too large.
         """

@@ -1,4 +1,4 @@
-"""What the page is told of the robot of a document: its tree, and where its joints stand."""
+"""What the page receives of the robot of a document: its tree, and the joint positions."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class RobotView:
         )
 
     def joints_event(self) -> JointPositions:
-        """Where the joints stand, by name."""
+        """Return the joint positions by name."""
         return JointPositions(positions=self._model.joints.by_name(), animating=self.animating)
 
     def _link_views(self, robot: Robot, assembly: Assembly) -> tuple[LinkView, ...]:

@@ -49,7 +49,7 @@ _AnyReply = TypeVar("_AnyReply")
 
 
 class RunTarget(Protocol):
-    """What is run, as that is now."""
+    """What is run: file, arguments and packages at present."""
 
     @property
     def path(self) -> str:
@@ -63,13 +63,13 @@ class RunTarget(Protocol):
 
 
 class LastRun:
-    """What the last run came to, and the last good one.
+    """The outcome of the last run, and of the last good one.
 
     Attributes:
         expansion: The last good run; None before the first.
         failed: Whether the last run failed, so that the texts are newer than the robot.
-        failure: What the last run that failed said, a sentence.
-        files: What the last run read, whether or not it came to an end.
+        failure: Error of the last run that failed, a sentence.
+        files: Files that the last run read, even if it failed.
     """
 
     def __init__(self, path: str) -> None:
@@ -79,7 +79,7 @@ class LastRun:
 
     @property
     def phase(self) -> Literal["opening", "ready", "failed"]:
-        """Whether there is a robot to look at."""
+        """Whether there is a robot to show."""
         if self.expansion:
             return "ready"
         return "failed" if self.failed else "opening"
@@ -95,17 +95,17 @@ class LastRun:
 
 
 class Runs:
-    """One run at a time over the newest texts; what comes meanwhile waits for the next one.
+    """Runs the newest texts, one run at a time; changes meanwhile wait for the next one.
 
     Attributes:
-        last: What the last run came to.
+        last: The outcome of the last run.
 
     Args:
         worker: The document's own.
         sources: The texts and arguments.
-        target: What is run.
-        take: Gets every outcome and the version of the sources' spans that it holds for, on the
-            loop, before those who waited for it go on. `last` has it already.
+        target: What to run.
+        take: Called on the loop with every outcome and the version of the sources' spans that it
+            belongs to, after `last` is set and before those waiting continue.
     """
 
     def __init__(
@@ -171,10 +171,10 @@ class Runs:
         return await self._questions.ask(query, asker)
 
     async def answer(self, query: Query, reply: type[_AnyReply], asker: Listener) -> _AnyReply:
-        """Ask as `ask` does, for a reply of one kind.
+        """Ask a question and return the reply of the expected kind.
 
         Raises:
-            CommandError: It has no answer; the sentence says why.
+            CommandError: There is no answer; the sentence says why.
         """
         answer = await self.ask(query, asker)
         if isinstance(answer, reply):
@@ -217,7 +217,7 @@ class Runs:
             await asyncio.wait({self._turns})
 
     async def _next_run(self) -> None:
-        if self._is_closed:  # a run would start a process that nobody ends
+        if self._is_closed:  # a run would start a process that is never ended
             raise asyncio.CancelledError
         waiter: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._waiters.append(waiter)
@@ -243,7 +243,7 @@ class Runs:
                 self._gesture_ended_s = asyncio.get_running_loop().time()
 
     def _check_later(self, outcome: Outcome) -> None:
-        """When it is quiet for a while, have a full run check what edits have patched."""
+        """After a quiet while, compare the patched robot with a full run."""
         self._check.cancel()
         if isinstance(outcome, Expansion) and outcome.is_patch:
             self._check.trigger()
@@ -253,13 +253,13 @@ class Runs:
             self._turns = asyncio.create_task(self._check_patches())
 
     async def _check_patches(self) -> None:
-        """Compare with a full run; whoever comes meanwhile has the next turn."""
+        """Compare with a full run; later requests have the next turn."""
         try:
             await self._check_once()
         except Exception:  # noqa: BLE001 - those who wait for a turn must get it
             _log.exception("The check of what was patched failed.")
         if not self._waiters:
-            gc.collect(1)  # what edits left: now nobody waits for it
+            gc.collect(1)  # garbage of the edits, while nobody waits
         await self._take_turns()
 
     async def _check_once(self) -> None:
@@ -271,9 +271,9 @@ class Runs:
             self._take_outcome(outcome, version)
 
     async def _run(self) -> Outcome:
-        """Run with what changed since the last run, and have it taken.
+        """Run with the changes since the last run, and take the outcome.
 
-        A worker that has lost its robot, be it at this moment or long ago, gets everything once
+        A worker that has lost its robot, just now or earlier, gets everything once more, unnoticed.
         more: then nobody notices.
         """
         version = self._sources.spans.version
@@ -326,7 +326,7 @@ class Runs:
         return await self._worker.edit(EditRequest(edits))
 
     def _forget_changes(self) -> None:
-        """What is sent now holds all of them."""
+        """Forget changes that the request about to be sent contains."""
         self._edits, self._reload = [], set[str]()
         self._open = self._arguments_changed = False
 

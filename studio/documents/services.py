@@ -38,7 +38,7 @@ class Services:
         self.quiet_s = 0.4
         """Without a run or a mesh, before a document is checked: no edit ever waits for it."""
         self.patience_s = 5.0
-        """What nobody waits for begins after the last mesh of an opening, or after so long."""
+        """Background work starts after the last mesh of an opening, or after this time."""
         self._pool = mesh_pool()
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()

@@ -34,7 +34,7 @@ class SideFile:
         return f"the folder {self.path.parent} may only be read here."
 
     def read(self, limit_bytes: int) -> bytes:
-        """Its bytes; none when it is not there.
+        """Return its bytes; none if it does not exist.
 
         Raises:
             PackageError: It leads out of the opened folders, is no file, or is too large.
@@ -68,7 +68,7 @@ class Named(Protocol):
 
     @property
     def name(self) -> str:
-        """Its own among its like."""
+        """The name that is unique in the file."""
         ...
 
 
@@ -80,7 +80,7 @@ class ItemKind(Generic[Item]):
     """What stands on a shelf, and how its file is read and written."""
 
     noun: str
-    """Of one item; its plural is in the file's name."""
+    """Of one item, as `variant`; its plural is in the file's name."""
     read: Callable[[str, bytes], tuple[Item, ...]]
     """The items of a file, from its path and bytes."""
     write: Callable[[str, str, bytes, Sequence[Item]], bytes]

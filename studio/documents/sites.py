@@ -1,4 +1,4 @@
-"""The sites of a document as the page knows them, and what the disk says at each."""
+"""The sites of a document as the page has them, with their texts on disk."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Audience
 
 _MadeOf: TypeAlias = "tuple[Site, str | None, str | None]"
-"""What a view is made of: the site, what the disk says there, and the argument that is passed."""
+"""What a view is made of: the site, its text on disk, and the argument passed."""
 
 
 class SiteTable:
-    """Takes what a run changed, and tells the audience what it does not know yet.
+    """Takes the changes of a run, and sends the audience those that it does not have.
 
     Args:
         sources: The texts that the sites are in.
-        audience: Is told of the sites.
+        audience: Is sent the sites.
     """
 
     def __init__(self, sources: Sources, audience: Audience) -> None:
@@ -36,10 +36,10 @@ class SiteTable:
         self._sent_of: dict[str, _MadeOf] = {}
         """What each view was made of: comparing is quick, and making thousands is not."""
         self._changed: set[str] = set()
-        """Sites to compare with what was told."""
+        """Sites to compare with those sent."""
         self._order_changed = False
         self._ahead: set[str] = set()
-        """Sites told with a text that no good run has seen."""
+        """Sites sent with a text that no good run has seen."""
 
     def take(self, expansion: Expansion) -> None:
         """Take in a good run."""
@@ -65,16 +65,16 @@ class SiteTable:
         self._changed |= self._ahead
 
     def invalidate(self) -> None:
-        """Compare every site at the next `tell`: a save, a reload or an argument came between."""
+        """Compare every site at the next `tell`, after a save, a reload or another argument."""
         self._changed.update(self.sites)
 
     def tell(self) -> None:
-        """Tell the audience which sites differ from what it was told."""
+        """Send the audience the sites that changed."""
         if changed := self._take_changed():
             self._audience.tell(changed)
 
     def event(self) -> Sites:
-        """All sites as they were told."""
+        """All sites as they were sent."""
         return Sites(order=self._order, changed=tuple(self._sent.values()))
 
     def argument_values(self) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""The texts of a document in editors: sent, typed into, and asked about by whoever types."""
+"""The texts of a document in editors: sent, edited, and questions about them."""
 
 from __future__ import annotations
 
@@ -47,23 +47,23 @@ _LIMIT_MB: Final = TEXT_LIMIT_BYTES >> 20
 
 @dataclass(frozen=True, slots=True)
 class _Sent:
-    """What the audience holds of one file."""
+    """The audience's copy of one file."""
 
     version: int
     text: EditorText
 
 
 class Texts:
-    """Gives texts out and keeps those who have them up to date, whatever changes the sources.
+    """Sends texts and keeps all copies up to date, whatever changes the sources.
 
-    A text gets a version with each change that is sent. Whoever edits names the version that it
-    saw; an edit of another one is refused, so no offset ever points into a text that it does not
+    A text gets a new version with each change that is sent. An edit names the version that it is
+    for and is refused for another one, so no offset ever points into a text that it does not
     belong to.
 
     Args:
-        workspace: Where the files lie, and their texts.
-        last_run: Which files belong to the robot.
-        audience: Is told of changes.
+        workspace: The files and their texts.
+        last_run: The files of the robot.
+        audience: Is sent the changes.
         edits: Runs what was typed.
     """
 
@@ -74,7 +74,7 @@ class Texts:
         self._audience, self._edits = audience, edits
         self._sent: dict[str, _Sent] = {}
         self._typed: dict[str, EditText] = {}
-        """What was typed and is not sent yet."""
+        """What was typed and not sent yet."""
 
     def answer(self, command: GetText, role: Role) -> Text:
         """A file's text; its changes are sent from now on.
@@ -157,9 +157,9 @@ class Texts:
         return sent
 
     def _send_typed(self, file: str, command: EditText) -> None:
-        """Tell the typed changes as they came, then what the file's bytes made of them beyond.
+        """Send the changes as typed, then what else they changed in the decoded text.
 
-        A changed encoding declaration makes other letters of bytes that nobody touched.
+        Another encoding declaration changes letters whose bytes nobody touched.
         """
         sent = self._sent[file]
         pieces = [
@@ -227,17 +227,17 @@ def _units(text: str) -> int:
 
 
 class EditorQuestions:
-    """Asks the worker with the text as it is edited now, whatever it has read so far.
+    """Asks the worker about the text as edited, whatever it has read so far.
 
-    Every question raises a CommandError when nobody can answer it, or a PackageError for a file
-    that may not be read.
+    Every question raises a CommandError without an answer, or a PackageError for a file that may
+    not be read.
     """
 
     def __init__(self, texts: Texts, runs: Runs) -> None:
         self._texts, self._runs = texts, runs
 
     async def outline(self, command: GetOutline, asker: Listener) -> OutlineAnswer:
-        """What the files of the document hold."""
+        """Return the outline of the document's files."""
         outline = await self._runs.answer(OutlineQuery(), Outline, asker)
         return OutlineAnswer(request=command.request, outline=outline)
 
@@ -249,7 +249,7 @@ class EditorQuestions:
         return MeaningAnswer(request=command.request, meaning=found.meaning)
 
     async def references(self, command: GetReferences, asker: Listener) -> ReferencesAnswer:
-        """All places that name what stands at a place."""
+        """Return all places of the name at a place."""
         file, text = self._texts.bytes_of(command.file, asker.role)
         query = ReferencesQuery(file, text, command.offset)
         references = await self._runs.answer(query, References, asker)

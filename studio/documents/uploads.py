@@ -32,7 +32,7 @@ class Uploads:
     def __init__(self, data_folder: Path, opener: Opener) -> None:
         self._data_folder, self._opener = data_folder, opener
         self._reserved_bytes = 0
-        """Announced by uploads that are under way."""
+        """Sizes announced by running uploads."""
 
     async def take(self, manifest: bytes, chunks: AsyncIterator[bytes]) -> str:
         """Keep sent files in the data folder and open them; gives the document's id.

@@ -66,7 +66,7 @@ def difference(before: Sequence[PartLines], after: Sequence[PartLines]) -> LineD
 
 
 def _compared(before: Sequence[PartLines], after: Sequence[PartLines]) -> Iterator[DiffLine]:
-    """All lines of both; parts are told by their keys, then line by line."""
+    """Compare parts by their keys, then line by line; yield all lines of both."""
     keys = [part.key for part in before], [part.key for part in after]
     numbers = _Numbers()
     for tag, i, j, k, m in SequenceMatcher(None, *keys, autojunk=False).get_opcodes():
@@ -135,7 +135,7 @@ def _hunks(lines: Sequence[DiffLine]) -> Iterator[tuple[DiffLine, ...]]:
 
 @dataclass(frozen=True, slots=True)
 class _Saved:
-    """What the files on disk came to, and which bytes of them it was."""
+    """The URDF of the files on disk, and the bytes it was made from."""
 
     of: dict[str, bytes]
     lines: list[PartLines]

@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 
 
 class Workspace:
-    """Where a document lies, and its texts; a package that is chosen later changes the location.
+    """Files and texts of a document; a package chosen later changes the location.
 
     Attributes:
         entry: The entry file.
-        path: The same, as a text.
+        path: The same, as a string.
         location: The folders that may be read and written, and the packages in them.
-        policy: What the document's xacro worker may read.
-        sources: The texts and arguments as they are edited.
+        policy: Files that the document's xacro worker may read.
+        sources: The texts and arguments with their edits.
 
     Raises:
         CommandError: The location has no entry file.
@@ -64,7 +64,7 @@ class Workspace:
         return self.location.served
 
     def resolve_uri(self, uri: str) -> Path:
-        """The file of a URI in this document; looks at the disk, may run in any thread.
+        """Return the file of a URI in this document; reads the disk, thread-safe.
 
         Raises:
             PackageError: It names no file that may be read.
@@ -100,10 +100,10 @@ class Workspace:
 
 
 def read_policy(location: Location, *, trusted: bool) -> ReadPolicy:
-    """What the xacro worker of a location that has an entry file may read.
+    """Return what the xacro worker of a location with an entry file may read.
 
-    Trust shows the files the whole environment, and nothing else: expressions stay bounded, and
-    what may be read is what is served. What came in an archive is never trusted.
+    Trust gives the files the whole environment, and nothing else: expressions stay bounded, and
+    only served files may be read. The content of an archive is never trusted.
     """
     assert location.entry is not None
     trusted = trusted and not location.is_unpacked

@@ -1,1 +1,1 @@
-"""What is wrong with a document: looked for when it is quiet, listed, and mended by a click."""
+"""Checks of a document: run when nobody edits, listed as problems, with their fixes."""

@@ -47,10 +47,10 @@ class HiddenMeshes:
         self.problems: dict[str, Problem] = {}
 
     async def read(self, uris: Iterable[str]) -> bool:
-        """Read these and forget the others; one after the other, for nobody waits for them.
+        """Read these meshes and forget the others; one at a time, for nobody waits for them.
 
         Returns:
-            Whether anything is other than before.
+            Whether anything changed.
         """
         before = dict(self.bounds), dict(self.problems)
         wanted = set(uris)
@@ -76,7 +76,7 @@ class HiddenMeshes:
         self._seen[uri] = stamp
 
     def _stamp(self, uri: str) -> _Stamp:
-        """Where a mesh lies, when it was written and how long it is."""
+        """Return the path, modification time and size of a mesh."""
         path = self._workspace.resolve_uri(uri)
         status = path.stat()
         return path, status.st_mtime_ns, status.st_size
@@ -133,7 +133,7 @@ class NearMeshes:
 
 
 def _with_fix(problem: Problem, uri: str, meant: str, tree: SourceTree) -> Problem:
-    """The name that was meant is said in any case; the fix is there where the name stands so."""
+    """Add the intended name to the sentence, and a fix where the texts have the wrong one."""
     edits = tuple(_edits(problem, uri, meant, tree))
     sentence = f'{problem.sentence.removesuffix(".")}: did you mean "{meant}"?'
     fix = Fix(f'Write "{meant}"', "edit", edits=edits) if edits else None
@@ -141,7 +141,7 @@ def _with_fix(problem: Problem, uri: str, meant: str, tree: SourceTree) -> Probl
 
 
 def _edits(problem: Problem, uri: str, meant: str, tree: SourceTree) -> Iterator[Replacement]:
-    """Each <mesh> of the link that says this URI gets the other name behind the last slash."""
+    """Yield edits that give each <mesh> with this URI in the link the intended file name."""
     part = next((one for one in tree.elements if one.place == problem.place), None)
     for mesh in _meshes(part) if part is not None else ():
         written = mesh.attributes.get("filename", "")
@@ -206,7 +206,7 @@ class MeshChecks:
         return {**self._hidden.bounds, **of_scene}
 
     async def check(self, text: Callable[[str], bytes | None]) -> list[Problem]:
-        """What is wrong with hidden meshes; the fixes of the scene's go to these.
+        """Return the problems of hidden meshes, and give the scene's their fixes.
 
         Args:
             text: As for `NearMeshes`.

@@ -1,4 +1,4 @@
-"""When the checks of a document begin."""
+"""When the checks of a document start."""
 
 from __future__ import annotations
 

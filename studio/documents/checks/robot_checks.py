@@ -1,4 +1,4 @@
-"""Has the robot of a document checked whenever it was left alone for a moment."""
+"""Checks the robot of a document when it has not changed for a moment."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrong with the texts of a document and with its robot's structure, and the fixes."""
+"""Checks the texts of a document and the structure of its robot, with fixes."""
 
 from __future__ import annotations
 
@@ -30,22 +30,22 @@ if TYPE_CHECKING:
 _VALIDATE_AFTER_S: Final = 0.3
 """Quiet time after a structural change before yourdfpy is asked for its opinion."""
 _XML: Final = "xml-"
-"""How the codes of broken texts begin: a run tells them itself."""
+"""Prefix of the codes of broken texts, which a run reports itself."""
 
 _log = logging.getLogger(__name__)
 
 
 class TextChecks:
-    """Reports what runs found at once, and what the checks of the texts find when it is quiet.
+    """Reports the problems of runs at once, and those of the texts' checks after a pause.
 
-    It asks the worker as a viewer does, so that whoever edits is answered first.
+    It asks the worker as a viewer does, so that editors are answered first.
 
     Args:
-        workspace: Whose texts they are.
+        workspace: The texts.
         runs: Asks the worker, and knows whether the last run failed.
-        findings: Gets what is found.
-        validate: What another reader of URDF finds in the robot as it is now.
-        pace: When the checks begin.
+        findings: Takes the problems.
+        validate: Returns what another reader of URDF finds in the present robot.
+        pace: When the checks start.
     """
 
     role = Role.VIEWER
@@ -69,7 +69,7 @@ class TextChecks:
         self._validating = Debouncer(self._take_opinion, validate_after_s, pace.opened)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
-        """Nothing is sent to it: answers come from where it asks."""
+        """Send nothing: replies are returned to the caller."""
 
     def failed(self, failure: Failure) -> None:
         """A run gave no robot."""
@@ -142,20 +142,20 @@ _EXPLAIN: Final = frozenset(
         *("duplicate-link", "no-links", "second-parent", "several-roots"),
     }
 )
-"""Codes of what makes yourdfpy fall as well: what it says of it then helps nobody."""
+"""Codes of faults that yourdfpy fails at as well, so that its message does not help."""
 _OF_BOTH: Final = frozenset(
     {
         *("bad-element", "dangling-parent", "dangling-child", "duplicate-joint", "duplicate-link"),
         *("second-parent", "several-roots"),
     }
 )
-"""Codes of what the robot's structure and the texts tell; the texts know the place and a fix."""
+"""Codes found in the robot's structure and in the texts; the texts know the place and a fix."""
 
 
 def merged(of_robot: Iterable[Problem], of_texts: Sequence[Problem]) -> tuple[Problem, ...]:
-    """Each fact once: as the robot tells it, with what the texts know of it.
+    """Return each fact once: as found in the robot, with place and fix from the texts.
 
-    What the texts tell of the robot's structure holds only while the robot tells it, too.
+    A fact about the structure counts only while it is found in the robot, too.
     """
     better = {_fact(one): one for one in of_texts if one.code in _OF_BOTH}
     found = [replace(better.get(_fact(one), one), severity=one.severity) for one in of_robot]
@@ -181,7 +181,7 @@ def placed(problem: Problem, part: Callable[[str], Part | None]) -> Problem:
 
 
 def _fact(problem: Problem) -> tuple[str, tuple[str, ...]]:
-    """What a finding is about; of the roots there is one finding, of an element there are many."""
+    """Return what a finding is about; all roots are one fact, each element is its own."""
     match problem.code:
         case "several-roots":
             return problem.code, ()
@@ -192,6 +192,6 @@ def _fact(problem: Problem) -> tuple[str, tuple[str, ...]]:
 
 
 def _problems_of(read: ReadRobot) -> tuple[Problem, ...]:
-    """What the structure of a robot has wrong that is not the one that is shown."""
+    """Return the problems in the structure of a robot that is not the one shown."""
     order = tuple(part.key for part in read.parts)
     return Assembly(read.name).apply(order, read.parts).problems

@@ -26,14 +26,14 @@ if TYPE_CHECKING:
 
 
 ROWS_SHOWN: Final = 1500
-"""Of differences; robots that have more of them are not the same robot."""
+"""Limit of the differences listed; robots with more are not the same robot."""
 _INPUTS_SHOWN: Final = 500
 
 
 def robot_differences(
     one: SecondRobot, other: SecondRobot, mesh_bounds: Callable[[str], Bounds | None]
 ) -> tuple[DifferenceView, ...]:
-    """All that differs between two robots: as a whole, then part by part.
+    """Return the differences between two robots: of the whole, then part by part.
 
     Sizes are those at zero positions; `mesh_bounds` as for `measure`.
     """
@@ -123,13 +123,13 @@ class _Made:
 
 
 class VariantComparison:
-    """Works out the sides that are not the present robot, and tells what differs.
+    """Makes the robots to compare that are not the present one, and sends the differences.
 
     Args:
-        book: What the states of the document are made of.
-        robots: Makes the robot of a state.
+        book: Makes the recipes of states.
+        robots: Makes the robot of a recipe.
         ghost: Shows one of them.
-        audience: Is told what differs.
+        audience: Is sent the differences.
         want_meshes: Called when the scene may lack meshes.
     """
 
@@ -146,11 +146,11 @@ class VariantComparison:
         self._made: dict[Side, _Made] = {}
         self.sides: tuple[Side, Side] | None = None
         self.latest = _NOTHING
-        """What the audience was told last."""
+        """The event sent last."""
 
     @property
     def files(self) -> frozenset[str]:
-        """What the sides were made from, so that a change on disk makes them anew."""
+        """Files that the robots were made from; a change on disk makes them again."""
         return frozenset(file for made in self._made.values() for file in made.robot.files)
 
     def choose(self, sides: tuple[Side, Side] | None) -> None:

@@ -1,4 +1,4 @@
-"""What a state of a document is made of: arguments and texts on top of what its files say."""
+"""Recipes: the arguments and texts of a state of a document, on top of its files."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _PACKAGE: Final = "package://"
 
 @dataclass(frozen=True, slots=True)
 class Recipe:
-    """One state: all arguments passed to xacro, and the texts that differ from the disk."""
+    """One state: all arguments passed to xacro, and the texts that differ from those on disk."""
 
     arguments: dict[str, str]
     texts: dict[TextName, str] = field(default_factory=dict[TextName, str])
@@ -50,9 +50,9 @@ class RecipeBook:
 
     Args:
         sources: The texts of the document.
-        location: Where its files lie, as that is now.
+        location: The folders of its files at present.
 
-    The arguments that the document was opened with count as what its files say.
+    Arguments given when the document was opened count as saved.
     """
 
     def __init__(self, sources: Sources, location: Callable[[], Location]) -> None:
@@ -61,12 +61,12 @@ class RecipeBook:
         self._texts: dict[str, NamedTexts] = {}
 
     def saved(self) -> Recipe:
-        """What the files say, opened as the document was."""
+        """The state on disk, with the arguments that the document was opened with."""
         return Recipe(dict(self._opened_with))
 
     @property
     def is_saved(self) -> bool:
-        """Whether the document is as the files say."""
+        """Whether the document is in its saved state."""
         same = self._sources.arguments == self._opened_with
         return same and not self._sources.unsaved_files
 
@@ -93,7 +93,7 @@ class RecipeBook:
         return Recipe(self._sources.arguments, texts, tuple(others))
 
     def of_variant(self, variant: Variant) -> Recipe:
-        """What a variant comes to on the files as they are on disk now."""
+        """Return the recipe of a variant, on the files as they are on disk now."""
         arguments = {**self._opened_with, **variant.arguments}
         passed = {name: value for name, value in arguments.items() if value is not None}
         texts = {
@@ -110,7 +110,7 @@ class RecipeBook:
         return Variant(name, note, arguments, dict(sorted(recipe.texts.items())))
 
     def saved_text(self, name: TextName) -> str | None:
-        """What the disk says at a text; None when there is none of that name."""
+        """Return a text as it is on disk; None if there is none of that name."""
         named = self._find(name.file)
         return None if isinstance(named, str) else named.saved_text(name)
 
@@ -129,7 +129,7 @@ class RecipeBook:
         return found
 
     def disk(self) -> dict[str, bytes]:
-        """What the disk has of every file that is held, to tell whether a run is out of date."""
+        """Return the bytes on disk of all files held, to detect an outdated run."""
         return {path: self._sources.saved(path) for path in self._sources.files}
 
     def edits_to(self, variant: Variant) -> tuple[tuple[Edit, ...], tuple[str, ...]]:
@@ -190,7 +190,7 @@ class RecipeBook:
             try:
                 path = self._path(file)
                 self._sources.saved(path)
-            except PackageError:  # told where its texts are asked for
+            except PackageError:  # reported when its texts are read
                 continue
             yield path
 
@@ -204,7 +204,7 @@ class RecipeBook:
         return Path(os.path.relpath(path, entry.parent)).as_posix()
 
     def _path(self, file: str) -> str:
-        """Where a file of a variant lies; PackageError when nothing is there that may be read."""
+        """Return the path of a variant's file; PackageError if it is missing or not readable."""
         location = self._location()
         if file.startswith(_PACKAGE):
             return str(resolve_uri(file, self._entry, location.index, location.served))

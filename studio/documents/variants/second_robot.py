@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SecondRobot:
-    """What a recipe came to. A recipe that cannot be run has a robot without links."""
+    """The robot of a recipe; one without links if the recipe cannot be run."""
 
     recipe: Recipe
     robot: Robot
@@ -113,7 +113,7 @@ def _assembled(recipe: Recipe, expansion: Expansion) -> SecondRobot:
 
 
 _GAP: Final = 0.25
-"""Between two robots side by side, of the width of the wider one."""
+"""Between two robots side by side, as a share of the wider one's width."""
 
 
 class Ghost:
@@ -174,7 +174,7 @@ class Ghost:
         ghost.hide({name for name, pose in there if name in alike and _is_near(pose, here[name])})
 
     def _look_alike(self, second: SecondRobot) -> frozenset[str]:
-        """Links that look the same in both robots; found again only when either changes."""
+        """Return links that look the same in both robots; cached until either changes."""
         ours = self._model.robot
         if self._alike is None or self._alike[0] is not ours:
             theirs = second.robot.links
@@ -185,7 +185,7 @@ class Ghost:
         return self._alike[1]
 
     def _offset_m(self, second: SecondRobot) -> Vector3:
-        """To the right of the robot, as it faces x; a motion later does not move it."""
+        """Offset to the right of the robot as it faces x; later motion does not change it."""
         model = self._model
         low_m, high_m = self._width_m(model.robot, model.kinematics)
         right_m, left_m = self._width_m(second.robot, second.kinematics)
@@ -202,7 +202,7 @@ class Ghost:
         return min(low[1] for low, _ in known), max(high[1] for _, high in known)
 
     def _positions(self, kinematics: Kinematics) -> Floats:
-        """Where the joints of the robot stand, for another one that has some of them."""
+        """Return the robot's joint positions for another one that has some of its joints."""
         positions = self._model.joints.by_name()
         kept = {name: kinematics.clamp(name, positions.get(name, 0.0)) for name in kinematics.free}
         return kinematics.positions_with_mimic(kept)

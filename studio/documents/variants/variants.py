@@ -46,20 +46,20 @@ if TYPE_CHECKING:
 _FIRST_S: Final = 0.02
 """The edit that gave cause goes out first."""
 _PAUSE_S: Final = 0.15
-"""Between two updates while somebody drags: a table that changes faster cannot be read."""
+"""Between two updates during a drag: a table that changes faster cannot be read."""
 _TEXTS_SHOWN: Final = 50
 _SHELF: Final = ItemKind("variant", read_variants, write_variants)
 
 
 class NamedVariants:
-    """Knows which variant the robot is, and carries out what is asked of variants.
+    """Knows the variant that the robot is in, and carries out the commands about variants.
 
     Args:
-        workspace: Whose variants they are.
+        workspace: The texts.
         edits: Runs the edits of a variant that is applied.
-        book: What the states of the document are made of.
+        book: Makes the recipes of states.
         comparison: Compares two of them.
-        audience: Is told of the variants.
+        audience: Is sent the variants.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class NamedVariants:
         self._throttle = Throttle(self._refresh, first_s=_FIRST_S, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[Event]:
-        """What a newcomer is told."""
+        """Return the events for a new page."""
         yield self._list()
         yield self._comparison.latest
 
@@ -123,7 +123,7 @@ class NamedVariants:
         return VariantSaved(request=command.request, left_out=left_out)
 
     async def apply(self, command: ApplyVariant) -> VariantApplied:
-        """Make the robot a variant, or what its files say, as one step of the undo list.
+        """Change the robot to a variant, or to its saved state, as one undo step.
 
         Raises:
             CommandError: There is no such variant.

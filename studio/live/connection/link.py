@@ -122,7 +122,7 @@ class WireLink:
         return [one.node.path for one in found if one.node.zid != self._wire.zid]
 
     def find_robots(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return topics that carry a robot description, and nodes that may have a parameter of it."""
+        """Return topics and nodes that may have a robot description, the nodes as a parameter."""
         self._graph.settle()
         topics = [
             name
