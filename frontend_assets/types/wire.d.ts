@@ -50,7 +50,7 @@ export interface AnimateJoints {
 /**
  * Make the edits of a problem's fix as one undo step; refused when it is no longer found.
  *
- * The three say which problem is meant, as `problems` told it.
+ * The three fields name the problem as in `problems`.
  */
 export interface ApplyFix {
   request?: number;
@@ -72,7 +72,7 @@ export interface ApplyPose {
   duration_s?: number;
 }
 
-/** Make the robot a variant, in one undo step; an empty name makes it as its files say. */
+/** Change the robot to a variant as one undo step; an empty name to its state on disk. */
 export interface ApplyVariant {
   request?: number;
   document?: string;
@@ -117,7 +117,7 @@ export interface ArrangeDisplay {
 /** What changes about a part. */
 export type Aspect = "size" | "shape" | "color" | "pose" | "collision" | "inertia" | "motion" | "name" | "other" | "presence";
 
-/** Answer to what begins an operation: the number by which it is told and ended. */
+/** Answer to what begins an operation: its number, by which it is reported and cancelled. */
 export interface Begun {
   type: "begun";
   request: number;
@@ -131,7 +131,7 @@ export interface Built {
   duration_ms: number;
 }
 
-/** Call a service; what becomes of it is told to those who follow calls. */
+/** Call a service; those who follow calls receive what becomes of it. */
 export interface CallService {
   request?: number;
   document?: string;
@@ -173,7 +173,7 @@ export interface CancelCall {
   operation: number;
 }
 
-/** Ask that a goal end; refused when its server says no. */
+/** Ask a server to cancel a goal; refused when the server refuses. */
 export interface CancelGoal {
   request?: number;
   document?: string;
@@ -192,7 +192,7 @@ export interface ChangeState {
   transition: number;
 }
 
-/** Something changed, once or several times since this was told last. */
+/** The subject changed, once or several times since the last such event. */
 export interface Changed {
   type: "changed";
   subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons";
@@ -258,7 +258,7 @@ export interface CompareVariants {
   sides?: [Side, Side] | null;
 }
 
-/** How two states differ. `sides` None: none are compared. */
+/** The differences between two states. `sides` None: none are compared. */
 export interface Comparison {
   type: "comparison";
   sides: [Side, Side] | null;
@@ -379,13 +379,13 @@ export interface Demos {
   elsewhere: string[];
 }
 
-/** One thing that a part tells of itself. */
+/** One value that a part reports. */
 export interface DiagnosticValue {
   key: string;
   value: string;
 }
 
-/** How a part said it was when it said so last. */
+/** The state that a part reported last. */
 export interface DiagnosticView {
   name: string;
   hardware: string;
@@ -412,7 +412,7 @@ export interface DiffLineView {
   text: string;
 }
 
-/** One thing that two robots do not have alike; None where one of them has none. */
+/** One difference between two robots; None where one of them has no such value. */
 export interface DifferenceView {
   part: string;
   what: string;
@@ -440,7 +440,7 @@ export interface DisconnectWire {
   type: "disconnect_wire";
 }
 
-/** Another program wrote a file; its changes are taken, and so many edits are kept unsaved. */
+/** Another program wrote a file: its changes were taken, and so many edits are kept unsaved. */
 export interface DiskMerged {
   type: "disk_merged";
   file: string;
@@ -463,7 +463,7 @@ export interface DisplayKinds {
   kinds: DisplayKindView[];
 }
 
-/** How a display fares. */
+/** State of a display. */
 export interface DisplayState {
   id: string;
   rate_hz: number;
@@ -472,7 +472,7 @@ export interface DisplayState {
   remarks: Remark[];
 }
 
-/** How all displays fare; told when it changes, at most twice a second. */
+/** States of all displays; sent when they change, at most twice a second. */
 export interface DisplayStates {
   type: "display_states";
   states: DisplayState[];
@@ -510,7 +510,7 @@ export interface DocumentEntry {
   unsaved: boolean;
 }
 
-/** What a document is: its entry file, arguments, and how it was evaluated. */
+/** State of a document: its entry file, arguments, and how it was evaluated. */
 export interface DocumentState {
   type: "document";
   id: string;
@@ -532,7 +532,7 @@ export interface Documents {
   documents: DocumentEntry[];
 }
 
-/** How many nodes of others a domain has. */
+/** The number of other nodes in a domain. */
 export interface DomainView {
   domain: number;
   nodes: number;
@@ -545,9 +545,9 @@ export interface Done {
 }
 
 /**
- * Drive so fast until told otherwise, or until nothing is told for half a second.
+ * Drive at a velocity until the next command, or until none came for half a second.
  *
- * What comes next for the topic takes its place; who falls silent, or leaves, stands still.
+ * The next command for the topic replaces it; when its page is silent or gone, the robot stops.
  */
 export interface Drive {
   request?: number;
@@ -591,11 +591,11 @@ export interface EditSite {
 }
 
 /**
- * Type into a file's text; refused when its version is no longer this one.
+ * Edit a file's text; refused when its version is no longer this one.
  *
  * The changes are in order, none overlapping, each with offsets in the text before all of them.
- * All edits of one `gesture` are one undo step. `origin`, chosen by the browser, comes back in the
- * `texts_changed` that tells them, so that it knows its own.
+ * All edits of one `gesture` are one undo step. `origin`, chosen by the browser, comes back in
+ * their `texts_changed`, so that it recognises its own.
  */
 export interface EditText {
   request?: number;
@@ -642,7 +642,7 @@ export interface ExamineWire {
   type: "examine_wire";
 }
 
-/** One shipped model; `text` says what it shows. */
+/** One shipped model; `text` describes it. */
 export interface ExampleEntry {
   name: string;
   robot: string;
@@ -656,7 +656,7 @@ export interface Examples {
   examples: ExampleEntry[];
 }
 
-/** What a server said of a goal under way. */
+/** One feedback message of a running goal. */
 export interface FeedbackView {
   number: number;
   after_s: number;
@@ -684,7 +684,7 @@ export interface FileChanges {
   hindrance: string;
 }
 
-/** Where some words stand in the files of the robot. */
+/** Ask for the places of a text in the files of the robot. */
 export interface FindTexts {
   request?: number;
   document?: string;
@@ -726,7 +726,7 @@ export interface Folder {
   entries: FolderEntry[];
 }
 
-/** One entry of a folder. `openable` false comes with the reason why not. */
+/** One entry of a folder. With `openable` false comes the reason. */
 export interface FolderEntry {
   name: string;
   path: string;
@@ -735,7 +735,7 @@ export interface FolderEntry {
   reason: string;
 }
 
-/** Be told when something changed, from now on; or no more. */
+/** Receive `changed` for a subject from now on; or no more. */
 export interface FollowChanges {
   request?: number;
   document?: string;
@@ -754,7 +754,7 @@ export interface FollowFrame {
   frame: string;
 }
 
-/** Be told what runs and ran of a kind, for any page, from now on; or no more. */
+/** Receive the operations of a kind, of all pages, and their changes; or no more. */
 export interface FollowOperations {
   request?: number;
   document?: string;
@@ -764,7 +764,7 @@ export interface FollowOperations {
   following?: boolean;
 }
 
-/** Be told when parameters of a node change. */
+/** Receive changes of a node's parameters. */
 export interface FollowParameters {
   request?: number;
   document?: string;
@@ -837,7 +837,7 @@ export interface GetActions {
   type: "get_actions";
 }
 
-/** What a robot can be launched with: the open document's, or that of a file not yet open. */
+/** Ask for the arguments of a robot: of the open document, or of a file not yet open. */
 export interface GetArguments {
   request?: number;
   document?: string;
@@ -854,7 +854,7 @@ export interface GetChanges {
   type: "get_changes";
 }
 
-/** Where a file's unsaved edits collide with what another program wrote. */
+/** Ask where a file's unsaved edits collide with what another program wrote. */
 export interface GetCollisions {
   request?: number;
   document?: string;
@@ -891,7 +891,7 @@ export interface GetDemos {
   type: "get_demos";
 }
 
-/** Ask how all parts are; they are heard from the first such question on. */
+/** Ask for the states of all parts; the topic is subscribed from the first such request on. */
 export interface GetDiagnostics {
   request?: number;
   document?: string;
@@ -899,7 +899,7 @@ export interface GetDiagnostics {
   type: "get_diagnostics";
 }
 
-/** Which displays there are. */
+/** Ask for the kinds of displays. */
 export interface GetDisplayKinds {
   request?: number;
   document?: string;
@@ -907,7 +907,7 @@ export interface GetDisplayKinds {
   type: "get_display_kinds";
 }
 
-/** What a site shapes in the robot of the last good run. */
+/** Ask for the effects of a site on the robot of the last good run. */
 export interface GetEffects {
   request?: number;
   document?: string;
@@ -916,7 +916,7 @@ export interface GetEffects {
   site: string;
 }
 
-/** Where the joints of the last good robot stand; links follow from that and the positions. */
+/** Ask for the frames of the joints of the last good robot; links follow from the positions. */
 export interface GetFrames {
   request?: number;
   document?: string;
@@ -968,7 +968,7 @@ export interface GetLink {
   type: "get_link";
 }
 
-/** Ask for what was said after a line; the log is heard from the first such question on. */
+/** Ask for the lines after one; `/rosout` is subscribed from the first such request on. */
 export interface GetLog {
   request?: number;
   document?: string;
@@ -985,7 +985,7 @@ export interface GetManaged {
   type: "get_managed";
 }
 
-/** What the links of the last good robot weigh, and what room their shapes take. */
+/** Ask for the masses of the links of the last good robot, and the volumes of their shapes. */
 export interface GetMasses {
   request?: number;
   document?: string;
@@ -1002,7 +1002,7 @@ export interface GetNode {
   name: string;
 }
 
-/** Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ... */
+/** Ask where a part of the last good run comes from: `link:<name>`, `joint:<name>` ... */
 export interface GetOrigin {
   request?: number;
   document?: string;
@@ -1011,7 +1011,7 @@ export interface GetOrigin {
   part: string;
 }
 
-/** What the files of the robot hold: includes, macros, properties, args. */
+/** Ask for what the files of the robot define: includes, macros, properties, args. */
 export interface GetOutline {
   request?: number;
   document?: string;
@@ -1027,7 +1027,7 @@ export interface GetParameterNodes {
   type: "get_parameter_nodes";
 }
 
-/** Ask for all parameters of a node, with what it says of them. */
+/** Ask for all parameters of a node, with their descriptors. */
 export interface GetParameters {
   request?: number;
   document?: string;
@@ -1036,7 +1036,7 @@ export interface GetParameters {
   node: string;
 }
 
-/** All places that name what stands there. */
+/** Ask for all places that use the name at a place. */
 export interface GetReferences {
   request?: number;
   document?: string;
@@ -1065,7 +1065,7 @@ export interface GetServices {
   type: "get_services";
 }
 
-/** The text of a file as it is edited; `texts_changed` tells from then on what happens to it. */
+/** Ask for the text of a file as it is edited; `texts_changed` follows its changes. */
 export interface GetText {
   request?: number;
   document?: string;
@@ -1074,7 +1074,7 @@ export interface GetText {
   file: string;
 }
 
-/** Which frames there are; and where one of them is in another, if both are named. */
+/** Ask for the frames, and for the pose of one in another if both are named. */
 export interface GetTf {
   request?: number;
   document?: string;
@@ -1094,7 +1094,7 @@ export interface GetTopicEnds {
   topic: string;
 }
 
-/** How topics come; they are heard for some seconds from now on, so ask again every second. */
+/** Ask for the rates of topics; they are measured for some seconds, so ask every second. */
 export interface GetTopicRates {
   request?: number;
   document?: string;
@@ -1103,7 +1103,7 @@ export interface GetTopicRates {
   topics: string[];
 }
 
-/** Which topics there are, and which display shows each. */
+/** Ask for the topics, and the display that shows each. */
 export interface GetTopics {
   request?: number;
   document?: string;
@@ -1127,7 +1127,7 @@ export interface GetUrdfChanges {
   type: "get_urdf_changes";
 }
 
-/** A goal as its server tells of it. */
+/** A goal as its server reports it. */
 export interface GoalStatusView {
   goal_id: string;
   state: string;
@@ -1329,7 +1329,7 @@ export interface Link {
   edits: number;
 }
 
-/** A link with an inertial; None stands for what no number can say. */
+/** A link with an inertial; None where no number can be given. */
 export interface LinkMassView {
   link: string;
   mass_kg: number;
@@ -1340,7 +1340,7 @@ export interface LinkMassView {
   collision: VolumeView | null;
 }
 
-/** Answer to `open_link`: go to `/d/<document>`; `left_out` says which edits found no place. */
+/** Answer to `open_link`: go to `/d/<document>`; `left_out` lists edits that found no place. */
 export interface LinkOpened {
   type: "link_opened";
   request: number;
@@ -1368,7 +1368,7 @@ export interface ListExamples {
   type: "list_examples";
 }
 
-/** What a served folder holds; an empty path lists the served roots. */
+/** Ask for the content of a served folder; an empty path lists the served roots. */
 export interface ListFolder {
   request?: number;
   document?: string;
@@ -1409,14 +1409,14 @@ export interface ListTopics {
   type: "list_topics";
 }
 
-/** How a display is to listen; None: as fits the publishers of its topic. */
+/** QoS that a display asks for; None: as fits the publishers of its topic. */
 export interface ListeningWish {
   reliable: boolean | null;
   latched: boolean | null;
   depth: number | null;
 }
 
-/** All displays of a document, in their order, and the frame they are drawn in. */
+/** All displays of a document, in order, and the frame they are drawn in. */
 export interface LiveDisplays {
   type: "live_displays";
   displays: DisplayView[];
@@ -1424,7 +1424,7 @@ export interface LiveDisplays {
   fixed_frame: string;
 }
 
-/** Have a node set what a file says of it, one after another. */
+/** Set what a parameter file has for a node, one parameter after another. */
 export interface LoadParameters {
   request?: number;
   document?: string;
@@ -1444,7 +1444,7 @@ export interface LogAnswer {
   last: number;
 }
 
-/** One thing that a node said. */
+/** One line that a node logged. */
 export interface LogLine {
   number: number;
   stamp_s: number;
@@ -1514,7 +1514,7 @@ export interface Meaning {
   expression_values: string[];
 }
 
-/** Answer to `look_up`; None: nothing that is known stands there. */
+/** Answer to `look_up`; None: nothing known is there. */
 export interface MeaningAnswer {
   type: "meaning";
   request: number;
@@ -1772,7 +1772,7 @@ export interface ParameterRefusal {
   reason: string;
 }
 
-/** A parameter, and what its node says of it. */
+/** A parameter and its descriptor. */
 export interface ParameterView {
   name: string;
   value_type: string;
@@ -1810,7 +1810,7 @@ export interface ParametersLoaded {
   refused: ParameterRefusal[];
 }
 
-/** What a text shapes about one part. */
+/** The effect of a text on one part. */
 export interface PartEffect {
   part: string;
   aspects: Aspect[];
@@ -1893,7 +1893,7 @@ export interface Problem {
   parts: string[];
 }
 
-/** All problems of the document now. `showing_last_good`: the view is older than the text. */
+/** All present problems. `showing_last_good`: the view is older than the texts. */
 export interface Problems {
   type: "problems";
   problems: Problem[];
@@ -1947,7 +1947,7 @@ export interface Publications {
   operations: PublicationView[];
 }
 
-/** Publish a message; how it fares is told to those who follow publications. */
+/** Publish a message; those who follow publications receive what becomes of it. */
 export interface Publish {
   request?: number;
   document?: string;
@@ -1980,7 +1980,7 @@ export interface PublishRobot {
   running: boolean;
 }
 
-/** All joints to random positions within their limits. */
+/** Move all joints to random positions within their limits. */
 export interface RandomizeJoints {
   request?: number;
   document?: string;
@@ -2006,7 +2006,7 @@ export interface Recent {
   files: RecentEntry[];
 }
 
-/** One file of the list; `is_there` false: it is gone. */
+/** One file of the list; `is_there` false: it was removed. */
 export interface RecentEntry {
   path: string;
   title: string;
@@ -2062,7 +2062,7 @@ export interface Reload {
   type: "reload";
 }
 
-/** What is to be said of a display. */
+/** A remark about a display. */
 export interface Remark {
   level: "ok" | "warn" | "error";
   reason: string;
@@ -2080,9 +2080,9 @@ export interface RemoveDisplay {
 }
 
 /**
- * Call what stands there `name`, wherever it is named, as one undo step.
+ * Change the name at a place to `name`, wherever it is used, as one undo step.
  *
- * Refused when `count`, the number of places that `renaming` told, is another one by now.
+ * Refused when the number of places is no longer `count`, the one in `renaming`.
  */
 export interface Rename {
   request?: number;
@@ -2129,9 +2129,9 @@ export interface RenamingAnswer {
 }
 
 /**
- * Write `replacement` wherever the words are found, as one undo step.
+ * Write `replacement` at all places of a text, as one undo step.
  *
- * Refused when `count`, the number of places that `texts_found` told, is another one by now.
+ * Refused when the number of places is no longer `count`, the one in `texts_found`.
  */
 export interface ReplaceTexts {
   request?: number;
@@ -2159,7 +2159,7 @@ export interface Replacement {
   text: string;
 }
 
-/** Put a site back to what the file on disk says. */
+/** Put a site back to its text on disk. */
 export interface ResetSite {
   request?: number;
   document?: string;
@@ -2184,7 +2184,7 @@ export interface ResolveCollisions {
   state?: string;
 }
 
-/** Edits of an earlier run were brought back; `at` empty: that is no longer worth a word. */
+/** Edits of an earlier run were restored; `at` empty: nothing to report any more. */
 export interface Restored {
   type: "restored";
   at: string;
@@ -2257,7 +2257,7 @@ export interface Saved {
   files: string[];
 }
 
-/** Send a goal; what becomes of it is told to those who follow goals. */
+/** Send a goal; those who follow goals receive what becomes of it. */
 export interface SendGoal {
   request?: number;
   document?: string;
@@ -2317,7 +2317,7 @@ export interface SetDisplayProperty {
   value: boolean | number | string;
 }
 
-/** Listen to another topic, or in another way; None chooses by the topic's publishers. */
+/** Subscribe to another topic or with another QoS; None chooses by the topic's publishers. */
 export interface SetDisplayTopic {
   request?: number;
   document?: string;
@@ -2377,7 +2377,7 @@ export interface SetParameter {
  */
 export type Severity = "error" | "warning" | "info";
 
-/** A state that can be compared: the robot as it is, as its files say, or a variant. */
+/** A state to compare: the present robot, the one on disk, or a variant. */
 export interface Side {
   kind: "present" | "saved" | "variant";
   name: string;
@@ -2465,7 +2465,7 @@ export interface Text {
 }
 
 /**
- * In the text before, [start, end) gives way to `text`.
+ * Replace [start, end) of the text before by `text`.
  *
  * The text is as an editor holds it: no byte order mark, every line break one LF. Offsets are
  * UTF-16 code units from 0.
@@ -2484,7 +2484,7 @@ export interface TextPlace {
   length: number;
 }
 
-/** A text that somebody asked for changed, by whatever way; it now has this version. */
+/** A text that was asked for changed, by an edit or otherwise; it now has this version. */
 export interface TextsChanged {
   type: "texts_changed";
   file: string;
@@ -2514,7 +2514,7 @@ export interface TfFrames {
   trouble: string;
 }
 
-/** Where a frame is in another. */
+/** Pose of a frame in another. */
 export interface TfPose {
   wxyz: [number, number, number, number];
   xyz: [number, number, number];
@@ -2546,7 +2546,7 @@ export interface TopicEnds {
   misfits: Misfit[];
 }
 
-/** How a topic comes. */
+/** Rate of a topic. */
 export interface TopicRate {
   name: string;
   rate_hz: number;
@@ -2593,7 +2593,7 @@ export interface Topics {
   topics: TopicView[];
 }
 
-/** What a node can be asked to do. */
+/** A transition that a node can be asked for. */
 export interface TransitionView {
   id: number;
   label: string;
@@ -2652,7 +2652,7 @@ export interface ValuesRead {
   values: string;
 }
 
-/** Answer to `apply_variant`; `left_out` says what found no place. */
+/** Answer to `apply_variant`; `left_out` lists what found no place. */
 export interface VariantApplied {
   type: "variant_applied";
   request: number;
@@ -2666,7 +2666,7 @@ export interface VariantSaved {
   left_out: string[];
 }
 
-/** One text that a variant sets; `name` is for people. */
+/** One text that a variant sets; `name` is for display. */
 export interface VariantText {
   file: string;
   name: string;
@@ -2692,7 +2692,7 @@ export interface Variants {
   trouble: string;
 }
 
-/** Of all visuals or all collisions of a link, m3; not exact: at most that. */
+/** Volume of all visuals or all collisions of a link, m3; an upper bound. */
 export interface VolumeView {
   volume_m3: number;
   is_exact: boolean;
@@ -2736,7 +2736,7 @@ export interface WireFeed {
   trouble: string;
 }
 
-/** Answer to `examine_wire`: what there is, and if nobody can be met there, why. */
+/** Answer to `examine_wire`: what there is at a router, and why nodes are not seen. */
 export interface WireReport {
   type: "wire_report";
   request: number;
@@ -2760,7 +2760,7 @@ export interface WireRobots {
   nodes: string[];
 }
 
-/** How the studio is connected with a ROS 2 system; told to every page. */
+/** State of the studio's connection to a ROS 2 system; sent to every page. */
 export interface WireState {
   type: "wire_state";
   state: "off" | "connecting" | "connected" | "lost" | "failed";
@@ -2774,7 +2774,7 @@ export interface WireState {
   trouble: string;
 }
 
-/** All joints to zero, or to the nearest position within their limits. */
+/** Move all joints to zero, or to the nearest position within their limits. */
 export interface ZeroJoints {
   request?: number;
   document?: string;

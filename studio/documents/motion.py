@@ -62,7 +62,7 @@ class Glide:
 
     @property
     def running(self) -> bool:
-        """Whether the joints swing."""
+        """Whether the joints are moving to a position."""
         return self._animation.running
 
     def start(

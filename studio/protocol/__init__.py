@@ -1,4 +1,4 @@
-"""What page and studio say to each other: commands, events and the data lane, a file per subject.
+"""The messages between page and studio: commands, events and the data lane, a file per subject.
 
 One set of models serves the websockets' parser, OpenAPI and `types/wire.d.ts`. A command carries
 `request`, which its `done` or `refused` repeats, and `document`, the id of the open document it

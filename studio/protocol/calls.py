@@ -35,14 +35,14 @@ class ReadValues(Command):
 
     type: Literal["read_values"] = "read_values"
     name: Name
-    """Of the type in full."""
+    """Full name of the type."""
     place: int = Field(default=0, ge=0, le=2)
     """Among the parts of `interface`: 0 is the message itself, a request or a goal."""
     text: Yaml
 
 
 class FollowOperations(Command):
-    """Be told what runs and ran of a kind, for any page, from now on; or no more."""
+    """Receive the operations of a kind, of all pages, and their changes; or no more."""
 
     type: Literal["follow_operations"] = "follow_operations"
     operations: Literal["calls", "goals", "publications"]
@@ -50,7 +50,7 @@ class FollowOperations(Command):
 
 
 class CallService(Command):
-    """Call a service; what becomes of it is told to those who follow calls."""
+    """Call a service; those who follow calls receive what becomes of it."""
 
     type: Literal["call_service"] = "call_service"
     name: Name
@@ -100,7 +100,7 @@ class ValuesRead(Event):
 
 
 class Begun(Event):
-    """Answer to what begins an operation: the number by which it is told and ended."""
+    """Answer to what begins an operation: its number, by which it is reported and cancelled."""
 
     type: Literal["begun"] = "begun"
     request: int

@@ -7,12 +7,12 @@ from typing import Literal, TypeAlias
 from studio.protocol.message import Command, Event
 
 Subject: TypeAlias = Literal["graph", "log", "diagnostics", "goal_statuses", "lessons"]
-"""Who is there with what topics, services and actions; lines of the log; how parts of robots are;
-the states of goals; demos, and what they print."""
+"""The graph of nodes, topics, services and actions; lines of the log; diagnostics; states of goals;
+demos and their output."""
 
 
 class FollowChanges(Command):
-    """Be told when something changed, from now on; or no more."""
+    """Receive `changed` for a subject from now on; or no more."""
 
     type: Literal["follow_changes"] = "follow_changes"
     subject: Subject
@@ -20,7 +20,7 @@ class FollowChanges(Command):
 
 
 class Changed(Event):
-    """Something changed, once or several times since this was told last."""
+    """The subject changed, once or several times since the last such event."""
 
     type: Literal["changed"] = "changed"
     subject: Subject

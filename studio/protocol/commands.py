@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 COMMAND_LIMIT_BYTES: Final = 1 << 20
-"""Of any command's JSON text."""
+"""Limit of any command's JSON text."""
 
 _RATES_MAX: Final = 10_000
 """Persons and commands that are counted, before those at rest are forgotten."""
@@ -41,18 +41,18 @@ _Command = TypeVar("_Command", bound=Command)
 _Target = TypeVar("_Target")
 _Part = TypeVar("_Part")
 Answer: TypeAlias = Event | None
-"""What the asker alone is sent, if anything, before `done`."""
+"""An event for the asker alone, sent before `done`; or none."""
 Work: TypeAlias = "Callable[[_Target, _Command, Listener], Answer | Awaitable[Answer]]"
 """Carries a command out; gets what it is for, the command and who asks."""
 
 
 class Scope(StrEnum):
-    """What is concerned, and so who decides about it: today the presenter, for each of them."""
+    """What a command concerns, and so who decides about it: today the presenter, for each."""
 
     DOCUMENT = "document"
-    """One open document: its owner."""
+    """One open document: its owner decides."""
     ROS = "ros"
-    """The ROS system: whoever holds control."""
+    """The ROS system: whoever holds control decides."""
     STUDIO = "studio"
     """The whole studio."""
 
@@ -68,12 +68,12 @@ class Permission:
 
 
 def may(person: Person | None, permission: Permission | None, document: str = "") -> bool:
-    """Whether somebody may do this: the one question that every lane asks.
+    """Return whether a person may do something: the one question that every lane asks.
 
     Args:
-        person: Who asks; nobody (None) may do nothing.
-        permission: What for; what has none, nobody may do.
-        document: Id of the document that it concerns, if it does.
+        person: Who asks; None may do nothing.
+        permission: Of what is asked; None: nobody may do it.
+        document: Id of the document that it concerns, if any.
     """
     del document  # every presenter owns every document
     if person is None or permission is None:
@@ -82,10 +82,10 @@ def may(person: Person | None, permission: Permission | None, document: str = ""
 
 
 def demand(person: Person | None, permission: Permission | None, document: str = "") -> None:
-    """Pass, or refuse.
+    """Raise unless `may` allows it.
 
     Raises:
-        NotAllowedError: `may` says no.
+        NotAllowedError: It is not allowed.
     """
     if not may(person, permission, document):
         name = permission.name if permission else "do this"
@@ -94,12 +94,12 @@ def demand(person: Person | None, permission: Permission | None, document: str =
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """How much of one command is taken."""
+    """Limits of one command."""
 
     bytes_max: int = COMMAND_LIMIT_BYTES
-    """Of its JSON text."""
+    """Length of its JSON text."""
     per_second: float | None = None
-    """How often one person may send it, with bursts of one second's; None: without a limit."""
+    """Rate for one person, with bursts of one second's; None: without a limit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +115,10 @@ class CommandEntry(Generic[_Target]):
 
 
 class Commands(Generic[_Target]):
-    """Commands that a part of the studio, or the whole, carries out.
+    """The commands that a part of the studio, or the whole, carries out.
 
     Args:
-        scope: What they concern, unless one says otherwise.
+        scope: What they concern, unless an entry has its own.
     """
 
     def __init__(self, scope: Scope) -> None:
@@ -248,10 +248,10 @@ class AtMostOnce:
         asker: Listener,
         carry_out: Callable[[Command, Listener], Awaitable[Answer]],
     ) -> Answer:
-        """Carry the command out, unless that was done, or is under way.
+        """Carry the command out, unless it was carried out or still is.
 
         Raises:
-            StudioError: As `carry_out` does, or did.
+            StudioError: As `carry_out` raises or raised.
         """
         if not command.id:
             return await carry_out(command, asker)

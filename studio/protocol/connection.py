@@ -9,14 +9,14 @@ from pydantic import Field
 from studio.protocol.message import Command, Event, Message
 
 JointSource: TypeAlias = Literal["sliders", "animation", "joint_states", "tf"]
-"""Who moves the joints: one of these at a time."""
+"""What moves the joints: one of these at a time."""
 
 
 Distro: TypeAlias = Literal["", "humble", "jazzy", "kilted"]
 
 
 class WirePlace(Command):
-    """Where a ROS 2 system is looked for, and what it speaks; what is left out stays as it is."""
+    """A ROS 2 system: router, domain and distribution; what is left out stays as it is."""
 
     address: str = Field(default="", max_length=300)
     """`robot.local`, `192.0.2.7:7447`, or an endpoint as Zenoh writes it."""
@@ -83,13 +83,13 @@ class OpenFromWire(Command):
 
 
 class WireState(Event):
-    """How the studio is connected with a ROS 2 system; told to every page."""
+    """State of the studio's connection to a ROS 2 system; sent to every page."""
 
     type: Literal["wire_state"] = "wire_state"
     state: Literal["off", "connecting", "connected", "lost", "failed"]
     """`lost`: the router went away; it is joined again by itself as soon as it is back."""
     router: Literal["", "own", "joined"]
-    """Whose router it is: one that the studio started, or one that was there."""
+    """Of the router: started by the studio, or found there."""
     endpoint: str
     domain: int
     distro: str
@@ -107,9 +107,9 @@ class WireFeed(Event):
 
     type: Literal["wire_feed"] = "wire_feed"
     source: Literal["sliders", "joint_states", "tf"]
-    """`sliders`: whoever moves them here; whether they swing is told by `joints`."""
+    """`sliders`: the page moves them; whether they swing is in `joints`."""
     source_state: Literal["", "waiting", "live", "silent"]
-    """Of a source on the wire: nothing came yet, it comes, or it came and does not any more."""
+    """Of a topic as source: nothing came yet, messages come, or they came and stopped."""
     rate_hz: int
     """Messages of the last second."""
     strangers: tuple[str, ...]
@@ -117,13 +117,13 @@ class WireFeed(Event):
     publishes_robot: bool
     publishes_joints: bool
     joints_paused: bool
-    """Nothing of them goes out now: they follow `/joint_states`, and would be an echo."""
+    """The joints are not published: they follow `/joint_states`, so it would be an echo."""
     rivals: tuple[str, ...]
     """Nodes that publish what this robot publishes; the first ones."""
     description_from: str
     """The topic or parameter that the description comes from; empty: from files."""
     trouble: str
-    """What is wrong with it, in a sentence."""
+    """What is wrong with the description, in a sentence."""
 
 
 class WireRobots(Event):
@@ -154,31 +154,31 @@ publish, whose nodes the router does not show, for it is newer than they are."""
 
 
 class DomainView(Message):
-    """How many nodes of others a domain has."""
+    """The number of other nodes in a domain."""
 
     domain: int
     nodes: int
 
 
 class WireReport(Event):
-    """Answer to `examine_wire`: what there is, and if nobody can be met there, why."""
+    """Answer to `examine_wire`: what there is at a router, and why nodes are not seen."""
 
     type: Literal["wire_report"] = "wire_report"
     request: int
     endpoint: str
     domain: int
     distro: str
-    """That is spoken here."""
+    """The studio's own."""
     verdict: Verdict
     starts_router: bool
     """Connecting would start a router here."""
     nodes: int
-    """Of others, in the domain."""
+    """Other nodes in the domain."""
     domains: tuple[DomainView, ...]
-    """Those that have nodes, in their order; the first ones."""
+    """Domains with nodes, sorted; the first ones."""
     distros: tuple[str, ...]
-    """Whose types the nodes of the domain have, as far as their tokens tell."""
+    """Distributions whose types the nodes of the domain have, as far as their tokens show."""
     types: tuple[str, ...]
-    """Of another form than here; the first ones."""
+    """Types whose hash differs from the studio's; the first ones."""
     unseen: int
     """Processes that publish in the domain, while none of their nodes is seen."""

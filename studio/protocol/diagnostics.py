@@ -1,4 +1,4 @@
-"""Messages about diagnostics: how the parts of a robot say that they are."""
+"""Messages about diagnostics: the states that the parts of a robot report."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from studio.protocol.message import Command, Event, Message
 
 
 class GetDiagnostics(Command):
-    """Ask how all parts are; they are heard from the first such question on."""
+    """Ask for the states of all parts; the topic is subscribed from the first such request on."""
 
     type: Literal["get_diagnostics"] = "get_diagnostics"
 
 
 class DiagnosticValue(Message):
-    """One thing that a part tells of itself."""
+    """One value that a part reports."""
 
     key: str
     value: str
 
 
 class DiagnosticView(Message):
-    """How a part said it was when it said so last."""
+    """The state that a part reported last."""
 
     name: str
     hardware: str
@@ -30,7 +30,7 @@ class DiagnosticView(Message):
     message: str
     values: tuple[DiagnosticValue, ...]
     age_s: float
-    """Since it said so."""
+    """Since the report."""
 
 
 class DiagnosticsAnswer(Event):
@@ -40,6 +40,6 @@ class DiagnosticsAnswer(Event):
     request: int
     connected: bool
     parts: tuple[DiagnosticView, ...]
-    """In the order of their names."""
+    """Sorted by name."""
     more: int
     """Parts for which there was no room."""

@@ -9,7 +9,7 @@ from pydantic import Field, StringConstraints
 from studio.protocol.message import Command, Event, Message
 
 RosName: TypeAlias = Annotated[str, StringConstraints(max_length=300, pattern=r"^[^\x00]*$")]
-"""Of a topic, a frame or a property with its link; what it may be is checked where it is used."""
+"""Name of a topic, a frame or a property with its link; checked where it is used."""
 ShortName: TypeAlias = Annotated[str, StringConstraints(max_length=80, pattern=r"^[^\x00-\x1f]*$")]
 DisplayId: TypeAlias = Annotated[str, StringConstraints(max_length=20)]
 PropertyValue: TypeAlias = bool | int | float | str
@@ -59,7 +59,7 @@ class SwitchDisplays(Command):
 
 
 class SetDisplayTopic(Command):
-    """Listen to another topic, or in another way; None chooses by the topic's publishers."""
+    """Subscribe to another topic or with another QoS; None chooses by the topic's publishers."""
 
     type: Literal["set_display_topic"] = "set_display_topic"
     display: DisplayId
@@ -86,25 +86,25 @@ class SetFixedFrame(Command):
 
 
 class GetDisplayKinds(Command):
-    """Which displays there are."""
+    """Ask for the kinds of displays."""
 
     type: Literal["get_display_kinds"] = "get_display_kinds"
 
 
 class GetTopics(Command):
-    """Which topics there are, and which display shows each."""
+    """Ask for the topics, and the display that shows each."""
 
     type: Literal["get_topics"] = "get_topics"
 
 
 class GetTf(Command):
-    """Which frames there are; and where one of them is in another, if both are named."""
+    """Ask for the frames, and for the pose of one in another if both are named."""
 
     type: Literal["get_tf"] = "get_tf"
     frame: RosName = ""
     seen_from: RosName = ""
     pose_only: bool = False
-    """Of all frames nothing is told: then it may be asked many times a second."""
+    """Leaves out the list of frames, so that it may be asked many times a second."""
 
 
 class FollowFrame(Command):
@@ -121,7 +121,7 @@ class DisplayKindView(Message):
     doc: str
     icon: str
     types: tuple[str, ...]
-    """Of messages that it shows; none: it listens to no topic."""
+    """Message types that it shows; none: it subscribes to no topic."""
     properties: tuple[PropertyView, ...]
 
 
@@ -150,7 +150,7 @@ class PropertyView(Message):
 
 
 class ListeningWish(Message):
-    """How a display is to listen; None: as fits the publishers of its topic."""
+    """QoS that a display asks for; None: as fits the publishers of its topic."""
 
     reliable: bool | None
     latched: bool | None
@@ -178,14 +178,14 @@ class DisplayView(Message):
 
 
 class LiveDisplays(Event):
-    """All displays of a document, in their order, and the frame they are drawn in."""
+    """All displays of a document, in order, and the frame they are drawn in."""
 
     type: Literal["live_displays"] = "live_displays"
     displays: tuple[DisplayView, ...]
     groups_off: tuple[str, ...]
     """Groups that are hidden as a whole."""
     fixed_frame: str
-    """As chosen; empty: that of the robot's root link."""
+    """As chosen; empty: the robot's root link."""
 
 
 class Mend(Message):
@@ -197,7 +197,7 @@ class Mend(Message):
 
 
 class Remark(Message):
-    """What is to be said of a display."""
+    """A remark about a display."""
 
     level: Literal["ok", "warn", "error"]
     reason: str
@@ -206,7 +206,7 @@ class Remark(Message):
 
 
 class DisplayState(Message):
-    """How a display fares."""
+    """State of a display."""
 
     id: str
     rate_hz: float
@@ -217,7 +217,7 @@ class DisplayState(Message):
 
 
 class DisplayStates(Event):
-    """How all displays fare; told when it changes, at most twice a second."""
+    """States of all displays; sent when they change, at most twice a second."""
 
     type: Literal["display_states"] = "display_states"
     states: tuple[DisplayState, ...]
@@ -233,7 +233,7 @@ class TopicView(Message):
     """It is published with; those of subscribers do not count."""
     publishers: int
     kind: str
-    """Of the display that shows it; empty: none does."""
+    """The display that shows it; empty: none does."""
 
 
 class Topics(Event):
@@ -258,13 +258,13 @@ class FrameView(Message):
 
 
 class TfPose(Message):
-    """Where a frame is in another."""
+    """Pose of a frame in another."""
 
     wxyz: tuple[float, float, float, float]
     xyz: tuple[float, float, float]
     """m."""
     chain: tuple[str, ...]
-    """Frames on the way from the one that it is seen from, both ends with it."""
+    """Frames from the reference frame to this one, both included."""
 
 
 class TfFrames(Event):

@@ -1,4 +1,4 @@
-"""Which documents are open, how more are opened or made, their arguments, and links to them."""
+"""The open documents, how more are opened or made, their arguments, and links to them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class CloseDocument(Command):
 
 
 class ListFolder(Command):
-    """What a served folder holds; an empty path lists the served roots."""
+    """Ask for the content of a served folder; an empty path lists the served roots."""
 
     type: Literal["list_folder"] = "list_folder"
     path: str = ""
@@ -89,7 +89,7 @@ class Documents(Event):
 
 
 class DocumentState(Event):
-    """What a document is: its entry file, arguments, and how it was evaluated."""
+    """State of a document: its entry file, arguments, and how it was evaluated."""
 
     type: Literal["document"] = "document"
     id: str
@@ -120,7 +120,7 @@ class Progress(Event):
 
 
 class FolderEntry(Message):
-    """One entry of a folder. `openable` false comes with the reason why not."""
+    """One entry of a folder. With `openable` false comes the reason."""
 
     name: str
     path: str
@@ -186,7 +186,7 @@ class OpenExample(Command):
     type: Literal["open_example"] = "open_example"
     name: str = Field(max_length=200)
     arguments: dict[ArgumentName, str] = Field(default_factory=dict)
-    """That the model is opened with."""
+    """Arguments that the model is opened with."""
 
 
 class ListPlaces(Command):
@@ -224,7 +224,7 @@ class SaveAs(Command):
 
 
 class RecentEntry(Message):
-    """One file of the list; `is_there` false: it is gone."""
+    """One file of the list; `is_there` false: it was removed."""
 
     path: str
     title: str
@@ -243,7 +243,7 @@ class Recent(Event):
 
 
 class ExampleEntry(Message):
-    """One shipped model; `text` says what it shows."""
+    """One shipped model; `text` describes it."""
 
     name: str
     robot: str
@@ -275,7 +275,7 @@ class SetArgument(Command):
 
 
 class GetArguments(Command):
-    """What a robot can be launched with: the open document's, or that of a file not yet open."""
+    """Ask for the arguments of a robot: of the open document, or of a file not yet open."""
 
     type: Literal["get_arguments"] = "get_arguments"
     path: str = Field(default="", max_length=4096)
@@ -297,12 +297,12 @@ class ArgumentView(Message):
     default: str | None
     """As written in the file; None: the robot needs a value from outside."""
     value: str | None
-    """What is passed now."""
+    """The value passed now."""
     shown: str
     """What it comes to now, where that is known without a run."""
     widget: Widget
     is_file: bool
-    """Its value names a file."""
+    """Whether its value names a file."""
 
 
 class Arguments(Event):
@@ -336,12 +336,12 @@ class Link(Event):
     text: str
     arguments: int
     files: tuple[str, ...]
-    """Those whose unsaved edits it holds."""
+    """Files whose unsaved edits it holds."""
     edits: int
 
 
 class LinkOpened(Event):
-    """Answer to `open_link`: go to `/d/<document>`; `left_out` says which edits found no place."""
+    """Answer to `open_link`: go to `/d/<document>`; `left_out` lists edits that found no place."""
 
     type: Literal["link_opened"] = "link_opened"
     request: int

@@ -21,7 +21,7 @@ class EditSite(Command):
 
 
 class ResetSite(Command):
-    """Put a site back to what the file on disk says."""
+    """Put a site back to its text on disk."""
 
     type: Literal["reset_site"] = "reset_site"
     site: str
@@ -49,7 +49,7 @@ class SiteView(Message):
     line: int
     text: str
     saved_text: str | None
-    """What the file on disk says, when it differs."""
+    """The text on disk, when it differs."""
     value: str
     number: float | None
     values: tuple[str, ...]
@@ -70,7 +70,7 @@ class Sites(Event):
 
 
 class Problems(Event):
-    """All problems of the document now. `showing_last_good`: the view is older than the text."""
+    """All present problems. `showing_last_good`: the view is older than the texts."""
 
     type: Literal["problems"] = "problems"
     problems: tuple[Problem, ...]
@@ -98,7 +98,7 @@ class Built(Event):
 class ApplyFix(Command):
     """Make the edits of a problem's fix as one undo step; refused when it is no longer found.
 
-    The three say which problem is meant, as `problems` told it.
+    The three fields name the problem as in `problems`.
     """
 
     type: Literal["apply_fix"] = "apply_fix"

@@ -25,18 +25,18 @@ GoalState: TypeAlias = Literal[
 
 
 class SendGoal(Command):
-    """Send a goal; what becomes of it is told to those who follow goals."""
+    """Send a goal; those who follow goals receive what becomes of it."""
 
     type: Literal["send_goal"] = "send_goal"
     name: Name
     action_type: Name
     text: Yaml = ""
     timeout_s: float = Field(default=10.0, gt=0, le=3600)
-    """For the server to take or refuse it; the goal itself may take as long as it likes."""
+    """For the server to accept or reject it; the goal itself may take any time."""
 
 
 class CancelGoal(Command):
-    """Ask that a goal end; refused when its server says no."""
+    """Ask a server to cancel a goal; refused when the server refuses."""
 
     type: Literal["cancel_goal"] = "cancel_goal"
     operation: int
@@ -50,12 +50,12 @@ class GetGoalStatuses(Command):
 
 
 class FeedbackView(Message):
-    """What a server said of a goal under way."""
+    """One feedback message of a running goal."""
 
     number: int
-    """From 1 on, among all of this goal."""
+    """Counts all of this goal, from 1."""
     after_s: float
-    """Since it was sent."""
+    """Since the goal was sent."""
     values: PlainJson
 
 
@@ -74,13 +74,13 @@ class GoalView(Message):
     took_s: float
     feedback_count: int
     feedback: tuple[FeedbackView, ...]
-    """What is new since the last time; of all that are told, the last that are kept."""
+    """Those since the last event; where the whole goal is sent, the last that are kept."""
     result: PlainJson
     trouble: str
     servers: tuple[str, ...]
-    """Paths of the nodes that serve the action, told when the goal is over."""
+    """Full names of the nodes that serve the action, sent when the goal is over."""
     server_said: LogLine | None
-    """What a server that aborted or rejected it logged last as a warning or an error meanwhile."""
+    """The last warning or error that a server logged during a goal that it aborted or rejected."""
 
 
 class Goals(Event):
@@ -92,11 +92,11 @@ class Goals(Event):
 
 
 class GoalStatusView(Message):
-    """A goal as its server tells of it."""
+    """A goal as its server reports it."""
 
     goal_id: str
     state: str
-    """By the name that action_msgs gives it, in small letters."""
+    """The name in action_msgs, in lower case."""
     stamp_s: float
     """When it was accepted, by the server's clock."""
     is_ours: bool

@@ -25,7 +25,7 @@ class GraphNodeView(Message):
 
     name: str
     count: int
-    """How many have it; more than one is a fault."""
+    """How many nodes have this name; more than one is a fault."""
     own: bool
     """It is the studio's."""
 
@@ -39,9 +39,9 @@ class GraphLinkView(Message):
     sources: tuple[int, ...]
     """Places among the nodes: who publishes, calls, or sends goals."""
     targets: tuple[int, ...]
-    """Who subscribes, or serves."""
+    """The subscribers or servers."""
     hidden: bool
-    """Its name says that it is nobody's business."""
+    """Whether a part of its name begins with an underscore."""
 
 
 class GraphAnswer(Event):
@@ -50,7 +50,7 @@ class GraphAnswer(Event):
     type: Literal["graph"] = "graph"
     request: int
     version: int
-    """Another one than known: all is told anew; else nothing is."""
+    """With another one than asked about comes the whole graph, else nothing."""
     nodes: tuple[GraphNodeView, ...]
     links: tuple[GraphLinkView, ...]
     other_count: int
@@ -80,7 +80,7 @@ class NodeAnswer(Event):
     request: int
     name: str
     count: int
-    """How many nodes have that name; what is told is of one of them; 0: none has."""
+    """How many nodes have that name, of which one is described; 0: none has."""
     subscribers: tuple[EndView, ...]
     publishers: tuple[EndView, ...]
     service_servers: tuple[EndView, ...]
@@ -99,7 +99,7 @@ class GetManaged(Command):
 
 
 class TransitionView(Message):
-    """What a node can be asked to do."""
+    """A transition that a node can be asked for."""
 
     id: int
     label: str

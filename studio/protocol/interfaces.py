@@ -18,9 +18,9 @@ class GetInterface(Command):
 
     type: Literal["get_interface"] = "get_interface"
     name: str = Field(max_length=NAME_MAX)
-    """In full: `geometry_msgs/msg/Twist`, `std_srvs/srv/SetBool`."""
+    """Full name: `geometry_msgs/msg/Twist`, `std_srvs/srv/SetBool`."""
     with_text: bool = False
-    """Of what only a distribution has, nodes that use it are asked for its text and comments."""
+    """For a type that only a distribution has, its users are asked for definition and comments."""
 
 
 class FieldView(Message):
@@ -70,7 +70,7 @@ class InterfaceAnswer(Event):
     hash: str
     """RIHS01, as it stands in the keys of the wire."""
     text: str
-    """As it was written; empty where only the distribution has it, and no node told it."""
+    """The definition; empty where only the distribution has the type, and no node described it."""
 
 
 class ListInterfaces(Command):
@@ -83,9 +83,9 @@ class InterfaceFaultView(Message):
     """A text that defines no type."""
 
     place: str
-    """Its file, or the name that its type would have where it came without one."""
+    """The file, or the name that its type would have without one."""
     line: int
-    """From 1; 0: the text as a whole."""
+    """From 1; 0: the whole text."""
     reason: str
     """What is wrong and what to write, half a sentence."""
 
@@ -98,9 +98,9 @@ class InterfacesAnswer(Event):
     distro: str
     names: tuple[str, ...]
     own: tuple[str, ...]
-    """Those among them that a user gave: by a package, an option, or on the page."""
+    """Those that a user added: by a package, an option, or on the page."""
     faults: tuple[InterfaceFaultView, ...]
-    """Of a user's texts that define no type."""
+    """Of a user's definitions that are not valid."""
 
 
 class AddInterfaces(Command):
@@ -136,4 +136,4 @@ class InterfacesAdded(Event):
     request: int
     types: tuple[AddedInterface, ...]
     faults: tuple[InterfaceFaultView, ...]
-    """Of texts that were left out."""
+    """Of definitions that were left out."""

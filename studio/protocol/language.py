@@ -1,4 +1,4 @@
-"""What the studio answers an editor that asks about a text.
+"""What the studio answers to an editor's questions about a text.
 
 Offsets and columns count UTF-16 code units of the text as an editor holds it: no byte order mark,
 every line break one LF. Offsets are from 0, lines and columns from 1.
@@ -23,7 +23,7 @@ class OutlineAnswer(Event):
 
 
 class MeaningAnswer(Event):
-    """Answer to `look_up`; None: nothing that is known stands there."""
+    """Answer to `look_up`; None: nothing known is there."""
 
     type: Literal["meaning"] = "meaning"
     request: int
@@ -47,7 +47,7 @@ class CompletionsAnswer(Event):
 
 
 class PlaceCommand(Command):
-    """A question about a place of a file's text, as `get_text` and `texts_changed` tell it.
+    """A question about a place in a file's text, as in `get_text` and `texts_changed`.
 
     `offset` counts UTF-16 code units from 0: no byte order mark, every line break one LF.
     """
@@ -63,7 +63,7 @@ class LookUp(PlaceCommand):
 
 
 class GetReferences(PlaceCommand):
-    """All places that name what stands there."""
+    """Ask for all places that use the name at a place."""
 
     type: Literal["get_references"] = "get_references"
 
@@ -75,6 +75,6 @@ class Complete(PlaceCommand):
 
 
 class GetOutline(Command):
-    """What the files of the robot hold: includes, macros, properties, args."""
+    """Ask for what the files of the robot define: includes, macros, properties, args."""
 
     type: Literal["get_outline"] = "get_outline"

@@ -13,7 +13,7 @@ DemoName: TypeAlias = Annotated[str, Field(max_length=100)]
 Key: TypeAlias = Literal[
     "up", "down", "left", "right", "g", "t", "r", "e", "d", "c", "v", "b", "f", "q"
 ]
-"""That a demo is driven by."""
+"""Keys that demos read."""
 
 
 class GetLessons(Command):
@@ -56,7 +56,7 @@ class DemoView(Message):
     for_s: float
     """Seconds since it was started, or since its end."""
     code: int
-    """Of its end; below 0 a signal that ended it."""
+    """Exit code; below 0: the signal that ended it."""
     reason: str
     """The last line that it printed, once it has ended."""
 
@@ -67,9 +67,9 @@ class Demos(Event):
     type: Literal["demos"] = "demos"
     request: int
     demos: tuple[DemoView, ...]
-    """Those that were started since the studio began."""
+    """Those started since the studio started."""
     elsewhere: tuple[str, ...]
-    """Demos whose node is there, though nobody started it from a page."""
+    """Demos whose node runs, though no page started it."""
 
 
 class GetDemoOutput(Command):
@@ -78,7 +78,7 @@ class GetDemoOutput(Command):
     type: Literal["get_demo_output"] = "get_demo_output"
     demo: DemoName
     run: int = 0
-    """That `after` is of; 0: none."""
+    """The run that `after` belongs to; 0: none."""
     after: int = Field(default=0, ge=0)
     """Lines up to this one are known."""
 
@@ -89,7 +89,7 @@ class DemoOutput(Event):
     type: Literal["demo_output"] = "demo_output"
     request: int
     run: int
-    """Another one than asked of: what is known is of a run before."""
+    """If it is not the run asked about, the lines known are of an earlier run."""
     lines: tuple[str, ...]
     last: int
     """Number of the last of them; the first of a run is 1."""

@@ -1,4 +1,4 @@
-"""Those who hear what happens: one Listener per control lane, one Audience per document."""
+"""Receivers of events: one Listener per control lane, one Audience per document."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Listener(Protocol):
 
 
 def encode(event: Event) -> bytes:
-    """One event as the JSON text that goes to every listener."""
+    """Return an event as the JSON text that every listener receives."""
     return event.model_dump_json().encode()
 
 
@@ -43,7 +43,7 @@ class Audience:
         return len(self._listeners)
 
     def add(self, listener: Listener) -> None:
-        """Let it hear what comes from now on."""
+        """Send it every event from now on."""
         self._listeners.add(listener)
 
     def remove(self, listener: Listener) -> None:
@@ -62,7 +62,7 @@ class Audience:
 
 
 class LastTold(Generic[_Told]):
-    """What an audience was told last of one thing, so that it hears only news.
+    """The event that an audience was sent last, so that only changes are sent.
 
     Attributes:
         event: None before the first.
@@ -73,7 +73,7 @@ class LastTold(Generic[_Told]):
         self.event: _Told | None = None
 
     def tell(self, event: _Told) -> None:
-        """Tell it, unless it was the last thing told."""
+        """Send the event, unless it equals the last one."""
         if event != self.event:
             self.event = event
             self._audience.tell(event)

@@ -1,4 +1,4 @@
-"""Messages about the log of a ROS 2 system: what its nodes say on `/rosout`."""
+"""Messages about the log of a ROS 2 system: what its nodes publish on `/rosout`."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pydantic import Field
 from studio.protocol.message import Command, Event, Message
 
 LINES_MAX = 2_000
-"""Of one answer."""
+"""Limit of one answer."""
 
 
 class GetLog(Command):
-    """Ask for what was said after a line; the log is heard from the first such question on."""
+    """Ask for the lines after one; `/rosout` is subscribed from the first such request on."""
 
     type: Literal["get_log"] = "get_log"
     after: int = Field(default=0, ge=0)
@@ -21,12 +21,12 @@ class GetLog(Command):
 
 
 class LogLine(Message):
-    """One thing that a node said."""
+    """One line that a node logged."""
 
     number: int
-    """Counts all that were heard, from 1."""
+    """Counts all lines received, from 1."""
     stamp_s: float
-    """By the clock of the node, since 1970."""
+    """By the node's clock, since 1970."""
     level: int
     """10 debug, 20 info, 30 warning, 40 error, 50 fatal; others are possible."""
     node: str
@@ -43,7 +43,7 @@ class LogAnswer(Event):
     type: Literal["log"] = "log"
     request: int
     connected: bool
-    """The log is heard; else nothing new comes."""
+    """Whether `/rosout` is subscribed; else nothing new comes."""
     lines: tuple[LogLine, ...]
     first: int
     """Number of the oldest line that is kept; what was before it is gone."""

@@ -29,7 +29,7 @@ def _without_nul(name: str) -> str:
 ArgumentName: TypeAlias = Annotated[
     str, StringConstraints(min_length=1, max_length=200), AfterValidator(_without_nul)
 ]
-"""Of an `xacro:arg`: what can be passed as `name:=value`, and written down in a file."""
+"""Name of an `xacro:arg` that can be passed as `name:=value`, and written to a file."""
 
 
 class Command(Message, allow_inf_nan=False):
@@ -44,7 +44,7 @@ class Command(Message, allow_inf_nan=False):
 
 
 class Event(Message):
-    """What the studio says; each has a `type` of its own."""
+    """What the studio sends; each has a `type` of its own."""
 
 
 _Kind = TypeVar("_Kind", bound=Command | Event)
@@ -56,7 +56,7 @@ def type_of(kind: type[Command | Event]) -> str:
 
 
 def adapter_of(kinds: Iterable[type[_Kind]]) -> TypeAdapter[_Kind]:
-    """Parses messages of these kinds, told apart by their `type`."""
+    """Return a parser of these kinds, which are distinguished by their `type`."""
     union: Any = Union[tuple(sorted(kinds, key=type_of))]  # noqa: UP007 - a tuple of run time
     told_apart: Any = Annotated[union, Field(discriminator="type")]
     return TypeAdapter(told_apart)

@@ -20,7 +20,7 @@ class Origin(Event):
 
 
 class PartEffect(Message):
-    """What a text shapes about one part."""
+    """The effect of a text on one part."""
 
     part: str
     """`link:<name>`, `joint:<name>`, `material:<name>` or `other:<n>`."""
@@ -36,31 +36,31 @@ class Effects(Event):
     parts: tuple[PartEffect, ...]
     """Parts that an attribute of changes, the first 1000."""
     changed_links: tuple[str, ...]
-    """Links that look otherwise: size, mesh or colour, or that are not there at all."""
+    """Links with another size, mesh or colour, or that exist only because of the text."""
     moved_links: tuple[str, ...]
     """Links that only sit elsewhere, those below a moved joint too."""
     links_there: int
     """Links that are there as a whole because of the text."""
     joints_there: int
     counts: dict[Aspect, int]
-    """All other parts by aspect; of `pose` and `color` links, wherever it is written."""
+    """Number of all other parts by aspect; `pose` and `color` count links."""
     decisions: int
     """Conditions and the like that the text decides, also where nothing comes of it now."""
     readers: tuple[Place, ...]
-    """Where the text is read directly."""
+    """Places that read the text directly."""
     is_cut: bool
-    """There is more than is told."""
+    """Whether some were left out."""
 
 
 class GetOrigin(Command):
-    """Where a part of the last good run comes from; `part` is `link:<name>`, `joint:<name>` ..."""
+    """Ask where a part of the last good run comes from: `link:<name>`, `joint:<name>` ..."""
 
     type: Literal["get_origin"] = "get_origin"
     part: str = Field(max_length=4096)
 
 
 class GetEffects(Command):
-    """What a site shapes in the robot of the last good run."""
+    """Ask for the effects of a site on the robot of the last good run."""
 
     type: Literal["get_effects"] = "get_effects"
     site: str = Field(max_length=8192)

@@ -1,4 +1,4 @@
-"""Messages about the parameters of nodes: listed, set, written down, and told when they change."""
+"""Messages about the parameters of nodes: list, set, save, and follow their changes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class GetParameterNodes(Command):
 
 
 class GetParameters(Command):
-    """Ask for all parameters of a node, with what it says of them."""
+    """Ask for all parameters of a node, with their descriptors."""
 
     type: Literal["get_parameters"] = "get_parameters"
     node: Name
@@ -31,9 +31,9 @@ class SetParameter(Command):
     node: Name
     name: Name
     text: Yaml
-    """Of the value, as `ros2 param set` takes it."""
+    """The value, as `ros2 param set` takes it."""
     value_type: str = Field(default="", max_length=40)
-    """As it is told; empty: what the text looks like."""
+    """As in the parameter's view; empty: as the text reads."""
 
 
 class DumpParameters(Command):
@@ -44,7 +44,7 @@ class DumpParameters(Command):
 
 
 class LoadParameters(Command):
-    """Have a node set what a file says of it, one after another."""
+    """Set what a parameter file has for a node, one parameter after another."""
 
     type: Literal["load_parameters"] = "load_parameters"
     node: Name
@@ -52,7 +52,7 @@ class LoadParameters(Command):
 
 
 class FollowParameters(Command):
-    """Be told when parameters of a node change."""
+    """Receive changes of a node's parameters."""
 
     type: Literal["follow_parameters"] = "follow_parameters"
     node: str = Field(default="", max_length=NAME_MAX)
@@ -68,11 +68,11 @@ class ParameterNodes(Event):
 
 
 class ParameterView(Message):
-    """A parameter, and what its node says of it."""
+    """A parameter and its descriptor."""
 
     name: str
     value_type: str
-    """In the words of `ros2 param describe`: `bool`, `integer`, `double array` ..."""
+    """As `ros2 param describe` writes it: `bool`, `integer`, `double array` ..."""
     value: PlainJson
     description: str = ""
     read_only: bool = False
@@ -115,7 +115,7 @@ class ParametersLoaded(Event):
     request: int
     node: str
     count: int
-    """So many were set."""
+    """How many were set."""
     refused: tuple[ParameterRefusal, ...]
 
 

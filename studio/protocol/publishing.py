@@ -13,7 +13,7 @@ RATE_MAX_HZ = 1000.0
 
 
 class Publish(Command):
-    """Publish a message; how it fares is told to those who follow publications."""
+    """Publish a message; those who follow publications receive what becomes of it."""
 
     type: Literal["publish"] = "publish"
     name: Name
@@ -49,7 +49,7 @@ class PublicationView(Message):
     state: Literal["running", "done", "stopped", "failed"]
     sent: int
     listeners: int
-    """Who subscribes to the topic."""
+    """The number of subscriptions of the topic."""
     began_s: float
     """Seconds since the epoch, by the studio's clock."""
     trouble: str
@@ -64,9 +64,9 @@ class Publications(Event):
 
 
 class Drive(Command):
-    """Drive so fast until told otherwise, or until nothing is told for half a second.
+    """Drive at a velocity until the next command, or until none came for half a second.
 
-    What comes next for the topic takes its place; who falls silent, or leaves, stands still.
+    The next command for the topic replaces it; when its page is silent or gone, the robot stops.
     """
 
     type: Literal["drive"] = "drive"

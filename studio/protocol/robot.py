@@ -17,13 +17,13 @@ class SetJoints(Command):
 
 
 class ZeroJoints(Command):
-    """All joints to zero, or to the nearest position within their limits."""
+    """Move all joints to zero, or to the nearest position within their limits."""
 
     type: Literal["zero_joints"] = "zero_joints"
 
 
 class RandomizeJoints(Command):
-    """All joints to random positions within their limits."""
+    """Move all joints to random positions within their limits."""
 
     type: Literal["randomize_joints"] = "randomize_joints"
 
@@ -70,7 +70,7 @@ class JointView(Message):
     mimic: str
     """Name of the joint that moves this one; empty when it is free."""
     multiplier: float = 1.0
-    """How far this one moves for one unit of the joint that it mimics."""
+    """Motion of this joint for one unit of the joint that it mimics."""
     file: str
     line: int
 
@@ -105,7 +105,7 @@ class PoseView(Message):
     """One named pose as the page lists it."""
 
     key: str
-    """What the commands call it."""
+    """The name that commands use."""
     name: str
     group: str
     """The planning group of an SRDF that it is stated for; empty: none."""
@@ -114,7 +114,7 @@ class PoseView(Message):
     file: str
     line: int
     positions: dict[str, float]
-    """By joint of the robot that moves freely, rad or m."""
+    """By freely moving joint of the robot, rad or m."""
     unknown: tuple[str, ...]
     """Joints that the robot does not have, or that take no single number; the first ones."""
     unknown_count: int
@@ -141,7 +141,7 @@ class ApplyPose(Command):
     type: Literal["apply_pose"] = "apply_pose"
     key: str = Field(max_length=5000)
     duration_s: float = Field(default=0.0, ge=0.0, le=5.0)
-    """Of the way there; 0: at once."""
+    """Duration of the motion; 0: at once."""
 
 
 class SavePose(Command):
@@ -172,7 +172,7 @@ _Six: TypeAlias = tuple[float, float, float, float, float, float]
 
 
 class GetFrames(Command):
-    """Where the joints of the last good robot stand; links follow from that and the positions."""
+    """Ask for the frames of the joints of the last good robot; links follow from the positions."""
 
     type: Literal["get_frames"] = "get_frames"
 
@@ -191,20 +191,20 @@ class Frames(Event):
 
 
 class GetMasses(Command):
-    """What the links of the last good robot weigh, and what room their shapes take."""
+    """Ask for the masses of the links of the last good robot, and the volumes of their shapes."""
 
     type: Literal["get_masses"] = "get_masses"
 
 
 class VolumeView(Message):
-    """Of all visuals or all collisions of a link, m3; not exact: at most that."""
+    """Volume of all visuals or all collisions of a link, m3; an upper bound."""
 
     volume_m3: float
     is_exact: bool
 
 
 class LinkMassView(Message):
-    """A link with an inertial; None stands for what no number can say."""
+    """A link with an inertial; None where no number can be given."""
 
     link: str
     mass_kg: float
@@ -225,4 +225,4 @@ class Masses(Event):
     type: Literal["masses"] = "masses"
     request: int
     links: tuple[LinkMassView, ...]
-    """In the order of the robot; links without an inertial are not among them."""
+    """In the order of the robot, without links that have no inertial."""

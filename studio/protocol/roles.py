@@ -1,4 +1,4 @@
-"""Who somebody is in the studio; what a role may do is in the commands' permissions."""
+"""Roles and persons; what a role may do is in the commands' permissions."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -6,7 +6,7 @@ from typing import Protocol
 
 
 class Role(StrEnum):
-    """A presenter may do everything, a viewer looks and moves their own camera."""
+    """A presenter may do everything; a viewer only watches and moves their own camera."""
 
     PRESENTER = "presenter"
     VIEWER = "viewer"
@@ -22,13 +22,13 @@ class Person(Protocol):
 
     @property
     def person(self) -> str:
-        """Who they are."""
+        """Identifies the person."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class Visitor:
-    """Who asks: `person` is the same for all that comes with one cookie, or with one token."""
+    """A person and their role; `person` is the same for all lanes of one cookie or token."""
 
     role: Role
     person: str = ""

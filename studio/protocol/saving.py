@@ -26,7 +26,7 @@ class Reload(Command):
 
 
 class GetCollisions(Command):
-    """Where a file's unsaved edits collide with what another program wrote."""
+    """Ask where a file's unsaved edits collide with what another program wrote."""
 
     type: Literal["get_collisions"] = "get_collisions"
     file: str = Field(max_length=4096)
@@ -43,11 +43,11 @@ class ResolveCollisions(Command):
     keep: Literal["mine", "theirs"]
     each: tuple[Literal["mine", "theirs"], ...] = Field(default=(), max_length=1000)
     state: str = Field(default="", max_length=100)
-    """Of the `collisions` that were looked at; refused when they are others now."""
+    """State of the `collisions` shown to the user; refused when they are others now."""
 
 
 class DiskMerged(Event):
-    """Another program wrote a file; its changes are taken, and so many edits are kept unsaved."""
+    """Another program wrote a file: its changes were taken, and so many edits are kept unsaved."""
 
     type: Literal["disk_merged"] = "disk_merged"
     file: str
@@ -88,7 +88,7 @@ class UndoTo(Command):
     type: Literal["undo_to"] = "undo_to"
     position: int = Field(ge=0, le=1 << 20)
     of: int = Field(ge=0, le=1 << 20)
-    """How many steps there are in all, done and undone, where it was asked for."""
+    """Number of all steps, done and undone, when the command was sent."""
 
 
 class GetChanges(Command):
@@ -157,7 +157,7 @@ class LeftWork(Event):
 
 
 class Restored(Event):
-    """Edits of an earlier run were brought back; `at` empty: that is no longer worth a word."""
+    """Edits of an earlier run were restored; `at` empty: nothing to report any more."""
 
     type: Literal["restored"] = "restored"
     at: str

@@ -10,7 +10,7 @@ from studio.protocol.displays import RosName
 from studio.protocol.message import Message
 
 SUBSCRIPTION_LIMIT: Final = 1 << 31
-"""Of a browser's own numbers."""
+"""Limit of a browser's own numbers."""
 DEPTH_MAX: Final = 1_000
 
 SubscriptionNumber: TypeAlias = Annotated[int, Field(ge=0, lt=SUBSCRIPTION_LIMIT)]
@@ -21,14 +21,14 @@ class Subscribe(Message):
 
     type: Literal["subscribe"] = "subscribe"
     subscription: SubscriptionNumber
-    """Chosen by the browser; what is said of it repeats it."""
+    """Chosen by the browser; replies repeat it."""
     topic: RosName
     type_name: RosName = ""
-    """Of the messages that are wanted; empty: what is published."""
+    """Of the messages; empty: the type that is published."""
     mode: Literal["every", "newest"]
-    """Every message as far as a bound, for plots; or the newest, for what is looked at."""
+    """Every message, up to a bound, for plots; or only the newest, for views."""
     most_hz: Annotated[float, Field(ge=1, le=60)] = 60
-    """How often the newest is sent; of every message none is left out."""
+    """Maximum rate of `newest`; with `every`, no message is left out."""
     pace: Literal["tick", "at_once"] = "tick"
     """With the next tick, which costs least; or as soon as it comes, for what is waited for."""
     reliable: bool | None = None
@@ -67,7 +67,7 @@ SubscriptionStatus: TypeAlias = Literal[
 
 
 class SubscriptionView(Message):
-    """How a subscription stands; told at first, and whenever that changes."""
+    """State of a subscription; sent at first, and whenever it changes."""
 
     type: Literal["subscription"] = "subscription"
     subscription: int
@@ -77,7 +77,7 @@ class SubscriptionView(Message):
     type_name: str
     """Of its messages; empty: it is not known yet."""
     types: tuple[str, ...]
-    """Those that are published."""
+    """The types published."""
     publishers: int
     reliable: bool
     latched: bool

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 class GetText(Command):
-    """The text of a file as it is edited; `texts_changed` tells from then on what happens to it."""
+    """Ask for the text of a file as it is edited; `texts_changed` follows its changes."""
 
     type: Literal["get_text"] = "get_text"
     file: str = Field(max_length=4096)
 
 
 class TextChange(Message):
-    """In the text before, [start, end) gives way to `text`.
+    """Replace [start, end) of the text before by `text`.
 
     The text is as an editor holds it: no byte order mark, every line break one LF. Offsets are
     UTF-16 code units from 0.
@@ -35,11 +35,11 @@ class TextChange(Message):
 
 
 class EditText(Command):
-    """Type into a file's text; refused when its version is no longer this one.
+    """Edit a file's text; refused when its version is no longer this one.
 
     The changes are in order, none overlapping, each with offsets in the text before all of them.
     All edits of one `gesture` are one undo step. `origin`, chosen by the browser, comes back in
-    the `texts_changed` that tells them, so that it knows its own.
+    their `texts_changed`, so that it recognises its own.
     """
 
     type: Literal["edit_text"] = "edit_text"
@@ -56,7 +56,7 @@ class Text(Event):
     type: Literal["text"] = "text"
     request: int
     file: str
-    """As the studio names it, which may differ from how it was asked for."""
+    """As the studio names it, which may differ from the name in the command."""
     version: int
     text: str
     saved: str | None
@@ -66,14 +66,14 @@ class Text(Event):
 
 
 class TextsChanged(Event):
-    """A text that somebody asked for changed, by whatever way; it now has this version."""
+    """A text that was asked for changed, by an edit or otherwise; it now has this version."""
 
     type: Literal["texts_changed"] = "texts_changed"
     file: str
     version: int
     changes: tuple[TextChange, ...]
     origin: str
-    """Of the `edit_text` that did it; empty: it was none."""
+    """Of the `edit_text` behind it; empty: there was none."""
 
 
 class GetUrdf(Command):
@@ -98,9 +98,9 @@ class GetRenaming(PlaceCommand):
 
 
 class Rename(PlaceCommand):
-    """Call what stands there `name`, wherever it is named, as one undo step.
+    """Change the name at a place to `name`, wherever it is used, as one undo step.
 
-    Refused when `count`, the number of places that `renaming` told, is another one by now.
+    Refused when the number of places is no longer `count`, the one in `renaming`.
     """
 
     type: Literal["rename"] = "rename"
@@ -115,7 +115,7 @@ class FoundText(Message):
     line: str
     line_column: int = 1
     in_run: bool = True
-    """The run came by; else it is told from the text alone."""
+    """Whether the last run evaluated the place; else it was found in the text alone."""
 
 
 class RenamingAnswer(Event):
@@ -132,7 +132,7 @@ class RenamingAnswer(Event):
 
 
 class WordsCommand(Command):
-    """Something about words in the files of the robot; they are plain words, no pattern."""
+    """A text to find in the files of the robot; plain, not a pattern."""
 
     text: str = Field(min_length=1, max_length=1000)
     match_case: bool = False
@@ -140,7 +140,7 @@ class WordsCommand(Command):
 
 
 class FindTexts(WordsCommand):
-    """Where some words stand in the files of the robot."""
+    """Ask for the places of a text in the files of the robot."""
 
     type: Literal["find_texts"] = "find_texts"
 
@@ -156,9 +156,9 @@ class TextsFound(Event):
 
 
 class ReplaceTexts(WordsCommand):
-    """Write `replacement` wherever the words are found, as one undo step.
+    """Write `replacement` at all places of a text, as one undo step.
 
-    Refused when `count`, the number of places that `texts_found` told, is another one by now.
+    Refused when the number of places is no longer `count`, the one in `texts_found`.
     """
 
     type: Literal["replace_texts"] = "replace_texts"

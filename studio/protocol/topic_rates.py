@@ -11,7 +11,7 @@ from studio.protocol.message import Command, Event, Message
 
 
 class GetTopicRates(Command):
-    """How topics come; they are heard for some seconds from now on, so ask again every second."""
+    """Ask for the rates of topics; they are measured for some seconds, so ask every second."""
 
     type: Literal["get_topic_rates"] = "get_topic_rates"
     topics: Annotated[tuple[RosName, ...], Field(max_length=200)]
@@ -19,14 +19,14 @@ class GetTopicRates(Command):
 
 
 class TopicRate(Message):
-    """How a topic comes."""
+    """Rate of a topic."""
 
     name: str
     rate_hz: float
     """Messages in a second; 0 when none, or too few, come."""
     bytes_per_s: float
     age_s: float | None
-    """Since the last message came; None: none came since somebody looks."""
+    """Since the last message; None: none came since it is measured."""
     state: Literal["waiting", "live", "silent", "latched"]
     """`waiting`: nothing came, but that is not for long; `latched`: it speaks once, and did."""
 

@@ -26,11 +26,11 @@ class TopicRow(Message):
 
     name: str
     types: tuple[str, ...]
-    """Those it is published with come first, then those it is only subscribed to with."""
+    """The types of publishers first, then those that only subscriptions have."""
     publishers: int
     subscribers: int
     kind: str
-    """Of the display that shows it; empty: none does."""
+    """The display that shows it; empty: none does."""
 
 
 class TopicTable(Event):

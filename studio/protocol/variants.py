@@ -1,4 +1,4 @@
-"""What the page is told of variants: their list, and how two states of the robot differ."""
+"""Messages about variants: their list, and how two states of the robot differ."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ def shown(text: str) -> str:
 
 
 class Side(Message):
-    """A state that can be compared: the robot as it is, as its files say, or a variant."""
+    """A state to compare: the present robot, the one on disk, or a variant."""
 
     kind: Literal["present", "saved", "variant"]
     name: str = Field(default="", max_length=100)
-    """Of the variant."""
+    """The variant's name."""
 
 
 class VariantText(Message):
-    """One text that a variant sets; `name` is for people."""
+    """One text that a variant sets; `name` is for display."""
 
     file: str
     name: str
@@ -61,7 +61,7 @@ class Variants(Event):
 
 
 class VariantApplied(Event):
-    """Answer to `apply_variant`; `left_out` says what found no place."""
+    """Answer to `apply_variant`; `left_out` lists what found no place."""
 
     type: Literal["variant_applied"] = "variant_applied"
     request: int
@@ -88,36 +88,36 @@ class InputDifference(Message):
 
 
 class DifferenceView(Message):
-    """One thing that two robots do not have alike; None where one of them has none."""
+    """One difference between two robots; None where one of them has no such value."""
 
     part: str
     """`link:<name>`, `joint:<name>`, or `robot` for the whole."""
     what: str
     """As `Row.what`."""
     number: int
-    """Which visual or collision of a link, from 1; 0 where it is about none."""
+    """Which visual or collision of a link, from 1; 0: none."""
     one: float | str | None
     other: float | str | None
     unit: str
     delta: float | None
     """`other` minus `one`, of numbers."""
     percent: float | None
-    """Of `one`; None where that is 0."""
+    """Relative to `one`; None where that is 0."""
 
 
 class Comparison(Event):
-    """How two states differ. `sides` None: none are compared."""
+    """The differences between two states. `sides` None: none are compared."""
 
     type: Literal["comparison"] = "comparison"
     sides: tuple[Side, Side] | None
     busy: bool
-    """One of them is being worked out; what is told is older."""
+    """One of them is being evaluated; the rest of the event is older."""
     faults: tuple[str, ...]
     """Why a side could not be worked out, a sentence each."""
     inputs: tuple[InputDifference, ...]
     rows: tuple[DifferenceView, ...]
     count: int
-    """Of all differences; `rows` may hold the first ones only."""
+    """Number of all differences; `rows` may hold the first ones only."""
     ghost: Side | None
     """What the ghost shows."""
 
@@ -131,7 +131,7 @@ class SaveVariant(Command):
 
 
 class ApplyVariant(Command):
-    """Make the robot a variant, in one undo step; an empty name makes it as its files say."""
+    """Change the robot to a variant as one undo step; an empty name to its state on disk."""
 
     type: Literal["apply_variant"] = "apply_variant"
     name: str = Field(max_length=100)
