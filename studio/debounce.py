@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 class Debouncer:
     """Runs `work` once nothing has triggered it for `quiet_s`.
 
-    A trigger ends the work that is under way, because its result would be out of date. What `work`
-    starts by itself goes on.
+    A trigger cancels the run in progress, whose result would be out of date. What `work` starts by
+    itself goes on.
 
     Args:
         work: A plain or an async function without arguments.
-        quiet_s: How long it waits after the last trigger.
-        ready: Awaited after a trigger, before the quiet time begins.
+        quiet_s: Pause after the last trigger.
+        ready: Awaited after a trigger, before the pause begins.
     """
 
     def __init__(
@@ -86,7 +86,7 @@ class Throttle:
             self._task = asyncio.create_task(self._run())
 
     async def close(self) -> None:
-        """End the run that is under way."""
+        """Cancel the run in progress."""
         if self._task is not None:
             self._task.cancel()
             await asyncio.gather(self._task, return_exceptions=True)

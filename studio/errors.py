@@ -102,7 +102,7 @@ if TYPE_CHECKING:
 
 
 class StudioError(Exception):
-    """Anything that the studio can say in one sentence; the root of the tree."""
+    """Root of the tree; each error is explained in one sentence."""
 
 
 class SettingsError(StudioError):
@@ -338,7 +338,7 @@ class FrameError(StudioError):
 
 
 class UnknownFrameError(FrameError):
-    """No transform has told of this frame."""
+    """The frame is in no transform received."""
 
     def __init__(self, frame: str) -> None:
         super().__init__(f'No transform tells of the frame "{frame}": is its publisher running?')
@@ -361,7 +361,7 @@ class UnconnectedFramesError(FrameError):
 
 
 class ExtrapolationError(FrameError):
-    """A pose was asked for at a time at which a transform on the way is not known.
+    """A transform of the chain is not known at the requested time.
 
     `frame` is the child of that transform; times are in ns of the clock of its stamps.
     """
@@ -387,7 +387,7 @@ class ExtrapolationError(FrameError):
 
 
 class TransformError(FrameError):
-    """A transform that was told is none."""
+    """A received transform is not valid."""
 
     def __init__(self, parent: str, child: str, reason: str) -> None:
         super().__init__(f'The transform from "{parent}" to "{child}" was left out: {reason}.')
@@ -395,15 +395,15 @@ class TransformError(FrameError):
 
 
 class WireError(StudioError):
-    """What came from ROS, or should go to it, is not as ROS 2 wants it."""
+    """Data from or for ROS is not as ROS 2 wants it."""
 
 
 class WireSettingsError(WireError):
-    """What the options or the environment say of the wire cannot be; the text says what to set."""
+    """Options or environment are not valid for the connection; the text says what to set."""
 
 
 class NoRouterError(WireError):
-    """No Zenoh router answers where one was looked for."""
+    """No Zenoh router answers at the given address."""
 
     def __init__(self, endpoints: tuple[str, ...], reason: str) -> None:
         self.endpoints = endpoints
@@ -449,7 +449,7 @@ class NotAdmittedError(WireError):
 
 
 class RouterNotStartedError(WireError):
-    """A router cannot listen where it should; `held` says that another program does."""
+    """A router cannot listen at its address; `held`: another program does."""
 
     def __init__(self, endpoint: str, reason: str, *, held: bool) -> None:
         why = "another program listens there" if held else reason.rstrip(".! ")
@@ -559,7 +559,7 @@ class ParameterImmutableError(ParameterError):
 
 
 class ParameterUninitializedError(ParameterError):
-    """A parameter was declared by its type alone, and nobody gave it a value yet."""
+    """A parameter was declared by its type alone, and has no value yet."""
 
     def __init__(self, name: str) -> None:
         super().__init__(
@@ -642,7 +642,7 @@ class DroppedError(CallError):
 
 
 class ServiceServerGoneError(CallError):
-    """The server of a service ended while a call of ours was under way."""
+    """The server of a service ended during a call of ours."""
 
     def __init__(self, name: str) -> None:
         super().__init__(
@@ -653,7 +653,7 @@ class ServiceServerGoneError(CallError):
 
 
 class ActionServerGoneError(CallError):
-    """The server of an action ended while a goal of ours was under way."""
+    """The server of an action ended during a goal of ours."""
 
     def __init__(self, name: str) -> None:
         super().__init__(
@@ -683,7 +683,7 @@ class TransitionError(WireError):
 
 
 class TypeDescriptionError(WireError):
-    """A node described a type in a way that cannot be trusted or used."""
+    """A node's description of a type cannot be trusted or used."""
 
     def __init__(self, name: str, reason: str) -> None:
         super().__init__(f'The description of "{name[:200]}" was not taken: {reason}.')
@@ -719,7 +719,7 @@ class DestroyedError(NodeError):
 
 
 class RosArgumentError(NodeError):
-    """A word after `--ros-args` cannot be read."""
+    """An argument after `--ros-args` cannot be read."""
 
     def __init__(self, word: str, reason: str) -> None:
         super().__init__(f'The argument "{word[:200]}" is not understood: {reason}.')
@@ -746,7 +746,7 @@ class QosOverrideError(NodeError):
 
 
 class UnsupportedEventTypeError(NodeError):
-    """A callback was given for an event that is never told on Zenoh."""
+    """A callback was given for an event that does not exist on Zenoh."""
 
     def __init__(self, event: str) -> None:
         super().__init__(
@@ -756,7 +756,7 @@ class UnsupportedEventTypeError(NodeError):
 
 
 class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy's users catch
-    """The process was told to end while a node was spinning."""
+    """The process received a signal to end while a node was spinning."""
 
     def __init__(self) -> None:
         super().__init__("The node was told to end.")

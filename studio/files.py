@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 _NAME_KEPT: Final = 100
 """Characters of the other file's name; a folder takes no name of more than 255 bytes."""
 _LEFT_AFTER_S: Final = 600.0
-"""No writing takes so long; where it cannot be told whether its process still runs, age tells."""
+"""Writing is over by then, where it is unknown whether its process still runs."""
 _OURS: Final = re.compile(r"\..*\.studio-(\d{1,10})-[a-z0-9_]{8}\.tmp", re.DOTALL)
 _EARLIER: Final = re.compile(r"\..+\.[a-z0-9_]{8}\.tmp", re.DOTALL)
-"""As the studio named them before; other programs may do so, too: these are never removed."""
+"""The studio's former names; other programs may use them, so these are never removed."""
 LFS_REASON: Final = (
     'is a Git LFS pointer: its content was not fetched, run "git lfs pull" in the repository.'
 )

@@ -1,4 +1,4 @@
-"""A client's way out: it never waits, and holds back a bounded amount for one that is slow."""
+"""Sends to a client without waiting, and holds back a bounded amount for a slow one."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ QUEUE_BYTES = 16 << 20
 """Messages without a key that a client may owe us before it is given up."""
 
 Late: TypeAlias = "Callable[[], bytes]"
-"""Makes the bytes of a held-back message at the moment when they can go; empty: nothing to say."""
+"""Makes the bytes of a held-back message when they can be sent; empty: nothing to send."""
 
 
 class Transport(Protocol):
-    """Where a client's bytes go: a socket that buffers and never blocks."""
+    """A client's transport: a socket that buffers and never blocks."""
 
     def write(self, data: bytes, /) -> None:
         """Take one whole message."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Severity(StrEnum):
-    """How much a Problem hinders.
+    """How serious a Problem is.
 
     An error keeps the last good model, or ROS rejects the robot for it; a warning does neither, and
     something will not work as it is written; the rest is worth knowing.
@@ -41,7 +41,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class MacroCall:
-    """One macro on the way to a place: its name and where it was called."""
+    """One macro call on the way to a place: its name and where it was called."""
 
     macro: str
     called_at: Place
@@ -49,10 +49,10 @@ class MacroCall:
 
 @dataclass(frozen=True, slots=True)
 class Replacement:
-    """The bytes [start, end) of a file as it is edited now, which say `before`, become `text`.
+    """Replaces the bytes [start, end) of an edited file, which are `before`, by `text`.
 
-    Both are raw text, escaped as they stand in the file. `before` is never empty: what is only put
-    in repeats what it stands beside, so that a place that has moved is noticed.
+    Both are raw text, escaped as in the file. `before` is never empty: an insertion repeats a text
+    beside it, so that a place that has moved is noticed.
     """
 
     file: str
@@ -82,7 +82,7 @@ class Problem:
     """One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
 
     `include_chain` runs from the opened file down to (not including) `place`; `macro_stack` from
-    the outermost call to the innermost. `parts` are what is to be shown of the robot, by part key:
+    the outermost call to the innermost. `parts` are the parts of the robot to show, by part key:
     `link:<name>`, `joint:<name>`.
     """
 

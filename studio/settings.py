@@ -25,12 +25,12 @@ MESH_SIZE_LIMIT_BYTES = 512 << 20
 ZIP_SIZE_LIMIT_BYTES = 1 << 30
 """Unpacked size of an opened zip."""
 UPLOADS_QUOTA_BYTES = 4 << 30
-"""Of all opened zips in the data folder together."""
+"""Limit of all opened zips in the data folder together."""
 
 
 @dataclass(frozen=True, slots=True)
 class WireChoice:
-    """How ROS 2 is joined, as the command line said; the environment of ROS fills what it left."""
+    """How ROS 2 is joined, as on the command line; ROS's environment fills what is left open."""
 
     router: str = "auto"
     """`auto`: start a router unless one answers; `off`: never; else where to start or join one."""
@@ -38,12 +38,12 @@ class WireChoice:
     """Zenoh endpoints of routers; empty: the usual one of this machine."""
     domain: int | None = None
     distro: str = ""
-    """Whose wire is spoken; empty: that which ROS_DISTRO names."""
+    """Whose types and hashes are used; empty: those of ROS_DISTRO."""
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """What the command line decided; see `studio --help`."""
+    """Settings from the command line; see `studio --help`."""
 
     host: str = DEFAULT_HOST
     port: int | None = None

@@ -87,7 +87,7 @@ def _at_zero(urdf: str) -> dict[str, float]:
 
 
 def main(args: Sequence[str] | None = None) -> None:
-    """Run until the process is told to end."""
+    """Run until a signal ends the process."""
     run_with_urdf(JointStateNode, args)
 
 

@@ -57,14 +57,14 @@ class LinkTransforms:
         ]
 
     def fixed(self) -> list[LinkTransform]:
-        """Those that no joint position changes."""
+        """Return those that no joint position changes."""
         return self._told(self._still, np.zeros(len(self._column)))
 
     def moved(self, positions: Mapping[str, float]) -> list[LinkTransform]:
-        """Those of the joints whose positions are given (rad or m, by name), and of followers.
+        """Return those of the joints with given positions (rad or m, by name), and of followers.
 
-        A follower that is given too stands where that says; unknown names and positions that are
-        no numbers are left out. Limits are not looked at.
+        A position given for a follower counts; unknown names and positions that are no numbers are
+        left out. Limits do not apply.
         """
         known = {
             name: float(value)
@@ -166,7 +166,7 @@ class JointReading:
         return found
 
     def _reading_of(self, one: LinkTransform) -> _Reading | None:
-        """Of the joint between the two links, if they are those of the robot that is read."""
+        """Return the joint between the two links, if it is one of the robot that is read."""
         link = one.child if one.child in self._by_child else one.child.rpartition("/")[2]
         reading = self._by_child.get(link)
         if reading is None:

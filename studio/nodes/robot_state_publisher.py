@@ -153,7 +153,7 @@ class RobotStatePublisher:
         return self._node.get_clock().now().nanoseconds
 
     def _written(self, transforms: Sequence[LinkTransform], stamp_ns: int) -> bytearray:
-        """One message, written without an object for each transform."""
+        """Return one message, written without an object for each transform."""
         count = len(transforms)
         columns = TransformColumns(
             tuple(one.parent for one in transforms),
@@ -226,7 +226,7 @@ def _read_urdf(arguments: Sequence[str]) -> str:
 
 
 def run_with_urdf(node: Callable[[str], Node], args: Sequence[str] | None) -> None:
-    """Run a node, made of the URDF that the first word names, until the process is told to end."""
+    """Run a node, made of the URDF that the first argument names, until a signal ends it."""
     given = sys.argv[1:] if args is None else list(args)
     urdf = _read_urdf(given)
     with rclpy.init(args=given), suppress(KeyboardInterrupt, ExternalShutdownException):
@@ -234,7 +234,7 @@ def run_with_urdf(node: Callable[[str], Node], args: Sequence[str] | None) -> No
 
 
 def main(args: Sequence[str] | None = None) -> None:
-    """Run until the process is told to end."""
+    """Run until a signal ends the process."""
     run_with_urdf(RobotStateNode, args)
 
 

@@ -21,7 +21,7 @@ ENTRY_LIMIT: Final = 100_000
 RATIO_LIMIT: Final = 200
 """Unpacked over packed size of the whole; deflate of real packages stays below 20."""
 _SMALL_BYTES: Final = 50 << 20
-"""Below this the ratio says nothing: a small file of zeros is no bomb."""
+"""Below this the ratio does not count: a small file of zeros is no bomb."""
 _CHUNK_BYTES: Final = 1 << 18
 _SYSTEM_FOLDERS: Final = frozenset({"__MACOSX"})
 _METHODS: Final = frozenset({zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED})
@@ -98,7 +98,7 @@ def folder_to_open(unpacked: Path) -> Path:
 
 
 class _Unpacking:
-    """One run; `written` counts real bytes, as the sizes in a zip may lie."""
+    """One unpacking; `written` counts real bytes, as the sizes in a zip may lie."""
 
     def __init__(
         self,
@@ -125,7 +125,7 @@ class _Unpacking:
             self._unpack(archive, entry, target)
 
     def _target(self, entry: zipfile.ZipInfo) -> Path:
-        """Where an entry goes, after everything about it was found harmless."""
+        """Return the path of an entry, after everything about it was found harmless."""
         if entry.flag_bits & 0x1:
             raise self._unsafe("it is encrypted: unpack it by hand and open the folder.")
         if entry.compress_type not in _METHODS:

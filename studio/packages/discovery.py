@@ -21,7 +21,7 @@ _INSTALL: Final = frozenset({"install", "devel"})
 
 
 class Origin(Enum):
-    """Where a package is; an earlier one serves a name before a later one."""
+    """Source of a package; an earlier one is used for a name before a later one."""
 
     SOURCE = auto()
     NESTED = auto()

@@ -1,4 +1,4 @@
-"""Which files of a folder describe a whole robot, best first, and why the others do not.
+"""Finds the files of a folder that describe a whole robot, best first, and why others do not.
 
 An outline of each file and the includes among them are enough: nothing is expanded.
 """
@@ -47,14 +47,14 @@ Kind: TypeAlias = Literal["xacro", "urdf"]
 
 @dataclass(slots=True)
 class Outline:
-    """The outline of one file; `error` says why it cannot be read, else is empty."""
+    """The outline of one file; `error` is why it cannot be read, else empty."""
 
     root: str = ""
     """Local name of the root element."""
     name: str = ""
     """The root's name attribute as written; may hold `$(arg ...)` or be empty."""
     is_xacro: bool = False
-    """It declares the xacro prefix, or its namespace under any prefix; the suffix says nothing."""
+    """Whether it declares the xacro prefix, or its namespace under any prefix."""
     has_content: bool = False
     """A link, or a call of a macro, stands at the top level outside macros."""
     defines_macros: bool = False
@@ -96,7 +96,7 @@ class _OutlineReader:
     def __init__(self) -> None:
         self.outline = Outline()
         self._depth = 0
-        """How deep below the root, elements of `_TRANSPARENT` not counted."""
+        """Depth below the root, not counting elements of `_TRANSPARENT`."""
         self._open: list[bool] = []
         """For each open element, whether it counts for the depth."""
 
@@ -161,7 +161,7 @@ def _refuse_entity(*_declaration: object) -> None:
 
 
 class Includes:
-    """The include graph among some files, as far as it can be told."""
+    """The include graph of some files, as far as it can be known without evaluation."""
 
     def __init__(
         self, outlines: Mapping[Path, Outline], packages: Mapping[Path, tuple[str, Path | None]]
@@ -184,9 +184,9 @@ class Includes:
         return self._includers.get(path, [])
 
     def bring_content(self, path: Path) -> bool:
-        """Whether what a file includes, over any number of steps, holds a link or a macro call.
+        """Whether what a file includes, over any number of steps, has a link or a macro call.
 
-        What cannot be looked at is trusted to, when the file has a name of its own.
+        A computed include counts as having one, if the file has a name of its own.
         """
         waiting, seen = list(self._included[path]), {path}
         if path in self._unknown and self._outlines[path].name:
@@ -224,7 +224,7 @@ class Includes:
         return self._by_ending(inside) if "$" in written else []
 
     def _by_ending(self, inside: str) -> list[Path]:
-        """Those whose path ends with what stands behind the last substitution."""
+        """Return files whose path ends with the text after the last substitution."""
         ending = re.split(r"[})]", inside)[-1]
         if not ending.startswith("/") or "*" in ending:
             return []
@@ -243,11 +243,11 @@ class EntryPoint:
     """Name of the package that it lies in; empty when it is in none."""
     openable: bool
     reason: str = ""
-    """Why it cannot be opened as a robot, in words; empty when it can."""
+    """Why it cannot be opened as a robot; empty when it can."""
     is_broken: bool = False
-    """Its XML has a fault: others are opened first."""
+    """Whether its XML has a fault: others are opened first."""
     included_by: tuple[Path, ...] = ()
-    """Those of the same survey that include it, themselves perhaps no robots."""
+    """Found files that include it, themselves perhaps no robots."""
 
 
 def entry_points(
@@ -256,7 +256,7 @@ def entry_points(
     progress: Callable[[int, int], None] | None = None,
     memory: FolderMemory | None = None,
 ) -> list[EntryPoint]:
-    """Every file below a folder that looks like a robot description: the best to open first.
+    """Return every file below a folder that seems to be a robot description, the best first.
 
     At most FILE_LIMIT files are read. `progress` is called with (files read, files to read);
     `memory` is that of an earlier search of these folders.
@@ -366,7 +366,7 @@ def _why_not(path: Path, outline: Outline, includes: Includes) -> str:
 
 
 def _is_broken_robot(outline: Outline) -> bool:
-    """Whether a file is a robot up to a fault: it is opened, and says what is wrong with it."""
+    """Whether a file is a robot but for a fault: it can be opened, and the fault is reported."""
     return outline.is_broken and outline.root == "robot" and outline.has_content
 
 

@@ -21,7 +21,7 @@ _INSTALL_LEVELS: Final = 5
 
 @dataclass(frozen=True, slots=True)
 class RosEnvironment:
-    """What the variables name and is there, in their order. Earlier prefixes overlay later ones."""
+    """Existing folders of the environment's variables, in order; earlier prefixes win."""
 
     prefixes: tuple[Path, ...]
     sources: tuple[Path, ...]
@@ -44,7 +44,7 @@ class RosEnvironment:
 
     @property
     def folders(self) -> tuple[Path, ...]:
-        """All that is served, with the sources that a symlink install leads to."""
+        """All folders to serve, with the sources behind a symlink install."""
         beside = [one.parent / "src" for one in self.prefixes if is_folder(one.parent / "src")]
         return _unique([*self.prefixes, *self.sources, *beside])
 
@@ -65,7 +65,7 @@ def is_workspace_install(path: Path) -> bool:
 
 
 def _folders(variable: str) -> list[Path]:
-    """A relative entry means the working folder, which nobody chose: it is left out."""
+    """Return a variable's folders without relative ones, which nobody chose."""
     named = [Path(one) for one in variable.split(os.pathsep) if Path(one).is_absolute()]
     real = (Path(os.path.realpath(one)) for one in named)
     return [one for one in real if is_folder(one) and not is_too_wide(one)]

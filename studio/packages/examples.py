@@ -23,11 +23,11 @@ class Example(NamedTuple):
     package: str
     robot: str
     text: str
-    """Its description, as the package.xml has it."""
+    """The description in its package.xml."""
 
 
 def examples(models_folder: Path) -> tuple[Example, ...]:
-    """All of them, by name."""
+    """Return all examples, sorted by name."""
     manifests = sorted(models_folder.glob(f"*/{FILE_NAME}"))
     return tuple(_example(one) for one in manifests if is_file(one))
 

@@ -1,4 +1,4 @@
-"""What a package starts, read out of its files: nothing of it is run."""
+"""The executables of a package, found in its files without running anything."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def file_of(folder: Path, place: str) -> Path | None:
 
 
 def _of_cmake(folder: Path, package: str) -> dict[str, str]:
-    """Give the programs that a CMakeLists.txt installs where `ros2 run` looks, by their names."""
+    """Return the programs that a CMakeLists.txt installs where `ros2 run` finds them, by name."""
     text = _CMAKE_COMMENT.sub("", _read(folder, "CMakeLists.txt"))
     text = re.sub(r"\$\{(PROJECT_NAME|CATKIN_PACKAGE_NAME)\}", package, text)
     sources: dict[str, str] = {}

@@ -1,4 +1,4 @@
-"""What is in each folder, kept between runs and trusted while its mtime stays."""
+"""The contents of folders, kept between runs and valid while a folder's mtime stays."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _CLOCK_GRAIN_NS: Final = 2_000_000_000
 
 
 class FolderFacts(msgspec.Struct, frozen=True, array_like=True):
-    """What is in one folder, as it was listed."""
+    """The content of one folder when it was listed."""
 
     mtime_ns: int
     subfolders: tuple[str, ...]
@@ -61,7 +61,7 @@ class FolderMemory:
         self._folders: dict[str, FolderFacts] = {}
         self._manifests: dict[str, ManifestFacts] = {}
         self.listed = 0
-        """How many folders had to be listed because nothing trustworthy was known of them."""
+        """How many folders had to be listed, because nothing valid was kept of them."""
 
     def facts(self, folder: str) -> FolderFacts | None:
         """Return what is in a folder; None when it cannot be listed. Each is listed once a run."""

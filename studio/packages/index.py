@@ -31,7 +31,7 @@ _CHOICES: Final = msgspec.json.Decoder(dict[str, str])
 
 
 class Standing(IntEnum):
-    """How near a package is to the user; a name is served by the lowest that has it."""
+    """Precedence of a package; a name means the lowest that has it."""
 
     OPENED = 0
     """A source package below an opened folder or a `--package-path`."""
@@ -40,7 +40,7 @@ class Standing(IntEnum):
     ENVIRONMENT = 2
     """A source package of ROS_PACKAGE_PATH."""
     INSTALLED = 3
-    """In an install space: what has no source."""
+    """In an install space, without a source."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ _STANDINGS = {
 
 
 class PackageIndex:
-    """All packages that were found, and the folders that a person chose for some names."""
+    """All packages found, and the folders that a user chose for some names."""
 
     def __init__(
         self, packages: Iterable[Indexed], chosen: Mapping[str, Path] | None = None
@@ -135,7 +135,7 @@ class PackageIndex:
 
 
 def nearest(folders: Sequence[str], asking_file: str) -> str:
-    """Of several folders of one name, the one that shares the longest path with the asking file.
+    """Return the folder that shares the longest path with the asking file.
 
     Among equals the first: `folders` come best first, as in `mapping_for`.
     """
@@ -170,7 +170,7 @@ def _duplicate(name: str, folders: Sequence[Path]) -> Problem:
 
 
 def load_choices(data_folder: Path, workspace: Path) -> dict[str, Path]:
-    """What was chosen for a workspace; folders that are gone are left out."""
+    """Return what was chosen for a workspace, without folders that are gone."""
     with contextlib.suppress(OSError, msgspec.MsgspecError):
         chosen = _CHOICES.decode(_file(data_folder, workspace).read_bytes())
         return {name: Path(folder) for name, folder in chosen.items() if is_folder(Path(folder))}
@@ -190,9 +190,9 @@ def save_choices(data_folder: Path, workspace: Path, chosen: Mapping[str, Path])
 
 
 def folder_of_choice(name: str, chosen: Path) -> Path:
-    """The package that a person meant by a folder: itself, or the one of that name below it.
+    """Return the package that a user meant by a folder: itself, or the one of that name below.
 
-    A folder without any package.xml is taken at its word.
+    A folder without any package.xml is accepted.
 
     Raises:
         UnreadableFileError: It is no folder, or too wide to serve.

@@ -1,4 +1,4 @@
-"""What a served folder holds, for choosing a file to open."""
+"""Lists a served folder, for choosing a file to open."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ EntryKind: TypeAlias = Literal["folder", "package", "robot", "zip", "file"]
 
 @dataclass(frozen=True, slots=True)
 class ListedEntry:
-    """One entry of a folder. `openable` false comes with the reason why not."""
+    """One entry of a folder. With `openable` false comes the reason."""
 
     name: str
     path: str

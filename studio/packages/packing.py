@@ -26,7 +26,7 @@ _LEFT_OUT: Final = frozenset({".git", ".svn", ".hg", "__pycache__", ".cache"})
 _FIRST_YEAR: Final = 1980
 """A zip knows no earlier one."""
 _Date = tuple[int, int, int, int, int, int]
-# One way only to read any text: a mesh may be megabytes of blanks.
+# One way to match any text, without backtracking: a mesh may be megabytes of blanks.
 _NAMED: Final = {
     ".obj": re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE),
     ".mtl": re.compile(
@@ -36,7 +36,7 @@ _NAMED: Final = {
     ".gltf": re.compile(rb'"uri"\s*:\s*"([^"]+)"'),
 }
 _LIMIT: Final = 200
-"""Of what one mesh names."""
+"""Of the files that one mesh names."""
 _READ_LIMIT: Final = 2_000
 """Names that are searched, whether or not something is there."""
 _NAME_LIMIT_BYTES: Final = 4096
@@ -45,7 +45,7 @@ _TEXT_LIMIT_BYTES: Final = 256 << 20
 
 @dataclass(frozen=True, slots=True)
 class PackedFile:
-    """One file of a zip: its name there, steps divided by `/`, and a file or the bytes it holds."""
+    """One file of a zip: its name there, with `/`, and a file or the bytes it holds."""
 
     name: str
     source: Path | bytes
@@ -151,13 +151,13 @@ class _Sink:
         return len(data)
 
     def flush(self) -> None:
-        """Nothing waits here."""
+        """Do nothing: there is no buffer."""
 
     def close(self) -> None:
-        """What was written is taken all the same."""
+        """Do nothing: what was written can still be taken."""
 
     def taken(self) -> list[bytes]:
-        """What was written since the last time."""
+        """Return what was written since the last call."""
         chunks, self._chunks = self._chunks, []
         return chunks
 

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from studio.packages.roots import ServedRoots
 
 FILE_LIMIT: Final = 60
-"""Of each kind; a workspace of many robots has more, most of them of others."""
+"""Limit for each kind; a workspace of many robots has more, most of them of others."""
 FOLDERS_WATCHED_MAX: Final = 300
 """The system watches so many by default."""
 _FOLDER_LIMIT: Final = 400
-"""Of one package."""
+"""Limit for one package."""
 _DEPTH_LIMIT: Final = 5
 _MOVEIT: Final = ("_moveit_config", "_moveit", "_moveit2", "_moveit2_config")
 _SRDF: Final = (".srdf", ".srdf.xacro")
@@ -33,7 +33,7 @@ class PoseFiles(NamedTuple):
     srdf: tuple[Path, ...]
     initial: tuple[Path, ...]
     folders: tuple[Path, ...] = ()
-    """Where they were searched, and where new ones would be."""
+    """Folders that were searched, in which new ones would be."""
 
 
 def pose_files(entry: Path, index: PackageIndex, served: ServedRoots) -> PoseFiles:

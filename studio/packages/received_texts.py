@@ -58,7 +58,7 @@ def new_untitled(data_folder: Path, text: str) -> Path:
 
 
 def untitled_number(file: Path, data_folder: Path) -> int | None:
-    """Which untitled text a file is; None for any other file."""
+    """Return the number of an untitled text; None for any other file."""
     folder = file.parent
     if folder.parent != data_folder / UNTITLED_FOLDER or file.name != f"{folder.name}{_SUFFIX}":
         return None

@@ -37,11 +37,11 @@ def open_regular(root: Path, resolved: Path) -> int:
     """Open a file at or below `root`; both are resolved. Returns the descriptor.
 
     Each folder on the way is opened from the one before it and must not be a link: comparing
-    paths before and after is not enough, as a folder can be swapped between any two looks.
+    paths before and after is not enough, as a folder can be swapped between two checks.
 
     Raises:
         NotRegularError: It is no regular file.
-        OSError: It cannot be opened, or a link stands on the way now.
+        OSError: It cannot be opened, or a link is on the way now.
     """
     descriptor = _walk(root, resolved) if _CAN_WALK else os.open(resolved, _FILE_FLAGS)
     if stat.S_ISREG(os.fstat(descriptor).st_mode):
@@ -59,7 +59,7 @@ def _walk(root: Path, resolved: Path) -> int:
             inner = os.open(step, _FOLDER_FLAGS, dir_fd=folder)
             os.close(folder)
             folder = inner
-        # Opening a device may already act on it, so look first.
+        # Opening a device may already act on it, so check first.
         if not stat.S_ISREG(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
             raise NotRegularError
         return os.open(name, _FILE_FLAGS, dir_fd=folder)
@@ -70,8 +70,8 @@ def _walk(root: Path, resolved: Path) -> int:
 class ServedRoots:
     """Folders (or single files) below which files may be read, and which of them may be written.
 
-    Symlinks are resolved before anything is decided. `read_only` folders are served too; where one
-    lies inside a writable root, or the other way round, the innermost decides.
+    Symlinks are resolved first. `read_only` folders are served, too; where one is inside a writable
+    root, or the other way round, the innermost decides.
     """
 
     def __init__(self, roots: Iterable[Path], read_only: Iterable[Path] = ()) -> None:
@@ -155,7 +155,7 @@ class ServedRoots:
 
 
 def is_below(path: Path, folder: Path) -> bool:
-    """Whether a path is a folder or lies in it; both resolved, nothing is looked up."""
+    """Whether a path is a folder or below it; both resolved, the disk is not read."""
     inner, outer = os.path.normcase(path), os.path.normcase(folder)
     return inner == outer or inner.startswith(outer.rstrip(os.sep) + os.sep)
 

@@ -22,7 +22,7 @@ _FIRST_LINK: Final = re.compile(rb"""<link\s[^<>]*?name\s*=\s*["']([\w-]+)["']""
 
 
 def name_fault(name: str) -> str:
-    """What is wrong with a name for a new package, as a sentence; empty when nothing is.
+    """Return what is wrong with a name for a new package, a sentence; empty if nothing is.
 
     The rule is that of ROS (REP 144): small letters, digits and single underscores, a letter first.
     """
@@ -39,7 +39,7 @@ def name_fault(name: str) -> str:
 
 
 def robot_of(package: str) -> str:
-    """The robot that a package describes: its name without the ending that says so."""
+    """Return the robot of a package: its name without a suffix such as `_description`."""
     return package.removesuffix("_description") or package
 
 

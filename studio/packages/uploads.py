@@ -1,4 +1,4 @@
-"""Files sent by a browser: stored whole or not at all, and put where descriptions look for them."""
+"""Files sent by a browser: stored whole or not at all, and put where descriptions find them."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _REFERENCES_READ: Final = 20_000
 
 
 class SentFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """One file as it is announced: its path below what was dropped, and its size in bytes."""
+    """One file as announced: its path below what was dropped, and its size in bytes."""
 
     path: str
     size: int
@@ -53,10 +53,10 @@ _MANIFEST: Final = msgspec.json.Decoder(list[SentFile])
 
 
 def read_manifest(line: bytes) -> tuple[SentFile, ...]:
-    """The announced files, each under a name that stays below its folder.
+    """Return the announced files, each under a name that stays below its folder.
 
     Raises:
-        UploadError: It is no such list, or a file is not to be taken; the sentence says why.
+        UploadError: It is no such list, or a file is not accepted; the sentence says why.
     """
     try:
         files = tuple(_MANIFEST.decode(line))
@@ -80,7 +80,7 @@ def is_zip(file: SentFile) -> bool:
 
 
 class Upload:
-    """One sending under way, in a folder that nothing serves; use it as a context.
+    """One upload, in a folder that nothing serves; use it as a context.
 
     `write` takes the bytes of all files in their order, in chunks of any size. Unless `finish` was
     reached, nothing is left behind.
@@ -149,7 +149,7 @@ class Upload:
             raise _refused(error) from error
 
     def finish(self) -> Path:
-        """All was sent: the folder that it lies in for now.
+        """Return the folder with all files, after everything was sent.
 
         Raises:
             UploadError: Less came than was announced, or the disk is full.
@@ -267,22 +267,22 @@ def _refused(error: OSError) -> UploadError:
 
 
 class Reference(NamedTuple):
-    """A file that a description names; `package` is empty where it is looked for beside."""
+    """A file that a description names; with an empty `package` it is relative."""
 
     package: str
     inside: str
-    """Its path in the package, or seen from the folder of the description."""
+    """Its path in the package, or relative to the folder of the description."""
 
 
 def arrange(folder: Path) -> dict[str, Path]:
-    """Make the files of a folder find each other.
+    """Move the files of a folder to where descriptions expect them.
 
-    A browser tells no more than names, so a robot and its meshes, dropped together, lie side by
-    side, where `package://my_robot/meshes/base.stl` finds nothing. Each file that is named, is not
-    there, and lies elsewhere under the same name goes to the place where it is looked for.
+    A browser sends only names, so a robot and its meshes, dropped together, lie side by side,
+    where `package://my_robot/meshes/base.stl` finds nothing. Each file that is named, is missing,
+    and exists elsewhere under the same name is moved to its place.
 
     Returns:
-        For each package without a package.xml the folder that stands for it, relative to `folder`.
+        For each package without a package.xml its folder, relative to `folder`.
     """
     return _Arranging(folder).run()
 
@@ -328,7 +328,7 @@ class _Arranging:
                 yield Path(*path.parts[: -len(steps)])
 
     def _bring(self, folder: Path, inside: str) -> bool:
-        """Move the one file of this name to where it is looked for, unless something is there."""
+        """Move the one file of this name to where it is expected, unless something is there."""
         target = Path(os.path.normpath(folder / inside.lstrip("/")))
         steps = target.parts[len(self._folder.parts) :]
         is_below = target.parts[: len(self._folder.parts)] == self._folder.parts
@@ -348,7 +348,7 @@ class _Arranging:
 def _by_package(
     named: Iterable[tuple[Reference, ...]], known: set[str]
 ) -> dict[str, dict[str, None]]:
-    """What is looked for in each package that is not among the files."""
+    """Return the missing files of each package that is not among the files."""
     wanted: dict[str, dict[str, None]] = {}
     for one in (reference for references in named for reference in references):
         if one.package and one.package not in known:

@@ -1,4 +1,4 @@
-"""From the file name in a description to the file, or to the one that was likely meant."""
+"""Resolves file names in descriptions to files, or to the file that was probably meant."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _PACKAGE_SCHEMES: Final = frozenset({"package", "model"})
 _FILES_LOOKED_AT: Final = 4_000
 _LIKENESS: Final = 0.75
 _LEAST_WORD: Final = 4
-"""Shorter words that differ are no typing errors: `fl` and `fr` are two wheels."""
+"""Shorter parts that differ are no typing errors: `fl` and `fr` are two wheels."""
 _WORDS: Final = re.compile(r"[\W_]+")
 _NUMBERS: Final = re.compile(r"\d+")
 
@@ -35,9 +35,9 @@ _NUMBERS: Final = re.compile(r"\d+")
 def resolve_uri(uri: str, asking_file: Path | str, index: PackageIndex, roots: ServedRoots) -> Path:
     """Find the file that a URI or path means in the file that names it.
 
-    `package://` and `model://` go through the index, `file://` and absolute paths are taken as they
-    are, the rest is looked for beside the asking file and then in its package. A name with `%20`
-    and the like is tried as written first. Links are resolved; the file is there and is served.
+    `package://` and `model://` use the index, `file://` and absolute paths are taken as they are,
+    others are relative to the asking file, then to its package. A name with `%20` and the like is
+    tried as written first. Links are resolved; the file exists and is served.
 
     Raises:
         PackageNotFoundError: No package has that name.
@@ -58,7 +58,7 @@ def resolve_uri(uri: str, asking_file: Path | str, index: PackageIndex, roots: S
 
 
 def _candidates(written: str, asking_file: Path, index: PackageIndex) -> list[Path]:
-    """Where it may be, most likely first; unescaped spellings last."""
+    """Return possible paths, the most likely first; unescaped spellings last."""
     places = _places(written, asking_file, index)
     if "%" in written:
         places += _places(unquote(written), asking_file, index)
@@ -114,15 +114,15 @@ def near_file(
 ) -> str:
     """Return the name in the folder that a missing file was likely meant to have; empty if unclear.
 
-    Other letter case goes first, then another of the `suffixes` (lower case, with their dot), then
-    a typing error, which is none where numbers differ, or where the robot names that file, too.
+    Another letter case goes first, then another of the `suffixes` (lower case, with their dot),
+    then a typing error, unless numbers differ or the robot names that file, too.
 
     Args:
         uri: As for `resolve_uri`, which finds nothing there.
         asking_file: The file that names it.
-        index: Of the packages.
-        roots: What may be read: names of files elsewhere are not told.
-        suffixes: Of the files that may be meant.
+        index: The packages.
+        roots: What may be read: names of files elsewhere are not revealed.
+        suffixes: Suffixes of the files that may be meant.
         taken: URIs that the robot names.
     """
     above, _, name = uri.strip().rpartition("/")
@@ -164,7 +164,7 @@ def _is_typing_error(name: str, other: str) -> bool:
 
 
 def is_misspelt(name: str, other: str) -> bool:
-    """Whether one name is the other with a typing error: word by word, never in its numbers."""
+    """Whether one name is the other with a typing error: part by part, never in its numbers."""
     one, two = name.casefold(), other.casefold()
     if _NUMBERS.findall(one) != _NUMBERS.findall(two):
         return False

@@ -158,7 +158,7 @@ def _roots_within(real: Path, within: ServedRoots) -> tuple[Path, ...]:
 
 
 def _as_served_before(served: ServedRoots, before: ServedRoots | None) -> ServedRoots:
-    """What was read only stays so when it is opened from the page."""
+    """Keep read-only what was read-only when it is opened from the page."""
     if before is None:
         return served
     kept = [one for one in served.writable if before.root_of(one) in before.read_only]
@@ -279,7 +279,7 @@ def _best(candidates: tuple[EntryPoint, ...]) -> Path | None:
 
 
 def unpacked_folder(zip_path: Path, data_folder: Path) -> Path:
-    """Where a zip of this content is unpacked; it need not be there yet.
+    """Return the folder for a zip of this content; it need not exist yet.
 
     Raises:
         UnreadableFileError: The zip cannot be read.

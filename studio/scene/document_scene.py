@@ -52,8 +52,8 @@ DISPLAY_DEFAULTS: dict[str, dict[str, Value]] = {
     "ghost": {"visible": False, "beside": False, "opacity": 0.35},
 }
 """By display, then setting. `axes` are the joint axes, `com` the centres of mass; a grid of extent
-0 has no end, and one that is not under the robot lies at the height of the root link. The ghost is
-the robot that this one is compared with; it may stand beside it."""
+0 is infinite, and one that is not under the robot is at the height of the root link. The ghost is
+the robot that this one is compared with; it may be drawn beside it."""
 
 _RANGES: dict[tuple[str, str], tuple[float, float]] = {
     ("robot", "opacity"): (0.0, 1.0),
@@ -89,10 +89,10 @@ def _within(display: str, name: str, value: Value) -> float:
 
 
 class DocumentScene:
-    """One viser engine, without a port. All calls are made on the thread of `loop`.
+    """One viser engine, without a port; used on the thread of `loop` only.
 
-    Nothing of one person's own is here: camera, selection, hover and the visibility of single
-    links live in the page.
+    Nothing in it belongs to one person: camera, selection, hover and the visibility of single links
+    are in the page.
     """
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -101,9 +101,9 @@ class DocumentScene:
         self._poses = PoseWriter(self._graph)
         self._robot = RobotDrawing(self._graph, self._poses.forget)
         self.ghost = GhostDrawing(self._graph, self._robot.mesh)
-        """Another robot to compare with; empty until its `show` is called."""
+        """A second robot, to compare; empty until its `show` is called."""
         self.live = LiveScene(self._graph, self._robot.mesh, partial(forget_removed, self.viser))
-        """What the document's displays draw."""
+        """The drawings of the document's displays."""
         self._settings = deepcopy(DISPLAY_DEFAULTS)
         self._height_m = 0.0
         self._root: tuple[Quaternion, Vector3] = (node.NO_TURN, node.ORIGIN)
@@ -187,7 +187,7 @@ class DocumentScene:
             self._robot.switch(name, shown=bool(value))
 
     def displays(self) -> dict[str, dict[str, Value]]:
-        """All settings as they are now: by display, then name."""
+        """All present settings: by display, then name."""
         return deepcopy(self._settings)
 
     def flush(self) -> None:

@@ -97,7 +97,7 @@ class GhostDrawing:
             self._put_root()
 
     def fade(self, opacity: float) -> None:
-        """Be more or less see-through."""
+        """Set the opacity."""
         self._opacity = opacity
         with self._graph.atomic():
             for link in self._robot.links.values():

@@ -47,7 +47,7 @@ _TRY_AGAIN_LATER = 1013
 WINDOW_S = 1 / 60
 """Frames follow each other no faster than this, but for `flush`."""
 _RETRY_S = 1 / 30
-"""How often a page that fell behind is tried again."""
+"""Between two attempts to send to a page that fell behind."""
 _MESSAGE_LIMIT_BYTES = 1 << 20
 _WINDOW_SIZE = 1 << 14  # messages: an atomic batch is never split over two frames
 _INVALID, _TOO_BIG = 1007, 1009

@@ -165,7 +165,7 @@ def _draw_mesh(
 
 @dataclass(frozen=True, slots=True)
 class LinkContext:
-    """What a layer gets: the link, the joint that moves it, the robot and its meshes."""
+    """What a layer draws from: the link, the joint that moves it, the robot and its meshes."""
 
     link: Link
     joint: Joint | None

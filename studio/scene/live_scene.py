@@ -28,16 +28,16 @@ if TYPE_CHECKING:
 Pose: TypeAlias = "tuple[Quaternion, Vector3]"
 """w, x, y, z and x, y, z in m, in the fixed frame."""
 Poses: TypeAlias = "Mapping[str, Pose | None]"
-"""By path of the drawing; None: not connected to the fixed frame, so it is not seen."""
+"""By path of the drawing; None: not connected to the fixed frame, so it is hidden."""
 
 _Waiting: TypeAlias = "dict[tuple[str, str], Picture]"
-"""By path and name: pictures that are to be encoded."""
+"""By path and name: pictures to be encoded."""
 
 _STREAMS: Final = itertools.count(1)
-"""Each set of arrays that was ever shown has a number of its own."""
+"""Numbers each set of arrays that was ever shown."""
 _SHORTEST_QUATERNION: Final = 1e-6
 PIXELS_AT_ONCE: Final = 1 << 20
-"""Of pictures that are encoded in one go: of a large map one tile after the other comes."""
+"""Limit of pictures encoded in one step: a large map comes tile by tile."""
 GROUPS_MAX: Final = 10_000
 SHAPES_MAX: Final = 20_000
 _SWEEP_AFTER: Final = 2000
@@ -68,7 +68,7 @@ class LiveDisplay:
         self._graph, self._id, self._shelves = graph, display_id, shelves
         self._groups: dict[str, _Group] = {}
         self._meshes: dict[tuple[str, str], frozenset[str]] = {}
-        """By path and name of a shape, what it is drawn with."""
+        """By path and name of a shape, the meshes that it draws."""
         self._waiting: _Waiting = {}
         self._paths: tuple[str, ...] = ()
         self._writer = PoseWriter(graph, lambda path: live_node(display_id, path))
@@ -112,7 +112,7 @@ class LiveDisplay:
         return removed + 1
 
     def mesh_uris(self) -> set[str]:
-        """Of the meshes that it draws or waits for."""
+        """URIs of the meshes that it draws or waits for."""
         return {uri for wanted in self._meshes.values() for uri in wanted}
 
     def draw_mesh(self, uri: str) -> None:

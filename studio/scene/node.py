@@ -44,11 +44,11 @@ class Style:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """What has one name in the scene; if equal, nothing needs to be sent.
+    """A node of the scene; if it equals the one before, nothing needs to be sent.
 
-    `content` names the arrays of a node by their digest: when it changes, the node is made anew,
-    while the small properties in `props` are updated in place. `stream` names the arrays in
-    `flowing`, which are updated in place, too: those of a sensor, that come again and again.
+    `content` is the digest of its arrays: when it changes, the node is made again, while the small
+    properties in `props` are updated in place. `stream` names the arrays in `flowing`, which are
+    updated in place, too: those of a sensor, which change all the time.
     """
 
     kind: type[_messages._CreateSceneNodeMessage]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from studio.robot.values import Vector3
 
 CLIENT_PATH: Final = "viser/client.zst"
-"""Where the page looks for `viser_client`, below the address of the assets."""
+"""Path of `viser_client` below the address of the assets."""
 
 _HEAD: Final = "<head>"
 _PACKED: Final = re.compile(r'(?<= data-p=")[^"]{100000,}(?=")')
@@ -40,17 +40,17 @@ _LETTERS: Final = (
     b"!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
 )
 _GROUP: Final = 5
-"""So many letters, of 88 kinds, stand for four bytes."""
+"""So many letters, of 88 kinds, encode four bytes."""
 _TOWARDS_EYE: Final = (1.0, -0.8, 0.62)
-"""From the centre, as the view begins in the studio."""
+"""Direction from the centre, as in the studio's first view."""
 _DISTANCE: Final = 0.95
-"""Of the eye, in sizes of the robot."""
+"""Of the camera, in sizes of the robot."""
 _FIELD_OF_VIEW_RAD: Final = math.radians(42)
 _GRID: Final = {
     True: {"cell_color": (66, 75, 91), "section_color": (88, 100, 120)},
     False: {"cell_color": (150, 160, 178), "section_color": (122, 135, 158)},
 }
-"""By whether the ground is dark, as the studio paints it."""
+"""By whether the ground is dark, in the studio's colours."""
 _POLICY: Final = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval' blob: data:; "
     "style-src 'unsafe-inline'; img-src data: blob:; font-src data:; worker-src blob: data:; "
@@ -127,14 +127,14 @@ def _bytes_of(letters: bytes) -> bytes:
 def standalone_page(
     server: viser.ViserServer, title: str, centre_m: Vector3, size_m: float, *, dark: bool
 ) -> Callable[[], bytes]:
-    """Record the scene as it is now; return a function that makes the page, in any thread.
+    """Record the scene as it is now; return a thread-safe function that makes the page.
 
     Args:
-        server: Whose scene it is.
+        server: The viser server of the scene.
         title: Of the page.
-        centre_m: What the camera looks at.
-        size_m: How large that is.
-        dark: Whether on a dark ground.
+        centre_m: The point that the camera is directed at.
+        size_m: Size of the robot.
+        dark: Whether the ground is dark.
     """
     recording = server.get_scene_serializer()
     for message in _camera(centre_m, max(size_m, 0.05)):

@@ -149,7 +149,7 @@ def frustum_of(shape: Frustum, stream: str) -> Node:
     """The edges of what a camera sees, and its picture at their far end."""
     fov_rad = min(max(shape.fov_y_rad, 1e-3), np.pi - 1e-3)
     half_y = float(np.tan(fov_rad / 2))
-    # viser draws a pyramid of volume 1/3 for scale 1; ours is as long as it is said to be.
+    # viser draws a pyramid of volume 1/3 for scale 1; ours is as long as the message has it.
     long_for_one = 1 / np.cbrt(half_y * half_y * shape.aspect / 3)
     props: dict[str, Any] = {
         "fov": float(fov_rad),

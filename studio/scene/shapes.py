@@ -41,9 +41,9 @@ _PIXELS_MAX: Final = 1 << 26
 _TEXT_MAX: Final = 500
 _HAIR_PX: Final = 1.8
 _THICKNESS: Final = {"boxes": 1.0, "tiles": 0.001}
-"""Of points that are solids: their height, as a share of their edge."""
+"""Height of points that are solids, as a share of their edge."""
 _CAP_SHARE: Final = 0.72
-"""Of a font's size: how high a capital letter is."""
+"""Height of a capital letter, as a share of the font's size."""
 _WHITE: Final = (255, 255, 255)
 _DEFAULT_STYLE: Final = Style((196, 200, 206), shadow=False)
 
@@ -102,7 +102,7 @@ def _batch(
 
 
 def mesh_uris_of(shape: Shape) -> frozenset[str]:
-    """Of the meshes that a shape is drawn with."""
+    """Return the URIs of the meshes that a shape draws."""
     match shape:
         case MeshFile():
             return frozenset({shape.uri})

@@ -55,7 +55,7 @@ def unit_mesh(kind: Kind) -> UnitMesh:
 
 
 def _box() -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Each side has corners of its own, or its edges would look round."""
+    """Return a box whose sides have corners of their own, or its edges would be shaded round."""
     square = np.array([[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]]) / 2
     sides: list[NDArray[np.float64]] = []
     for axis in range(3):
@@ -254,7 +254,7 @@ def _heads(
 
 
 def _z_turned_to(directions: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The quaternions that turn z to each direction, shape (N, 3) of length 1, the short way."""
+    """Return quaternions that turn z to each direction, shape (N, 3) of length 1."""
     x, y, z = directions.T
     wxyz = np.stack([1 + z, -y, x, np.zeros_like(x)], axis=1)
     wxyz[z < -1 + 1e-6] = (0, 1, 0, 0)  # straight back: half a turn about x

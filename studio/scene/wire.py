@@ -32,11 +32,11 @@ _PADDING = tuple(bytes(count) for count in range(8))
 
 
 class Encoder:
-    """Makes frames; keeps one compressor. Not for use from two threads at once.
+    """Makes frames; keeps one compressor. Not thread-safe.
 
     viser's page holds back a frame whose time stamp follows closely on the one before, to show it
-    at the pace at which it was made, up to 100 ms late. Ours are a second apart whatever the clock
-    says: an edit is shown as soon as it is there.
+    at the pace at which it was made, up to 100 ms late. Ours have stamps a second apart, whatever
+    the time, so that an edit is shown as soon as it arrives.
     """
 
     def __init__(self) -> None:
@@ -45,7 +45,7 @@ class Encoder:
         self._msgpack = msgspec.msgpack.Encoder()
 
     def frame(self, messages: Iterable[Message]) -> bytes:
-        """One frame that the page applies as a whole."""
+        """Return one frame, which the page applies as a whole."""
         arrays = _Arrays()
         self._stamp_s += 1.0
         inner = self._msgpack.encode(

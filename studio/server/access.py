@@ -1,6 +1,6 @@
-"""Who may use which route, and send which message of viser's; commands say it in their registry.
+"""Permissions of routes and of viser's messages; those of commands are in their registry.
 
-What is in no table, nobody may do.
+Nobody may do what is in no table.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ ROUTES: Final = {
     "/api/log-out": Permission("log_everybody_out", Role.PRESENTER),
     "/api/uploads": Permission("upload", Role.PRESENTER),
 }
-"""Of every route that needs a role. `command` opens the door; each command is asked again."""
+"""Of every route that needs a role. `command` is for any role; each command has its own."""
 
 PUBLIC_ROUTES: Final = frozenset({"/a/{tree}/{path:path}", "/favicon.ico"})
 """Routes without secrets: the files of the page, the same for everyone."""
@@ -53,4 +53,4 @@ VISER: Final = {
         )
     },
 }
-"""Of every message of viser's page that is taken."""
+"""Of every message of viser's page that is accepted."""

@@ -29,7 +29,7 @@ _STATUS: Final = {
     "CommandError": HTTPStatus.UNPROCESSABLE_ENTITY,
     "InternalError": HTTPStatus.INTERNAL_SERVER_ERROR,
 }
-"""By the kind of a refusal; every other kind is a conflict with what is open now."""
+"""By kind of the error; every other kind is a conflict with the present state."""
 _TO_SAVE: Final = {"content-disposition": 'attachment; filename="robot.urdf"'}
 _REFUSALS: Final[dict[int | str, dict[str, Any]]] = {
     status.value: {"model": Refused, "description": "Refused, and why"}
@@ -38,7 +38,7 @@ _REFUSALS: Final[dict[int | str, dict[str, Any]]] = {
 
 
 class Health(BaseModel):
-    """That the studio is there, and which one."""
+    """The studio runs; its version and session."""
 
     status: str = "ok"
     version: str
@@ -58,7 +58,7 @@ class Api:
         self._engine, self._session = engine, session
 
     def router(self) -> APIRouter:
-        """All routes, with their models."""
+        """Return all routes, with their models."""
         router = APIRouter(prefix="/api")
         router.add_api_route("/health", self.health)
         router.add_api_route("/documents", self.documents)
@@ -79,11 +79,11 @@ class Api:
         return router
 
     async def health(self) -> Health:
-        """That the studio answers; `session` changes with every start."""
+        """Return that the studio runs; `session` changes with every start."""
         return Health(version=studio.__version__, session=self._session)
 
     async def documents(self) -> Documents:
-        """All open documents."""
+        """Return all open documents."""
         listener = Answers(Visitor(Role.PRESENTER))
         self._engine.attach(listener)
         self._engine.detach(listener)
@@ -177,7 +177,7 @@ _REFUSED: Final[dict[int | str, dict[str, Any]]] = {
     HTTPStatus.CONFLICT.value: {"description": "Refused, and why"}
 }
 _PLAIN: Final = frozenset("-_.() ")
-"""What a name in plain quotes may hold beside letters and digits of ASCII."""
+"""What a name in plain quotes may contain besides letters and digits of ASCII."""
 
 
 class Exports:
@@ -187,7 +187,7 @@ class Exports:
         self._engine = engine
 
     def router(self) -> APIRouter:
-        """All routes."""
+        """Return all routes."""
         router = APIRouter(prefix="/api/documents/{document}/export")
         for path, endpoint in (("urdf", self.urdf), ("package", self.package), ("page", self.page)):
             router.add_api_route(f"/{path}", endpoint, response_class=Response, responses=_REFUSED)

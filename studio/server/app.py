@@ -71,7 +71,7 @@ def make_app(
 
 
 def check_role(connection: HTTPConnection) -> None:
-    """Ask `may` for every route; one that no table names is nobody's.
+    """Ask `may` for every route; nobody may use one that is in no table.
 
     Raises:
         NotAllowedError: The caller's role may not use this route.
@@ -94,7 +94,7 @@ async def _say(connection: Request | WebSocket, error: Exception) -> Response:
 
 
 async def _say_http(request: Request | WebSocket, error: Exception) -> Response:
-    """What the router itself refuses: no such address, no such method."""
+    """Answer for the router's own errors: no such address, no such method."""
     assert isinstance(error, HTTPException)
     if _wants_page(request) and error.status_code == HTTPStatus.NOT_FOUND:
         return not_found_page()

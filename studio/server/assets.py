@@ -1,9 +1,9 @@
 """The files of the page: read once, hashed as a tree, compressed once.
 
-They are served as written but for what shortens the first load: modules and stylesheets hold those
-that they import, modules without comments; the words of a language hold those of the panels and
-checks; and the page names the panels that have a folder, and the files that its first modules
-import, so that they come at once.
+They are served as written, except for what shortens the first load: modules and stylesheets contain
+those that they import, modules have no comments; the texts of a language contain those of panels
+and checks; and the page names the panels that have a folder, and preloads what its first modules
+import.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Asset:
     def __init__(
         self, content: bytes | Callable[[], bytes], media_type: str, *, compressible: bool = True
     ) -> None:
-        """Of what is in it, or of what makes that when it is first asked for."""
+        """Take the content, or a function that makes it at the first request."""
         self._content, self.type = content, media_type
         self._compressible = compressible
         self._packed: dict[Coding, bytes | None] = {}
@@ -138,7 +138,7 @@ class Assets:
     """The folder of the page; `current` notices when a developer has changed a file."""
 
     def __init__(self, folder: Path, more: Mapping[str, bytes] | None = None) -> None:
-        """Of `folder`, and of `more` files by their paths that are made in memory."""
+        """Read `folder`, and add `more` files that are made in memory, by their paths."""
         self._folder, self._more = folder, more or {}
         self._stamp: Stamp | None = None
         self._tree = Tree("none", {}, _WITHOUT_INDEX, Modules({}))
@@ -216,7 +216,7 @@ def _with_imports(path: str, contents: Mapping[str, bytes]) -> str:
 
 
 def panel_rows(contents: Mapping[str, bytes]) -> str:
-    """Return as JSON, by the name of its folder, what each `panel.json` says besides its words.
+    """Return each `panel.json` by the name of its folder, without its texts, as JSON.
 
     It can stand in a script element: it holds no `<`.
     """
@@ -229,7 +229,7 @@ def panel_rows(contents: Mapping[str, bytes]) -> str:
 
 
 def words_of_checks(whys: Mapping[str, Mapping[str, str]]) -> bytes:
-    """Write as a file of words why findings matter, which is given by code and language."""
+    """Return a file of texts why findings matter, given by code and language."""
     words: dict[str, dict[str, str]] = {}
     for code, texts in whys.items():
         for language, text in texts.items():
@@ -238,7 +238,7 @@ def words_of_checks(whys: Mapping[str, Mapping[str, str]]) -> bytes:
 
 
 def _all_words(language: str, contents: Mapping[str, bytes]) -> bytes:
-    """The words of page, panels and checks; in English what the language lacks."""
+    """Return the texts of page, panels and checks; in English what the language lacks."""
     words: dict[str, str] = {}
     for spoken in dict.fromkeys((_FALLBACK, language)):
         words |= json.loads(contents.get(f"i18n/{spoken}.json", b"{}"))

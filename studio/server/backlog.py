@@ -11,13 +11,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
 KEPT_BYTES: Final = 8 << 20
-"""Of channels that keep every message, together; then the oldest are given up and counted."""
+"""For all channels that keep every message; when full, the oldest are dropped and counted."""
 NEWEST_BYTES: Final = 24 << 20
-"""Of channels where only the newest counts, together; then the oldest gives way."""
+"""For all channels where only the newest counts; when full, the oldest is dropped."""
 
 
 class Backlog:
-    """Of a channel where only the newest counts it keeps the newest, of the others all it can."""
+    """Messages that wait: the newest of a `newest` channel, of the others as many as fit."""
 
     def __init__(self) -> None:
         self._newest: OrderedDict[int, Chunk] = OrderedDict()

@@ -1,11 +1,11 @@
 """The bulk lane: large messages on one streamed answer, beside a browser's data lane.
 
-A browser takes bytes from a streamed answer several times as fast as from a websocket. It hears
-on `/data` as always, sends `{"type": "ask_bulk"}` there, and is told a key: `{"type": "bulk_key",
-"key": ...}`. Then it opens `GET /bulk?key=...`, whose body does not end: frames as those of the
-data lane (see `studio.live.topics.frames.py`), each after its length as four bytes,
+A browser takes bytes from a streamed answer several times as fast as from a websocket. It sends
+commands on `/data` as always, also `{"type": "ask_bulk"}`, and receives its key: `{"type":
+"bulk_key", "key": ...}`. Then it opens `GET /bulk?key=...`, whose body does not end: frames as
+those of the data lane (see `studio.live.topics.frames.py`), each after its length as four bytes,
 little-endian. The first large message of a channel still comes on the data lane, where the number
-of the channel is told; those that follow come here, while this is open, and on `/data` afterwards.
+of the channel is sent; those that follow come here, while this is open, and on `/data` afterwards.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _HEADERS: Final = (
 
 
 class BulkLane:
-    """One streamed answer; of what cannot go now as much is kept as is of worth."""
+    """One streamed answer; what cannot be sent yet waits in a bounded backlog."""
 
     def __init__(self, connection: StudioConnection) -> None:
         self._connection = connection
@@ -60,7 +60,7 @@ class BulkLane:
         return rest
 
     def forget(self, channel: int) -> None:
-        """A channel is told anew: its next message goes by the data lane, after the words."""
+        """A channel is announced again: its next message goes by the data lane, after that."""
         self._channels -= {channel}
 
     def leave(self) -> tuple[Chunk, ...]:
@@ -131,13 +131,13 @@ async def _left(receive: Receive) -> None:
 
 
 class BulkKeys:
-    """Which data lane a key belongs to: it sends only what that one subscribed."""
+    """Knows the data lane of each key; a bulk lane sends only what that one subscribed."""
 
     def __init__(self) -> None:
         self._lanes: dict[str, SendsBulk] = {}
 
     def key_of(self, lane: SendsBulk) -> str:
-        """Its key, the same whenever it asks."""
+        """Return its key, always the same."""
         for key, one in self._lanes.items():
             if one is lane:
                 return key

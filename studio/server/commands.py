@@ -145,7 +145,7 @@ class ControlLane:
         """Greet, then answer commands until the browser leaves.
 
         Commands start in their order but do not wait for each other: a slow one stops no slider.
-        What is under way when the browser leaves is finished; a save is not given up half-way.
+        What runs when the browser leaves is finished; a save is not given up half-way.
         """
         self.post(hello.model_dump_json().encode())
         engine.attach(self)

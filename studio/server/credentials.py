@@ -30,8 +30,8 @@ class Credentials:
     """Tokens, cookies and one-time codes.
 
     The presenter's `token` is fresh for every start. The cookies' key is kept for a day, so that a
-    page that was open when the studio was started anew comes back by itself; `revoke` ends all
-    cookies before. `token` None: nobody is asked, everyone who reaches the port is a presenter.
+    page that was open when the studio was restarted comes back by itself; `revoke` ends all
+    cookies before. `token` None: everyone who reaches the port is a presenter.
     """
 
     def __init__(self, token: str | None, key: bytes, key_folder: Path | None = None) -> None:
@@ -46,11 +46,11 @@ class Credentials:
         return _sign(self.token.encode(), role.value)
 
     def role_of_token(self, given: str) -> Role | None:
-        """Whose token this is."""
+        """Return the role of this token; None if it is not valid."""
         return _match(given, {role: self.token_of(role) or "" for role in Role})
 
     def new_code(self) -> str:
-        """A code that makes a presenter of the first who shows it, and of nobody else."""
+        """Return a code that makes a presenter of the first who shows it, and of nobody else."""
         code = secrets.token_urlsafe(24)
         self._codes.add(code)
         return code
@@ -68,7 +68,7 @@ class Credentials:
         return f"{person}.{self._signed(role, person)}"
 
     def visitor_of_cookie(self, given: str) -> Visitor | None:
-        """Whose cookie this is."""
+        """Return the person of this cookie; None if it is not valid."""
         person, _, proof = given.partition(".")
         role = _match(proof, {role: self._signed(role, person) for role in Role})
         return Visitor(role, person) if role else None

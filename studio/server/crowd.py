@@ -1,4 +1,4 @@
-"""Who is connected, and what each may cost: strangers little and briefly, viewers within bounds.
+"""The connections of each person and their limits: few and brief for strangers, more for viewers.
 
 A connection is a stranger's until the guard has recognised a cookie or a token on it. The presenter
 always has room: strangers and viewers have a share of the descriptors each, the rest is kept back.
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from studio.protocol.roles import Visitor
 
 STRANGER_S: Final = 10.0
-"""From the connection to a request that is whole and carries a cookie or a token."""
+"""From the connection to a whole request that carries a cookie or a token."""
 VIEWER_CONNECTIONS_MAX: Final = 64
-"""Of one viewer: a browser holds three websockets per tab, and six requests at a time."""
+"""For one viewer: a browser holds three websockets per tab, and six requests at a time."""
 _STRANGERS_MAX: Final = 128
 _DESCRIPTORS_WITHOUT_LIMIT: Final = 4096
 _SAY_EVERY_S: Final = 60.0
@@ -29,7 +29,7 @@ _log = logging.getLogger(__name__)
 
 
 class Connection(Protocol):
-    """What is held: an HTTP connection or a websocket."""
+    """An HTTP connection or a websocket."""
 
     def abort(self) -> None:
         """End it at once."""
@@ -37,9 +37,9 @@ class Connection(Protocol):
 
 
 class Allowance:
-    """How fast somebody may send: units per second, and how many at once after a rest.
+    """Rate limit of a person: units per second, and how many at once after a rest.
 
-    A unit is one websocket frame, or one KiB of it. Who sends faster is not refused but read later.
+    A unit is one websocket frame, or one KiB of it. A faster sender is read later, not refused.
     """
 
     def __init__(self, units_per_s: float, at_once: float) -> None:
@@ -55,7 +55,7 @@ class Allowance:
 
 
 class Person:
-    """One browser, or one script: all connections that came with the same cookie or token."""
+    """One browser, or one script: all connections with the same cookie or token."""
 
     def __init__(self, role: Role) -> None:
         self.connections = 0
@@ -68,7 +68,7 @@ class Person:
 
 
 class Crowd:
-    """All connections of one server; everything here runs on the loop's thread."""
+    """All connections of one server; used on the loop's thread only."""
 
     def __init__(self, descriptors: int | None = None) -> None:
         limit = descriptors or descriptor_limit()
@@ -82,7 +82,7 @@ class Crowd:
         self._refused, self._said_s = 0, -_SAY_EVERY_S
 
     def arrive(self, connection: Connection) -> None:
-        """Hold a stranger's connection; of too many the oldest ends, which has said least."""
+        """Hold a stranger's connection; when there are too many, close the oldest."""
         self._strangers[connection] = None
         if len(self._strangers) > self.strangers_max:
             oldest = next(iter(self._strangers))
@@ -148,7 +148,7 @@ class Crowd:
 
 
 class CrowdedState(ServerState):
-    """What the connections of one server share."""
+    """State that the connections of one server share."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -156,7 +156,7 @@ class CrowdedState(ServerState):
 
 
 def descriptor_limit() -> int:
-    """How many files and sockets this process may hold open."""
+    """Return how many files and sockets this process may hold open."""
     if sys.platform == "win32":
         return _DESCRIPTORS_WITHOUT_LIMIT
     import resource  # noqa: PLC0415 - Unix only

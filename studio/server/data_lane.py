@@ -37,7 +37,7 @@ _TICK: Final = "tick"
 
 
 class DataLane:
-    """One browser's data lane: the end to which the engine hands what came."""
+    """One browser's data lane, to which topics send their messages."""
 
     def __init__(self, lane: Lane, keys: BulkKeys) -> None:
         self._lane, self._keys = lane, keys
@@ -48,7 +48,7 @@ class DataLane:
         lane.on_drain(self._outlet.resume)
 
     def say(self, message: BaseModel, /) -> None:
-        """Queue one message in words."""
+        """Queue one JSON message."""
         if self._bulk is not None and isinstance(message, SubscriptionView):
             self._bulk.forget(message.channel)
         self._outlet.post(text_frame(message.model_dump_json().encode()))

@@ -1,4 +1,4 @@
-"""The one door: Host, Origin and role are settled here before any route is looked for."""
+"""Checks Host, Origin and role of every request before it is routed."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Guard:
         answer, visitor = self._settle(scope)
         if scope["type"] == "http":
             send = _with_headers(send, closing=visitor is None)
-        with suppress(ClientDisconnect, WebSocketDisconnect):  # who left hears no answer
+        with suppress(ClientDisconnect, WebSocketDisconnect):  # the browser left and gets no answer
             await (answer or self._app)(scope, receive, send)
 
     def _settle(self, scope: Scope) -> tuple[Response | None, Visitor | None]:
@@ -82,7 +82,7 @@ class Guard:
         return host if host and self._hosts.knows(host) else None
 
     def _visitor_of_bearer(self, headers: Headers) -> Visitor | None:
-        """For scripts, which have no cookie: `Authorization: Bearer <token>`."""
+        """Return the visitor of `Authorization: Bearer <token>`; scripts have no cookie."""
         given = headers.get("authorization", "")
         if given[: len(_BEARER)].lower() != _BEARER:
             return None
@@ -102,10 +102,10 @@ class Guard:
         return None
 
     def _cookie_name(self, host: Authority, role: Role) -> str:
-        """By the port that the browser sees, for cookies are shared by all ports of a host.
+        """Return a name with the port that the browser uses, for all ports of a host share cookies.
 
         Each role has its own: a viewer's link does not replace the presenter's cookie, not even
-        where it comes from another site and the cookie does not come along.
+        when it comes from another site, without the cookie.
         """
         name = f"studio-{host.port or self._port}"
         return name if role is Role.PRESENTER else f"{name}-{role.value}"
@@ -138,7 +138,7 @@ class Guard:
         """The role that a query gives, and what else is in it."""
         given = dict(query)
         earned = self._credentials.role_of_token(given.get("token", ""))
-        if earned is None and not is_head:  # a look at the address does not spend the code
+        if earned is None and not is_head:  # HEAD does not spend the code
             earned = self._credentials.redeem(given.get(CODE, ""))
         return earned, [pair for pair in query if pair[0] not in {"token", CODE}]
 
@@ -150,7 +150,7 @@ def _recognise(scope: Scope, visitor: Visitor | None) -> bool:
 
 
 def _with_headers(send: Send, *, closing: bool) -> Send:
-    """Every answer tells the browser how to treat it; pages bring their own policy.
+    """Add the headers that every answer has; pages bring their own policy.
 
     A connection that is `closing` ends with the answer.
     """
@@ -172,7 +172,7 @@ def _with_headers(send: Send, *, closing: bool) -> Send:
 def _may_ask_from_there(
     scope: Scope, headers: Headers, host: Authority, *, has_bearer: bool
 ) -> bool:
-    """Whether the page that asks is ours, as far as the browser says."""
+    """Whether the request comes from our page, as far as the browser reports it."""
     origin, site = headers.get("origin"), headers.get("sec-fetch-site")
     if origin is not None and not is_same_origin(origin, host):
         return False
@@ -197,7 +197,7 @@ def _is_page_request(scope: Scope) -> bool:
 
 
 def _cookies(headers: Headers) -> dict[str, str]:
-    """All cookies; those of other programs on this host may be of any form."""
+    """Return all cookies; those of other programs on this host may be of any form."""
     found: dict[str, str] = {}
     for part in headers.get("cookie", "").split(";"):
         jar: SimpleCookie = SimpleCookie()
@@ -222,7 +222,7 @@ def _go_to(address: str, headers: Headers) -> Response:
 
 
 def _stranger(scope: Scope, headers: Headers) -> Response:
-    """Nobody we know: a page for a person, a sentence for a program."""
+    """Return the answer for a stranger: a page for a person, a sentence for a program."""
     if scope["type"] == "http" and "text/html" in headers.get("accept", ""):
         if headers.get("sec-fetch-site") in {"cross-site", "same-site"}:
             query = scope["query_string"].decode("latin-1")

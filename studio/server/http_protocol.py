@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _EXTENSION: Final = "studio.connection"
 _HEAD_LIMIT_BYTES: Final = 64 << 10
-"""Of the request line and all headers together; browsers send less than 8 KiB."""
+"""Limit of the request line and all headers together; browsers send less than 8 KiB."""
 _URL_LIMIT_BYTES: Final = 16 << 10
 _HEADERS_MAX: Final = 100
 _WAITING_MAX: Final = 8

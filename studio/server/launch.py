@@ -1,4 +1,4 @@
-"""Starts the studio: binds a port, serves until it is told to end, and opens a browser at it."""
+"""Starts the studio: binds a port, serves until a signal ends it, and opens a browser at it."""
 
 from __future__ import annotations
 
@@ -75,11 +75,11 @@ class Window:
         self._file: Path | None = None
 
     def show(self, address: str, opens: Callable[[str], object] = webbrowser.open) -> None:
-        """Open an address that nobody else may see, without waiting for the browser."""
+        """Open an address that is secret, without waiting for the browser."""
         threading.Thread(target=self._show, args=(address, opens), daemon=True).start()
 
     def close(self) -> None:
-        """Remove the file; whoever starts the studio again on this folder writes it anew."""
+        """Remove the file; the next start on this folder writes it again."""
         if self._file is not None:
             self._file.unlink(missing_ok=True)
 
@@ -95,12 +95,12 @@ class Window:
 
 
 def readable_folder(browser: str, home: Path, data_folder: Path) -> Path:
-    """Where a browser can read a file: one from a snap sees nothing of hidden folders.
+    """Return a folder that a browser can read: one from a snap sees no hidden folders.
 
     Args:
-        browser: Its desktop entry, as `firefox_firefox.desktop`, which names the snap first.
+        browser: Its desktop entry, as `firefox_firefox.desktop`, whose first part is the snap.
         home: The user's own folder.
-        data_folder: Good for all other browsers.
+        data_folder: The folder for all other browsers.
     """
     snap, separator, _ = browser.partition("_")
     common = home / "snap" / snap / "common"
@@ -124,7 +124,7 @@ def _default_browser() -> str:
 
 @dataclass(frozen=True, slots=True)
 class Opening:
-    """What to open first, and what to do once it is open and the address is said."""
+    """What to open first, and a callback for when it is open and the address is printed."""
 
     path: Path
     arguments: dict[str, str]
@@ -139,7 +139,7 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
     Args:
         settings: What the command line decided.
         opening: The first document.
-        viewer_link: Whether to say the address for viewers too.
+        viewer_link: Whether to print the address for viewers, too.
 
     Raises:
         StudioError: It cannot start, or what to open first cannot be opened.
@@ -164,7 +164,7 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
 
 
 def remarks(settings: Settings, port: int, *, is_root: bool = False) -> list[str]:
-    """What is not as usual about how the studio runs and where it listens, in sentences."""
+    """Return sentences about what is unusual in how the studio runs and where it listens."""
     said: list[str] = []
     if is_root:
         said.append(
@@ -222,7 +222,7 @@ class _Visit:
         await self._engine.start()
 
     async def answering(self) -> None:
-        """Open the first document beside the server, which must hear signals meanwhile."""
+        """Open the first document beside the server, which must handle signals meanwhile."""
         self._opens = asyncio.create_task(self._open())
 
     async def end(self) -> None:
@@ -246,7 +246,7 @@ class _Visit:
         finally:
             bar.end()
         gc.collect()
-        gc.freeze()  # what stands by now stays: a collection that looks at all of it takes 40 ms
+        gc.freeze()  # the objects of the start stay: a collection over all of them takes 40 ms
         for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
             _say(f"{name}: {link}")
         if self._settings.open_browser and has_display():
@@ -264,7 +264,7 @@ class _Visit:
 
 
 def _say(line: str) -> None:
-    """Write one line for whoever started the studio, who may wait for it at a pipe."""
+    """Print one line at once: the parent process may read it from a pipe."""
     with suppress(OSError):
         sys.stdout.write(f"{line}\n")
         sys.stdout.flush()

@@ -1,13 +1,13 @@
-"""The page's modules, joined: those that are needed together come in one answer.
+"""The page's modules, joined: those needed together are served as one file.
 
-A module that nobody imports begins a page, a worker or the 3D view; one that is imported later, by
-`import()`, is a door, too. What one door alone leads to is in that door's file; what several lead
-to is in a file of its own, but a worker and the 3D view have copies. Under the address of a module
-that is in another one's file stands a line that takes it from there.
+A page, a worker or the 3D view begins with a module that nobody imports; one imported later, by
+`import()`, is an entry point, too. Modules that only one entry point needs are in its file; those
+that several need are in a file of their own, but a worker and the 3D view have copies. The address
+of a module in another one's file serves a line that re-exports it.
 
 A module becomes a function in that file, so its names stay its own; comments and indentation are
-left out. What is not written as the page's modules are (a circle, `export *`) is served as written,
-with all that it imports.
+left out. Modules that are not written like the page's (circles, `export *`) are served as written,
+with all that they import.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _ANY_IMPORT: Final = re.compile(
     r'^(?:import|export)\s+(?:[\w*{][^;"]*?\sfrom\s+)?"([^"]+)"', re.MULTILINE
 )
 _LATER: Final = re.compile(r'(?<![\w.])import\((["`])(\.[^"`]+)\1\)(?!\.[A-Z])')
-"""What is imported later; in a comment a type would follow."""
+"""An import made later; in a comment a type would follow."""
 _FILLED: Final = re.compile(r"\$\{(\w+)\}")
 _EXPORT: Final = re.compile(
     r"^export (?=(?:async )?(?:function\*?|class|const) (\w+))", re.MULTILINE
@@ -47,7 +47,7 @@ _OWN_ADDRESS: Final = "import.meta.url"
 
 
 class _Import(NamedTuple):
-    """What a module takes from another one: `names` as in a pattern, which may be empty."""
+    """An import of another module: `names` as in a pattern, which may be empty."""
 
     path: str
     address: str
@@ -82,19 +82,19 @@ class Modules:
     """The modules of one state of the page; a file of them is made when it is asked for."""
 
     def __init__(self, sources: Mapping[str, bytes]) -> None:
-        """Of the page's own modules, by their paths."""
+        """Take the page's own modules by their paths."""
         self._written = {path: _Module(path, text.decode()) for path, text in sources.items()}
         self._modules = _joinable(self._written)
         later = {pattern for module in self._written.values() for pattern in module.later}
         self._later = {path for path in sources if any(one.fullmatch(path) for one in later)}
         self._members: dict[str, list[str]] = {}
-        """What is in a file, in the order in which it is run: by the path of the file."""
+        """The modules in a file in the order in which they run, by the path of the file."""
         self._file_of: dict[str, str] = {}
-        """In whose file a module is; not of those that are only copied."""
+        """The file of each module, except of those that are only copied."""
         self._divide()
 
     def text(self, path: str) -> str | None:
-        """What is served under this path; None: what is written."""
+        """Return what is served under this path; None: the module as written."""
         if path in self._members:
             return self._joined(path)
         if path not in self._file_of:
@@ -197,7 +197,7 @@ def _beside(path: str, address: str) -> str:
 
 
 def _pattern(path: str) -> re.Pattern[str]:
-    """Of all paths that are meant by one with names to be filled in, as in `${id}/${id}.js`."""
+    """Return a pattern of all paths that a template such as `${id}/${id}.js` may mean."""
     found: list[str] = []
     parts = _FILLED.split(path)
     for text, name in zip(parts[::2], [*parts[1::2], ""], strict=True):
@@ -208,13 +208,13 @@ def _pattern(path: str) -> re.Pattern[str]:
 
 
 def _address(path: str, file: str) -> str:
-    """How a file names a path."""
+    """Return the address of a path as a file imports it."""
     address = posixpath.relpath(path, posixpath.dirname(file) or ".")
     return address if address[0] == "." else f"./{address}"
 
 
 def _name(path: str) -> str:
-    """By what a module goes in a file."""
+    """Return the name of a module inside a file."""
     return "$" + re.sub(r"\W", "_", path.removesuffix(".js"))
 
 
@@ -232,7 +232,7 @@ def _function(module: _Module, body: str) -> str:
 
 
 def _joinable(modules: dict[str, _Module]) -> dict[str, _Module]:
-    """Those that are written alike, in no circle, and imported by none that is not such a one."""
+    """Return modules that can be joined: no circles, and imported by joinable modules only."""
     names = {path: module.wants for path, module in modules.items()}
     others = [path for path, module in modules.items() if not module.is_like_others]
     others += _in_circles(names)

@@ -1,4 +1,4 @@
-"""Which names this studio answers to, and which pages may talk to it."""
+"""The host names of this studio, and the origins that may send requests to it."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def _plain_page(title: str, body: str, status: int, refresh: str = "") -> HTMLRe
 
 
 def no_access_page(*, spent: bool) -> HTMLResponse:
-    """For somebody without a role; `spent`: they came with a token that is not valid."""
+    """Return the page without a role; `spent`: the token in the address is not valid."""
     why = (
         "<p>The key in this address is no longer valid: the studio was started anew since.</p>"
         if spent
@@ -59,7 +59,7 @@ def no_access_page(*, spent: bool) -> HTMLResponse:
 
 
 def not_found_page() -> HTMLResponse:
-    """For an address behind which there is nothing; it is not repeated on the page."""
+    """Return the page for an unknown address, which is not repeated on it."""
     body = (
         "<p>This robot is not open here. It may have been closed, or the studio was started anew "
         'since.</p><p><a href="/">Go to the open robot</a></p>'
@@ -68,7 +68,7 @@ def not_found_page() -> HTMLResponse:
 
 
 def trouble_page(sentence: str, status: int) -> HTMLResponse:
-    """For anything else that goes wrong where a person is looking."""
+    """Return the page for any other error."""
     body = f'<p>{escape(sentence)}</p><p><a href="/">Go to the open robot</a></p>'
     return _plain_page("This did not work", body, status)
 

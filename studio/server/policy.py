@@ -1,4 +1,4 @@
-"""The headers that tell a browser what our pages may do, and who may embed or read them."""
+"""The headers that limit what our pages may do, and who may embed or read them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ WORKER_POLICY: Final = (
     "default-src 'none'; script-src 'self'; connect-src 'self'; frame-ancestors 'self'; "
     "base-uri 'none'"
 )
-"""For scripts that run as workers: theirs counts for what they fetch, not that of the page."""
+"""For scripts of workers: it, and not the page's policy, limits what they fetch."""
 
 
 def page_policy(nonce: str) -> str:

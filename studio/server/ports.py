@@ -1,4 +1,4 @@
-"""Which port the studio listens on, and what its address is."""
+"""The port that the studio listens on, and its address."""
 
 from __future__ import annotations
 

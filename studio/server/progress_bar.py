@@ -15,7 +15,7 @@ _CLEAR: Final = "\r\x1b[K"
 
 
 class ProgressBar:
-    """Draws over itself; `end` leaves the line empty. May be told from any thread."""
+    """Draws over itself; `end` leaves the line empty. Thread-safe."""
 
     def __init__(self, stream: TextIO, clock: Callable[[], float] = time.monotonic) -> None:
         self._stream, self._clock = stream, clock

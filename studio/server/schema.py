@@ -92,14 +92,14 @@ def wire_types() -> str:
 
 
 def _interface(name: str, schema: Schema, *, is_sent_whole: bool) -> str:
-    """One model, or one enumeration; an event is sent with its defaults, a command without."""
+    """Return one model or enumeration; an event is sent with its defaults, a command without."""
     comment = _comment(schema.get("description", ""), indent="")
     if "properties" not in schema:
         return f"{comment}export type {name} = {_type(schema)};\n"
     required = set(schema["properties"] if is_sent_whole else schema.get("required", ()))
     lines = [f"{comment}export interface {name} {{"]
     for field, described in schema["properties"].items():
-        # The discriminator has a default in Python, but only what is sent tells the kinds apart.
+        # The discriminator has a default in Python, but it must be sent to tell the kinds apart.
         optional = "" if field in required or "const" in described else "?"
         lines.append(_comment(described.get("description", ""), indent="  ").rstrip("\n"))
         lines.append(f"  {field}{optional}: {_type(described)};")
@@ -133,7 +133,7 @@ def _array(schema: Schema) -> str:
 
 
 def _comment(text: str, indent: str) -> str:
-    """The model's own words before what they describe."""
+    """Return the model's docstring as a comment."""
     if not text:
         return ""
     lines = list(_wrapped(text.split("\n\n")))
@@ -151,7 +151,7 @@ def _wrapped(paragraphs: Iterable[str]) -> Iterator[str]:
 
 
 def target() -> Path:
-    """Where the file is kept."""
+    """Return the path of the file."""
     return repository_or_wheel("frontend_assets") / "types" / "wire.d.ts"
 
 

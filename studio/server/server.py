@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _PING_INTERVAL_S: Final = 20.0
 _PING_TIMEOUT_S: Final = 60.0
 _END_DEADLINE_S: Final = 1.7
-"""From the signal to the last resort: the process leaves without waiting for a stuck thread."""
+"""From the signal to a forced exit, which does not wait for a stuck thread."""
 
 
 class Life(Protocol):
@@ -38,7 +38,7 @@ class Life(Protocol):
         ...
 
     async def end(self) -> None:
-        """Before the connections are closed; nobody then waits for what has ended."""
+        """End before the connections are closed, so that nobody waits for what has ended."""
         ...
 
 

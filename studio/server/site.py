@@ -30,7 +30,7 @@ async def serve_scene(
 ) -> None:
     """Speak viser's protocol until the browser leaves or the document is closed."""
     offered: list[str] = websocket.scope["subprotocols"]
-    # A page of another version is let in all the same: only so does it hear why it must leave.
+    # A page of another version is accepted as well: else it would not learn why it must reload.
     spoken = SUBPROTOCOL if SUBPROTOCOL in offered else next(iter(offered), None)
     await websocket.accept(subprotocol=spoken)
     lane = Lane(websocket)
@@ -81,7 +81,7 @@ class Site:
         app.add_api_websocket_route("/d/{document}/viser", self.scene)
 
     async def home(self) -> Response:
-        """To the default document; the page itself while there is none."""
+        """Redirect to the default document; serve the page itself while there is none."""
         document = self._engine.default_document
         if document is None:
             return studio_page(self._assets.current())
@@ -100,7 +100,7 @@ class Site:
         return answer
 
     async def asset(self, tree: str, path: str, request: Request) -> Response:
-        """One file of the page; only paths that were found below its folder have an answer."""
+        """Return one file of the page, if it was found below its folder."""
         found = self._assets.find(tree, path)
         if found is None:
             return Response(status_code=HTTPStatus.NOT_FOUND)
@@ -111,7 +111,7 @@ class Site:
         return answer
 
     async def icon(self, request: Request) -> Response:
-        """For browsers that ask without having been told."""
+        """Return the icon, for browsers that ask without a link to it."""
         asset = self._assets.current().files.get(_ICON)
         if asset is None:
             return Response(status_code=HTTPStatus.NO_CONTENT)
@@ -130,7 +130,7 @@ class Site:
         await DataLane(Lane(websocket), self._bulk_keys).serve(self._engine.browser_topics)
 
     async def bulk(self, key: str = "") -> Response:
-        """The bulk lane of the data lane that was told this key."""
+        """Open the bulk lane of the data lane with this key."""
         return BulkAnswer(self._bulk_keys.lane_of(key))
 
     async def scene(self, document: str, websocket: WebSocket) -> None:

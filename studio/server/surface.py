@@ -1,4 +1,4 @@
-"""What the web room uses of the engine and of a document's 3D view."""
+"""What the server room uses of the engine and of a document's 3D view."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class SubscribesTopics(Protocol):
         ...
 
     def carry_out(self, lane: DataLaneEnd, command: SubscriptionCommand, /) -> None:
-        """Subscribe or unsubscribe for a browser, which is told how that stands."""
+        """Subscribe or unsubscribe for a browser, and send it the state."""
         ...
 
 
@@ -107,7 +107,7 @@ class OpenDocuments(Protocol):
         ...
 
     def document(self, id: str, /) -> OpenDocument:  # noqa: A002 - the engine's own word
-        """One document.
+        """Return one document.
 
         Raises:
             UnknownDocumentError: No open document has that id.
@@ -115,7 +115,7 @@ class OpenDocuments(Protocol):
         ...
 
     def attach(self, listener: Listener, /) -> None:
-        """Let it hear the list of documents, now and whenever it changes."""
+        """Send it the list of documents, now and whenever it changes."""
         ...
 
     def detach(self, listener: Listener, /) -> None:

@@ -57,7 +57,7 @@ class Uploads:
         try:
             line, rest = await _first_line(stream)
             document = await self._engine.uploads.take(line, _and_then(rest, stream))
-        except ClientDisconnect:  # it was cancelled, and nobody hears the answer
+        except ClientDisconnect:  # it was cancelled, and nobody reads the answer
             return Response(status_code=HTTPStatus.BAD_REQUEST)
         except StudioError as error:
             await _drain(stream)
@@ -90,7 +90,7 @@ async def _and_then(first: bytes, stream: AsyncIterator[bytes]) -> AsyncIterator
 
 
 async def _drain(stream: AsyncIterator[bytes]) -> None:
-    """Read what is still coming: a browser that is cut off while it sends hears no reason."""
+    """Read the rest: a browser whose sending is cut off does not show the answer."""
     drained = 0
     try:
         async for chunk in stream:

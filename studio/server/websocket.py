@@ -33,16 +33,16 @@ if TYPE_CHECKING:
 
 
 VIEWER_MESSAGE_LIMIT_BYTES: Final = 64 << 10
-"""Who only looks has little to say; a presenter's limit is that of a command."""
+"""For viewers, who send little; a presenter's limit is that of a command."""
 _EXTENSION = "studio.socket"
 _PIECE_BYTES: Final = 4 << 10
 _UNIT_BYTES: Final = 1 << 10
 _FRAGMENTS_MAX: Final = 1_024
-"""Of one message; a browser sends one megabyte in a few dozen."""
+"""Limit for one message; a browser sends one megabyte in a few dozen."""
 _TURN_UNITS: Final = 256
 """Frames, or KiB, that are parsed before others have their turn: some milliseconds."""
 _PONGS_PENDING_BYTES: Final = 64 << 10
-"""Who pings and reads no answer gets no more of them."""
+"""Limit for a client that pings and reads no answer."""
 _TEXT, _BINARY = 0x81, 0x82  # final frame of a text or a binary message
 _SHORT, _MEDIUM = 125, 0xFFFF
 
@@ -67,7 +67,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
         super().__init__(config, server_state, app_state, _loop)
         self._crowd = cast("CrowdedState", server_state).crowd
         self._held = bytearray()
-        """What came and may not be parsed yet; nothing is read meanwhile."""
+        """Bytes received and not parsed yet; nothing more is read meanwhile."""
         self._rest: asyncio.TimerHandle | None = None
         self._frame_count = 0
 
@@ -123,7 +123,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
             super().handle_ping()
 
     def send_receive_event_to_app(self) -> None:
-        """Hand a whole message on; one that says to be text and is not ends the websocket."""
+        """Pass a whole message on; invalid UTF-8 in a text message ends the websocket."""
         if self.curr_msg_data_type == "text":
             whole = b"".join(self.frames)
             try:
@@ -149,7 +149,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
         return event
 
     async def send(self, message: ASGISendEvent) -> None:
-        """Send what the application says; from the handshake on what came is parsed."""
+        """Send what the application sends; after the handshake, parse what was received before."""
         await super().send(message)
         if self.close_sent:
             self.handshake_complete = True  # by a refusal, too: uvicorn would miss an answer
@@ -255,7 +255,7 @@ def _head(length: int, *, binary: bool) -> bytes:
 SERVER_ENDS: Final = 1012
 """The close code with which uvicorn ends its websockets; the page waits for the return."""
 _FRAMER: Final = Framer()
-"""One for all lanes, because one message goes to many of them in a row."""
+"""Shared by all lanes, because one message goes to many of them in a row."""
 _GOODBYE_S: Final = 5.0
 """For the closing handshake, and for what is still to be sent before it."""
 
@@ -312,7 +312,7 @@ class Lane:
             self._closing = asyncio.create_task(self._close(code))
 
     async def finish(self) -> None:
-        """Begin the closing handshake, if nobody did, and see it on its way."""
+        """Begin the closing handshake, unless it has begun, and wait until it is sent."""
         self.close()
         if self._closing is not None:
             await self._closing

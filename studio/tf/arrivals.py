@@ -100,7 +100,7 @@ class Arrivals:
         return tuple(names)
 
     def rates_hz(self, frames: Numbers, now_ns: int) -> Floats:
-        """How often each comes, of the last 64 times within 10 s; 0 when that is not known.
+        """Return the rate of each, over the last 64 arrivals within 10 s; 0 when it is not known.
 
         A frame that is silent for longer than its mean period gets slower from then on.
         """
@@ -114,7 +114,7 @@ class Arrivals:
         return np.where(known_twice, np.minimum(lately, until_now) * 1e9, 0.0)
 
     def are_stale(self, frames: Numbers, now_ns: int) -> Flags:
-        """Which have been silent for 3 of their longer pauses, and for a second at least."""
+        """Return which have been silent for 3 of their longer pauses, and for a second at least."""
         times_ns, known = self._lately(frames, _PAUSES + 1)
         silent_ns = np.where(known[:, 0], now_ns - times_ns[:, 0], WINDOW_NS)
         pauses_ns = np.where(known[:, 1:], times_ns[:, :-1] - times_ns[:, 1:], NONE)

@@ -35,13 +35,13 @@ class FramePose(NamedTuple):
     xyz: tuple[float, float, float]
     """m."""
     stamp_ns: int
-    """When; 0 where all transforms on the way are static."""
+    """Time of the pose; 0 where all transforms of the chain are static."""
 
 
 class TransformBuffer:
     """Keeps the transforms of /tf and /tf_static for 10 s of stamps, and looks up as tf2 does.
 
-    All methods may be called in any thread.
+    All methods are thread-safe.
 
     Args:
         history_ns: How far back from the newest stamp of each frame.
@@ -82,17 +82,17 @@ class TransformBuffer:
             return self._intake.put(columns, publisher, now_ns, static=static)
 
     def fixed_from(self, fixed: str, frame: str, stamp_ns: int = 0) -> FramePose:
-        """The pose of a frame in the fixed frame.
+        """Return the pose of a frame in the fixed frame.
 
         Args:
             fixed: Its name; a frame seen from itself needs no transform.
             frame: Its name.
-            stamp_ns: When; 0 is the newest time at which the whole way is known.
+            stamp_ns: Time of the pose; 0: the newest at which the whole chain is known.
 
         Raises:
             UnknownFrameError: One of them is in no transform.
             UnconnectedFramesError: No chain leads from one to the other.
-            ExtrapolationError: A transform on the way is not known at that time.
+            ExtrapolationError: A transform of the chain is not known at that time.
         """
         fixed, frame = plain_name(fixed), plain_name(frame)
         if fixed == frame:
@@ -109,19 +109,19 @@ class TransformBuffer:
         return FramePose(fixed_from_frame[:4], fixed_from_frame[4:], stamp_ns)
 
     def all_in(self, fixed: str, stamp_ns: int = 0, now_ns: int | None = None) -> FramesNow:
-        """All frames seen from the fixed one; none is connected with one that is not known.
+        """Return all frames seen from the fixed one; none is connected with one that is not known.
 
         Args:
             fixed: Its name.
-            stamp_ns: When; 0 takes the newest of each transform, whatever its stamp.
-            now_ns: Ages are as of this, by the buffer's clock.
+            stamp_ns: Time of the poses; 0 takes the newest of each transform, whatever its stamp.
+            now_ns: Ages are relative to it, by the buffer's clock.
         """
         now_ns = self._clock() if now_ns is None else now_ns
         with self._lock:
             return self._all.seen_from(plain_name(fixed), stamp_ns, now_ns)
 
     def chain(self, fixed: str, frame: str) -> tuple[str, ...]:
-        """The frames on the way from one to another, both with it.
+        """Return the frames of the chain from one to another, both included.
 
         Raises:
             UnknownFrameError: One of them is in no transform.
@@ -140,12 +140,12 @@ class TransformBuffer:
             )
 
     def frames(self) -> list[str]:
-        """All frames, in the order of the alphabet."""
+        """All frames, sorted."""
         with self._lock:
             return sorted(name for name in self._forest.names if name)
 
     def count(self) -> int:
-        """How many frames there are."""
+        """The number of frames."""
         with self._lock:
             return len(self._forest)
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 NONE: Final = -1
 FRAMES_MAX: Final = 20_000
 DEPTH_MAX: Final = 1000
-"""Of frames above a new one: to add to a longer chain would take too long."""
+"""Of frames above a new one: adding to a longer chain would take too long."""
 
 
 class Forest:
@@ -42,7 +42,7 @@ class Forest:
         return self._numbers.get(name)
 
     def numbers(self) -> list[int]:
-        """All numbers in use, from the least."""
+        """All numbers in use, sorted."""
         return sorted(self._numbers.values())
 
     def room_for(self, *names: str) -> bool:
@@ -50,7 +50,7 @@ class Forest:
         return len(self) + sum(name not in self._numbers for name in names) <= FRAMES_MAX
 
     def is_above(self, frame: str, parent: str) -> bool | None:
-        """Whether a parent is this frame or below it; None when it is too deep to tell."""
+        """Whether a parent is this frame or below it; None when the chain is too long."""
         number, looked_for = self._numbers.get(parent, NONE), self._numbers.get(frame)
         for _ in range(DEPTH_MAX):
             if number == NONE:
@@ -144,7 +144,7 @@ class Forest:
 
 
 class Round(NamedTuple):
-    """One doubling: each row is taken over by the row that it has reached."""
+    """One doubling: each row takes over the row that it has reached."""
 
     rows: Numbers
     reached: Numbers
@@ -180,14 +180,14 @@ class Structure:
         return products
 
     def greatest_above(self, values: Floats) -> Floats:
-        """Of each row the greatest of its own value (F,) and those above it, roots left out."""
+        """For each row, the greatest of its own value (F,) and those above it, without roots."""
         greatest = values.copy()
         for rows, reached in self._rounds:
             greatest[rows] = np.maximum(greatest[rows], greatest[reached])
         return greatest
 
     def first_above(self, flags: Flags) -> Numbers:
-        """Of each row the nearest with a flag (F,), itself or one above it; NONE if there is none.
+        """For each row, the nearest with a flag (F,), itself or one above it; NONE without any.
 
         A root's own flag does not count.
         """
@@ -243,7 +243,7 @@ class ForestShape:
 
     @cached_property
     def tree_sizes(self) -> dict[str, int]:
-        """How many frames each tree has, by its root, from the most."""
+        """Return the number of frames of each tree by its root, the largest tree first."""
         counts = np.bincount(self.structure.roots).tolist()
         sizes = {self.names[row]: int(count) for row, count in enumerate(counts) if count}
         return dict(sorted(sizes.items(), key=lambda one: (-one[1], one[0])))

@@ -27,10 +27,10 @@ class FramesNow:
 
     Attributes:
         fixed: The name of the fixed frame.
-        names: Of the frames; the same object as long as no edge comes or goes.
-        rows: Where each name is in `names`.
-        parents: Shape (F,): where the parent of each is in `names`; -1 for a root.
-        wxyz_xyz: Shape (F, 7): unit quaternion and m; anything for what is not connected.
+        names: The frames' names; the same object as long as no edge comes or goes.
+        rows: Index of each name in `names`.
+        parents: Shape (F,): index of each parent in `names`; -1 for a root.
+        wxyz_xyz: Shape (F, 7): unit quaternion and m; undefined for what is not connected.
         connected: Shape (F,): whether transforms lead from each to the fixed frame at that time.
         ages_s: Shape (F,): the age of the oldest transform on that chain; static ones have none.
     """
@@ -92,7 +92,7 @@ class AllFrames:
         return np.tile(IDENTITY, (count, 1)), np.zeros(count, np.bool_), np.zeros(count)
 
     def _poses(self, row: int, stamp_ns: int) -> tuple[Floats, Flags]:
-        """All poses in the frame of a row, and which are connected with it."""
+        """Return all poses in the frame of a row, and which are connected with it."""
         poses, known = self._edges(stamp_ns)
         structure = self._shape.structure if known.all() else self._without(~known)
         root_from = structure.root_from_rows(self._matrices(poses, structure))

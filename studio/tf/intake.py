@@ -25,7 +25,7 @@ _LAYOUT_LETTERS_MAX: Final = 200_000
 _SILENT_NS: Final = 1_000_000_000
 """After this long without a message, another publisher may take over a frame."""
 _REST_NS: Final = 1_000_000_000
-"""For this long a publisher that moved its own frame cannot move it again."""
+"""So long a publisher that moved its own frame cannot move it again."""
 _BEHIND_MAX: Final = 10
 """So many transforms in a row older than their publisher's last are a jump of time."""
 

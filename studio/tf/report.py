@@ -49,7 +49,7 @@ class FrameReport:
 
 
 class Reporting:
-    """What is known of frames at one time: gathered at once, made into reports later.
+    """Facts about frames at one time: gathered at once, made into reports later.
 
     The constructor needs the buffer's lock; `reports` needs none.
 
@@ -59,7 +59,7 @@ class Reporting:
         arrivals: Of its frames.
         fixed: What is not connected with it is broken.
         now_ns: By the clock of the arrivals.
-        most: Report so many, the first of the alphabet; None: all.
+        most: Report at most so many, the first by name; None: all.
     """
 
     def __init__(
@@ -110,7 +110,7 @@ class Reporting:
 
 
 class _Facts(NamedTuple):
-    """What is known of a frame with a parent, as in a FrameReport."""
+    """Facts about a frame with a parent, as in a FrameReport."""
 
     publishers: tuple[str, ...]
     static: bool
@@ -145,7 +145,7 @@ def _facts_of(
 
 
 def _stale(shape: ForestShape, histories: Histories, arrivals: Arrivals, now_ns: int) -> Flags:
-    """Which rows have been silent for long."""
+    """Return which rows have been silent for long."""
     stale, frames = np.zeros(len(shape.names), np.bool_), shape.numbers[shape.hung]
     stale[shape.hung] = arrivals.are_stale(frames, now_ns) & ~histories.is_static(frames)
     return stale

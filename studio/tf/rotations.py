@@ -97,7 +97,7 @@ def _product(rows: Floats, table: Floats) -> Floats:
 
 
 def _entries_of_products() -> Floats:
-    """Of a turn, what the product of each two parts of its quaternion adds to each entry.
+    """Return what each product of two parts of a quaternion adds to each entry of its matrix.
 
     Shape (16, 16): products ww, wx, wy ... zz, and entries of a matrix (4, 4) row by row. The last
     entry is the squared length, which is 1.
@@ -114,7 +114,7 @@ def _entries_of_products() -> Floats:
 
 
 def _products_of_entries() -> tuple[Floats, Floats]:
-    """Of a rotation matrix, what each entry adds to 4 times the product of each two parts.
+    """Return what each entry of a rotation matrix adds to 4 times each product of two parts.
 
     Shape (9, 16): entries row by row, and products ww, wx, wy ... zz; and (16,): what is added.
     """

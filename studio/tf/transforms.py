@@ -17,7 +17,7 @@ Flags: TypeAlias = "NDArray[np.bool_]"
 NAME_LETTERS_MAX: Final = 256
 _FAR_M: Final = 1e12
 _SQUARED_LENGTH_OFF: Final = 1e-2
-"""Of a quaternion: tf2 leaves out what is farther from 1."""
+"""Largest error of a quaternion; tf2 drops those farther from 1."""
 Kind: TypeAlias = Literal[
     "no_name", "long_name", "own_parent", "not_finite", "too_far", "zero_quaternion",
     "no_unit_quaternion", "no_stamp", "circle", "other_parent", "too_deep", "too_many", "too_old",
@@ -27,14 +27,14 @@ Kind: TypeAlias = Literal[
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TransformColumns:
-    """The transforms of one message, in its order; nobody writes into the arrays.
+    """The transforms of one message, in its order; the arrays are read-only.
 
     Attributes:
-        parents: Of each the `header.frame_id`.
-        children: Of each the `child_frame_id`.
+        parents: The `header.frame_id` of each.
+        children: The `child_frame_id` of each.
         stamps_ns: Shape (N,), int64, since the epoch.
         translations: Shape (N, 3), float64, metres: the child's origin in the parent.
-        rotations_wxyz: Shape (N, 4), float64, as they were sent, of whatever length.
+        rotations_wxyz: Shape (N, 4), float64, as sent, of any length.
     """
 
     parents: tuple[str, ...]
