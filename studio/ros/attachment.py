@@ -15,7 +15,7 @@ _OLD_FORM = b"\x0fsequence_number"
 
 
 class Attachment(NamedTuple):
-    """What came with a sample; one is made for each, for which a tuple takes the least time.
+    """Sent with every sample; a tuple, for it is made fastest.
 
     `sequence` counts the messages of one endpoint from 1, `source_time_ns` is since the Unix
     epoch, `gid` names the endpoint. A reply repeats the sequence and GID of its request.
@@ -31,7 +31,7 @@ class Attachment(NamedTuple):
 
 
 def packed(sequence: int, source_time_ns: int, gid: bytes) -> bytes:
-    """Write the 33 bytes of an attachment that nobody else needs."""
+    """Return the 33 bytes of an attachment."""
     return _LAYOUT.pack(sequence, source_time_ns, GID_BYTES, gid)
 
 

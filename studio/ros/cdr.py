@@ -75,7 +75,7 @@ class Codec:
 
 
 def _has_bounds(kind: type[MessageValue]) -> bool:
-    """Whether a list or text within could be too long: generated code does not look."""
+    """Whether a sequence or string within is bounded, which generated code does not check."""
     return any(
         field.type.string_bound or (field.type.shape is Shape.BOUNDED and not field.type.numeric)
         for one in parts_of(kind).values()

@@ -123,10 +123,10 @@ class AsyncParameterClient:
         use_wildcard: bool = True,  # noqa: FBT001, FBT002  # as in rclpy
         callback: Done | None = None,
     ) -> Future[Any]:
-        """Set what a file says of the node; without wildcards only what names it whole counts.
+        """Set what a parameter file has for the node; without wildcards, only under its full name.
 
         Raises:
-            ParameterFileError: It is no such file.
+            ParameterFileError: The file is not valid.
             OSError: It cannot be read.
         """
         text = Path(parameter_file).read_text(encoding="utf-8")
@@ -234,10 +234,10 @@ class ParameterClient:
     def load(
         self, text: str, where: str = "The file of parameters", *, wildcards: bool = True
     ) -> list[tuple[Parameter, MessageValue]]:
-        """Set what a file says of the node, and return a SetParametersResult of each.
+        """Set what a parameter file has for the node; return a SetParametersResult of each.
 
         Raises:
-            ParameterFileError: It is no such file.
+            ParameterFileError: The file is not valid.
         """
         parameters = read_parameters(text, self.remote, where, wildcards=wildcards)
         return list(zip(parameters, self.set(parameters), strict=True)) if parameters else []

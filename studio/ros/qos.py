@@ -36,7 +36,7 @@ class DurabilityPolicy(IntEnum):
 
 
 class HistoryPolicy(IntEnum):
-    """How many samples wait: the last `depth`, or all."""
+    """Number of samples kept: the last `depth`, or all."""
 
     SYSTEM_DEFAULT = 0
     KEEP_LAST = 1
@@ -45,7 +45,7 @@ class HistoryPolicy(IntEnum):
 
 
 class LivelinessPolicy(IntEnum):
-    """Who says that a publisher is alive."""
+    """Who asserts that a publisher is alive."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -173,10 +173,10 @@ qos_profile_best_available = QoSProfile(
 
 
 def why_unmatched(offered: QoSProfile, requested: QoSProfile) -> list[str]:
-    """Return what keeps a publisher and a subscription apart; empty when they match.
+    """Return what keeps a publisher and a subscription from matching; empty when they match.
 
-    Zenoh itself carries the samples either way, so that this explains counts and warnings,
-    and what would happen to the same nodes on DDS.
+    Zenoh itself delivers the samples either way, so this explains counts and warnings, and what
+    would happen to the same nodes on DDS.
     """
     return [
         *_reliability(offered, requested),

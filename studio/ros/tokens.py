@@ -28,9 +28,9 @@ _ID_MAX = 2**64 - 1
 
 @dataclass(frozen=True, slots=True)
 class DataKey:
-    """What a data key says; `name` is fully qualified, a service's `type_name` that of the whole.
+    """A data key; `name` is fully qualified, a service's `type_name` that of the whole.
 
-    The hash is part of the key, so that a wrong one meets nobody: take it from the graph.
+    The hash is part of the key, so that a wrong one matches nothing: take it from the graph.
     """
 
     domain: int
@@ -95,7 +95,7 @@ def ros_type(dds_name: str) -> str:
 
 
 class EndpointKind(StrEnum):
-    """What a token stands for, by its letters on the wire."""
+    """Kind of an endpoint, by its letters in a token."""
 
     PUBLISHER = "MP"
     SUBSCRIPTION = "MS"
@@ -221,7 +221,6 @@ def _plain(chunk: str) -> str:
 def gid_of(token: str) -> bytes:
     """Return XXH3-128 of the whole token, low half first, each half little endian.
 
-    Peers that are no rmw_zenoh may send anything else, so that a GID nobody's token has is
-    no error.
+    Peers that are no rmw_zenoh may send anything else, so a GID without a token is no error.
     """
     return xxhash.xxh3_128_digest(token.encode())[::-1]

@@ -34,14 +34,14 @@ Say: TypeAlias = "Callable[[str], object]"
 def learn_from(
     node: Node, endpoint: GraphEndpoint, timeout_s: float = ANSWER_TIMEOUT_S
 ) -> list[str]:
-    """Ask the node of an endpoint what its type is made of; return the names that are new.
+    """Ask the node of an endpoint to describe its type; return the names that are new.
 
-    Of a part of an action, such as its feedback, the whole action is asked.
+    For a part of an action, such as its feedback, the whole action is asked for.
 
     Raises:
-        TypeDescriptionError: The node says no, or what it says cannot be trusted.
+        TypeDescriptionError: The node refuses, or its description cannot be trusted.
         NotServedError: It does not describe its types.
-        NoAnswerError: It is silent.
+        NoAnswerError: It does not answer.
     """
     descriptions, texts = _told(node, endpoint, timeout_s)
     return learn(node.wire.types, endpoint.type_name, descriptions, texts)
@@ -50,9 +50,9 @@ def learn_from(
 def texts_from(
     node: Node, endpoint: GraphEndpoint, timeout_s: float = ANSWER_TIMEOUT_S
 ) -> dict[str, str]:
-    """Ask the node of an endpoint how its type and all that it is made of are written.
+    """Ask the node of an endpoint for the definitions of its type and all that it uses.
 
-    Those that say what is known here are given, by name: they hold the comments.
+    Definitions that agree with the types known here are returned by name: they have the comments.
 
     Raises:
         TypeDescriptionError, NotServedError, NoAnswerError: As `learn_from`.
@@ -102,10 +102,10 @@ def _questions(node: Node, endpoint: GraphEndpoint) -> dict[str, str]:
 
 
 def known_service(node: Node, name: str, type_name: str, say: Say) -> ServiceType:
-    """Return a service's type; `say` is given the reasons why nodes did not describe it.
+    """Return a service's type; `say` is called with why nodes did not describe it.
 
     Raises:
-        UnknownTypeError: Nobody here or there knows it.
+        UnknownTypeError: It is not known, and no node describes it.
     """
     types = node.wire.types
     return _known(types.service, type_name, node, lambda: node.graph.servers(name), say)
@@ -130,7 +130,7 @@ def known_message(node: Node, topic: str, type_name: str, say: Say) -> type[Mess
 def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> None:
     """Ask the nodes of endpoints in turn until one describes its type.
 
-    `say` is given the reasons why others did not.
+    `say` is called with why others did not.
     """
     for endpoint in endpoints:
         path = endpoint.node.path

@@ -83,9 +83,9 @@ class ClientGoalHandle:
         self._status = max(self._status, status) if not self._status.is_over else self._status
 
     def cancel_goal_async(self) -> Future[Any]:
-        """Ask that it end; becomes an action_msgs/srv/CancelGoal response.
+        """Ask the server to cancel it; becomes an action_msgs/srv/CancelGoal response.
 
-        An error of the future says that the server is gone.
+        The future has an error when the server is gone.
         """
         return self._client.cancel_goal(self)
 
@@ -100,7 +100,7 @@ class ClientGoalHandle:
     def get_result_async(self) -> Future[Any]:
         """Ask for its result; becomes a response with `status` and `result`.
 
-        An error of the future says that the server is gone.
+        The future has an error when the server is gone.
         """
         return self._client.get_result(self)
 
@@ -188,9 +188,9 @@ class ActionClient:
         feedback_callback: Callable[[Any], object] | None = None,
         goal_uuid: MessageValue | None = None,
     ) -> Future[ClientGoalHandle]:
-        """Send a goal; becomes its handle, which says whether it was accepted.
+        """Send a goal; becomes its handle, with whether it was accepted.
 
-        The callback is given messages with `goal_id` and `feedback`.
+        The callback receives messages with `goal_id` and `feedback`.
 
         Raises:
             MessageValueError: It is no goal of this action.
@@ -396,7 +396,7 @@ class ResultWait:
         )
 
     def _look(self) -> None:
-        if self.answer.done():  # it was given up while the look was being prepared
+        if self.answer.done():  # it was given up before this check
             self._stop_looking()
         if self.answer.done() or not self._stay_patient():
             return

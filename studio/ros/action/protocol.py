@@ -24,7 +24,7 @@ FEEDBACK_QOS = QoSProfile(depth=10)
 
 
 class GoalStatus(IntEnum):
-    """How far a goal is."""
+    """State of a goal."""
 
     UNKNOWN = 0
     ACCEPTED = 1
@@ -36,7 +36,7 @@ class GoalStatus(IntEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> GoalStatus:
-        """Take a number that is none, as any peer may send, for one that says nothing."""
+        """Return UNKNOWN for any other number, which a peer may send."""
         del value
         return cls.UNKNOWN
 
@@ -47,12 +47,12 @@ class GoalStatus(IntEnum):
 
     @property
     def is_active(self) -> bool:
-        """Whether the goal is under way."""
+        """Whether the goal runs or waits to."""
         return GoalStatus.ACCEPTED <= self <= GoalStatus.CANCELING
 
 
 class GoalEvent(StrEnum):
-    """What happens to a goal, in the words that errors use."""
+    """What happens to a goal, phrased for errors."""
 
     EXECUTE = "be executed"
     CANCEL_GOAL = "be asked to end"
@@ -111,10 +111,10 @@ class KnownGoal:
 def goals_to_cancel(
     goals: Iterable[KnownGoal], goal_id: bytes, stamp_ns: int
 ) -> tuple[list[KnownGoal], CancelCode]:
-    """Choose the goals that a request asks to end, and the code if nobody objects.
+    """Return the goals that a request asks to cancel, and the code if no callback refuses.
 
-    An id of zeros is any goal, a stamp of 0 any time; a stamp means those accepted until then,
-    beside the one that is named.
+    An id of zeros means any goal, a stamp of 0 any time; another stamp means the goals accepted
+    until then, in addition to the one with the id.
     """
     known = list(goals)
     named = next((goal for goal in known if goal.goal_id == goal_id), None)
@@ -172,7 +172,7 @@ class ActionNames:
 
 @dataclass(frozen=True, slots=True)
 class ActionQos:
-    """One profile for each part; those of both ends are to match."""
+    """One profile for each part; those of client and server have to match."""
 
     goal: QoSProfile
     result: QoSProfile

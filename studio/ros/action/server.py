@@ -85,7 +85,7 @@ async def call_or_await(callback: Callable[..., Any], *arguments: object) -> Any
 
 
 class ActionServer:
-    """Serves one action; several goals may be under way at once.
+    """Serves one action; several goals may run at once.
 
     Callbacks may be functions or coroutines. One that raises aborts its goal, and its error goes
     to the log. Results are kept for `result_timeout` seconds after the end of a goal.
@@ -175,7 +175,7 @@ class ActionServer:
         self._execute_callback = execute_callback
 
     def destroy(self) -> None:
-        """Take the action back; clients of goals under way learn that nobody serves it."""
+        """End the server; clients of running goals learn that nobody serves the action."""
         with self._status_lock:
             self._destroyed = True
         self._node.forget_destroy(self.destroy)
@@ -226,7 +226,7 @@ class ActionServer:
         self, names: ActionNames, qos: ActionQos, group: CallbackGroup | None
     ) -> list[Service]:
         cancel = self._node.wire.types.service("action_msgs/srv/CancelGoal")
-        # Each question for a result waits for the end of its goal: it must keep nobody waiting.
+        # A request for a result waits for the end of its goal: it must not block others.
         waiting = ReentrantCallbackGroup()
         return [
             self._node.create_service(
@@ -327,7 +327,7 @@ class ActionServer:
         self._end(goal, result)
 
     def _end(self, goal: ServerGoalHandle, result: object) -> None:
-        """Make the result known; a goal whose state nobody set is aborted."""
+        """Send the result; a goal whose state was not set is aborted."""
         kind = self._type.Result
         if goal.is_active:
             goal.abort()
@@ -348,9 +348,9 @@ class ActionServer:
 
 
 class CoroutineQueue(Work):
-    """Keeps coroutines until they are begun, beside each other and in their order.
+    """Keeps coroutines until they are started, concurrently and in order.
 
-    Between two `spin_once` nobody spins a node: what is handed in then must not be lost.
+    Between two `spin_once` nobody spins a node: what is added then must not be lost.
     """
 
     def __init__(self) -> None:

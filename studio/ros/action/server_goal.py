@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
 
 GOALS_KEPT_MAX = 1_000
-"""Of those that are over: a client that sends without end costs no more memory."""
+"""Limit of those that are over: a client that sends without end costs no more memory."""
 
 
 class GoalServer(Protocol):
-    """What a goal needs of its server."""
+    """The part of an action server that a goal uses."""
 
     def execute(
         self, goal: ServerGoalHandle, callback: Callable[[ServerGoalHandle], Any] | None
@@ -41,11 +41,11 @@ class GoalServer(Protocol):
 
 
 class ServerGoalHandle:
-    """A goal under way; any thread may report on it.
+    """A running goal; thread-safe.
 
     Attributes:
-        result: Becomes the result when the goal is over, for those who wait for it.
-        ended_s: When it was over, on the monotonic clock; None before.
+        result: Becomes the result when the goal is over.
+        ended_s: Time of its end, on the monotonic clock; None before.
     """
 
     def __init__(

@@ -1,8 +1,8 @@
-"""Where texts and numbers lie in the CDR of a message, found once for messages built alike.
+"""Places of strings and numbers in the CDR of a message, found once for messages built alike.
 
-A publisher of transforms or markers sends the same names over and over with other numbers. Where
-every byte but the numbers is that of a message which was read before, the numbers lie where they
-lay then, and numpy takes them all at once.
+A publisher of transforms or markers sends the same names over and over with other numbers. If all
+bytes but the numbers equal those of an earlier message, the numbers are in the same places, and
+numpy takes them all at once.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ N = TypeVar("N", bound=np.generic)
 
 
 class BytesReader:
-    """Reads counts and texts one after another; numbers are passed over, for numpy to take.
+    """Reads counts and strings one after another; numbers are skipped, for numpy to take.
 
     Attributes:
         raw: The whole message, its header of four bytes included.
-        order: `<` or `>`, as the header says.
-        at: The place in `raw` of what comes next.
+        order: `<` or `>`, from the header.
+        at: Index in `raw` of what comes next.
     """
 
     __slots__ = ("_count_at", "_type_name", "at", "order", "raw", "size")
@@ -125,7 +125,7 @@ class BytesWriter:
         self.ready(_WORD(value))
 
     def ready(self, packed: bytes) -> None:
-        """Write what is packed already and begins with a word."""
+        """Write what is already packed and begins at a multiple of 4."""
         self.written += bytes(-len(self.written) % 4) + packed
 
     def time(self, seconds: int, rest_ns: int) -> None:
@@ -163,7 +163,7 @@ class BytesWriter:
 
 
 class Skeleton:
-    """The words of a message that are no numbers; words are of four bytes, behind the header."""
+    """The 4-byte units of a message that are no numbers, counted behind the header."""
 
     __slots__ = ("_head", "_rest", "_tail", "_words")
 
@@ -239,7 +239,7 @@ LITTLE, BIG = _numbers("<"), _numbers(">")
 
 
 def numbers_of(raw: bytes) -> Numbers:
-    """Return the kinds of numbers that a message holds, as its header says."""
+    """Return the types of numbers in a message, by its header."""
     return LITTLE if raw[1] else BIG
 
 
@@ -270,8 +270,8 @@ def nanoseconds_at(raw: bytes, places: Places, kinds: Numbers) -> NDArray[np.int
 
     Args:
         raw: A whole message.
-        places: Shape (N, 2), of the words of seconds and nanoseconds.
-        kinds: Of its numbers.
+        places: Shape (N, 2), of the 4-byte units of seconds and nanoseconds.
+        kinds: Types of its numbers.
 
     Returns:
         Shape (N,).

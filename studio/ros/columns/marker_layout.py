@@ -41,7 +41,7 @@ class Texture(NamedTuple):
 
 
 class MarkerTexts(NamedTuple):
-    """What a marker says in texts and bytes; `texture` is None where all of it is empty."""
+    """Strings and bytes of a marker; `texture` is None where all of it is empty."""
 
     frame: str
     namespace: str
@@ -76,11 +76,11 @@ class Runs:
         self.counts.append(0)
 
     def starts(self) -> NDArray[np.intp]:
-        """Where the items of each list begin among all, and at last their number."""
+        """Return the index of each list's first item among all items, and at last their number."""
         return np.fromiter(accumulate(self.counts, initial=0), dtype=np.intp)
 
     def item_bytes(self, starts: NDArray[np.intp], each_bytes: int) -> Places:
-        """Where every item of every list begins, in bytes."""
+        """Return the index of every item's first byte."""
         shifts = np.array(self.begins, dtype=np.intp) - each_bytes * starts[:-1]
         return np.repeat(shifts, self.counts) + each_bytes * np.arange(
             int(starts[-1]), dtype=np.intp
@@ -113,7 +113,7 @@ class MarkerLayout:
 
 
 class MarkerWalk:
-    """One walk through a message, marker by marker."""
+    """One pass over a message, marker by marker."""
 
     def __init__(self, raw: bytes, type_name: str = TYPE_NAME) -> None:
         self._reader = BytesReader(raw, type_name)

@@ -91,7 +91,7 @@ class MarkerCodec:
 
     @property
     def layouts_kept(self) -> int:
-        """How many layouts of messages it remembers."""
+        """The number of layouts cached."""
         return len(self._known) + len(self._known_single)
 
     def decode(self, data: bytes | bytearray | memoryview) -> MarkerColumns:

@@ -118,7 +118,7 @@ def _poses_alike(reader: BytesReader, count: int) -> NDArray[np.float64] | None:
 
 
 def _name_end(reader: BytesReader, begin: int) -> int:
-    """Where the name of the frame ends in a pose with a header, from where the pose begins."""
+    """Return the end of the frame's name in a PoseStamped, from the begin of its pose."""
     at = begin + _STAMP_BYTES
     length = np.frombuffer(reader.raw, f"{reader.order}u4", 1, at)
     return _STAMP_BYTES + _LENGTH_BYTES + int(length[0])

@@ -48,7 +48,7 @@ class TransformCodec:
 
     @property
     def layouts_kept(self) -> int:
-        """How many layouts of messages it remembers."""
+        """The number of layouts cached."""
         return len(self._known)
 
     def decode(self, data: bytes | bytearray | memoryview) -> TransformColumns:

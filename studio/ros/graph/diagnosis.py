@@ -1,4 +1,4 @@
-"""Why no node is seen or no message arrives, in sentences that say what to do."""
+"""Finds out why no node is seen or no message arrives, in sentences with what to do."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ class DistroHashes:
 
 
 def why_not_heard(found: ForeignHashes, profile: WireProfile) -> str:
-    """Return a sentence that says which types differ, and what to do."""
+    """Return a sentence with the types that differ, and what to do."""
     named = ", ".join(found.types[:_NAMED_MAX])
     more = len(found.types) - _NAMED_MAX
     types = named + (f" and {more} more" if more > 0 else "")
@@ -130,9 +130,9 @@ class UnseenNodes:
     """Processes whose tokens a router does not pass on.
 
     Attributes:
-        count: How many, in the domain that was looked at.
-        versions: Of Zenoh that they have, such as `1.8.0`; empty where they do not say.
-        router_versions: Of Zenoh that the routers have; empty where they do not say.
+        count: Their number, in the domain examined.
+        versions: Their versions of Zenoh, such as `1.8.0`; empty if not reported.
+        router_versions: Versions of Zenoh of the routers; empty if not reported.
     """
 
     count: int
@@ -141,10 +141,10 @@ class UnseenNodes:
 
 
 def unseen_nodes(wire: WireSession) -> UnseenNodes | None:
-    """Compare who publishes with who shows a token; None when everybody is seen.
+    """Compare publishers with liveliness tokens; None when all nodes are seen.
 
-    Every process of rmw_zenoh says in Zenoh's admin space what it publishes, and the queries for
-    that reach it where its tokens do not get through. Lasts some seconds at most, so in a thread.
+    Every process of rmw_zenoh lists in Zenoh's admin space what it publishes, and queries for that
+    reach it even if its tokens do not get through. Takes some seconds: call it in a thread.
     """
     session = wire.zenoh
     publishing = set(_publishing(session, wire.domain))
@@ -163,7 +163,7 @@ def unseen_nodes(wire: WireSession) -> UnseenNodes | None:
 
 
 def why_unseen(found: UnseenNodes) -> str:
-    """Return a sentence that says why nodes are not seen, and what to do."""
+    """Return a sentence on why nodes are not seen, and what to do."""
     who = "1 process publishes" if found.count == 1 else f"{found.count} processes publish"
     theirs = f" (Zenoh {', '.join(found.versions)})" if found.versions else ""
     routers = f" (Zenoh {', '.join(found.router_versions)})" if found.router_versions else ""
@@ -176,7 +176,7 @@ def why_unseen(found: UnseenNodes) -> str:
 
 
 def router_versions(wire: WireSession) -> tuple[str, ...]:
-    """Versions of Zenoh of the routers that this session is linked with, as far as they say."""
+    """Return the versions of Zenoh of the routers of this session, as far as reported."""
     zids = (str(zid) for zid in wire.zenoh.info.routers_zid())
     return _versions(wire.zenoh, (f"@/{zid}/router" for zid in zids))
 
@@ -208,7 +208,7 @@ def _versions(session: Session, keys: Iterable[str]) -> tuple[str, ...]:
 
 
 def _version(said: bytes) -> str:
-    """`1.8.0` of `v1.8.0-2687c51 built with rustc 1.95.0`; empty where it says none."""
+    """Return `1.8.0` of `v1.8.0-2687c51 built with rustc 1.95.0`; empty if there is none."""
     try:
         answer: object = json.loads(said)
     except ValueError:

@@ -128,7 +128,7 @@ class Taken(Enum):
 
 @dataclass(slots=True)
 class _Standing:
-    """A node with its endpoints; `said` are tokens of its own, none while only theirs stand."""
+    """A node with its endpoints; `said` are its own tokens, of which it may have none."""
 
     node: GraphNode
     said: set[str] = field(default_factory=set[str])
@@ -164,7 +164,7 @@ class GraphTable:
         return len(self._tokens)
 
     def put(self, token: str, *, sure: bool = False) -> Taken:
-        """Take a token that stands; again is harmless, and nothing that it says is trusted."""
+        """Add a token; again is harmless, and its content is not trusted."""
         if token in self._tokens or token in self._refused:
             return Taken.KNOWN
         if token in self._gone_first and not sure:

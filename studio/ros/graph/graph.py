@@ -59,7 +59,7 @@ class Graph:
 
     @property
     def malformed(self) -> tuple[int, str | None]:
-        """How many tokens were none, and what was wrong with the last."""
+        """The number of malformed tokens, and what was wrong with the last."""
         with self._changed:
             return self._table.malformed, self._table.last_malformed
 
@@ -206,7 +206,7 @@ class Graph:
 
 
 class NodeParts(NamedTuple):
-    """Each group has what is not hidden, or all of it."""
+    """What a node has, grouped; hidden names may be left out."""
 
     subscribers: NamesAndType
     publishers: NamesAndType

@@ -26,12 +26,12 @@ class StateId(IntEnum):
 
     @property
     def label(self) -> str:
-        """The word for it on the wire."""
+        """The label in messages."""
         return self.name.lower()
 
 
 class TransitionCallbackReturn(Enum):
-    """How the work of a transition went, by rclpy's names."""
+    """Result of the callback of a transition, by rclpy's names."""
 
     SUCCESS = "transition_success"
     FAILURE = "transition_failure"
@@ -40,7 +40,7 @@ class TransitionCallbackReturn(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """A way from one state to another; those without a label that users know follow a callback."""
+    """From one state to another; transitions without a label that users know follow a callback."""
 
     id: int
     label: str
@@ -90,7 +90,7 @@ OnTransition = Callable[[Transition], None]
 
 
 class LifecycleMachine:
-    """Where a managed node stands; one thread changes it at a time."""
+    """State machine of a managed node; one thread changes it at a time."""
 
     def __init__(self, run: RunCallback, on_transition: OnTransition) -> None:
         self.state = StateId.UNCONFIGURED

@@ -40,7 +40,7 @@ class LifecycleState(NamedTuple):
 
 
 class ManagedEntity:
-    """Something whose callbacks are called with those of its node; each says how it went."""
+    """An object whose callbacks are called with those of its node; each returns its result."""
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Make ready."""
@@ -196,7 +196,7 @@ class LifecycleServices:
 
 
 class LifecycleNode(Node, ManagedEntity):
-    """A managed node: its callbacks do the work of transitions and say how it went.
+    """A managed node: its callbacks do the work of transitions and return the result.
 
     A callback that is overridden calls that of this class where managed entities, such as
     lifecycle publishers, are to follow. One that raises counts as ERROR.
@@ -221,7 +221,7 @@ class LifecycleNode(Node, ManagedEntity):
 
     @property
     def current_state(self) -> LifecycleState:
-        """Where it stands."""
+        """The current state."""
         return LifecycleState.of(self._lifecycle_machine.state)
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:

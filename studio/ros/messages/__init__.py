@@ -53,10 +53,10 @@ def types_of(distro: str) -> TypeLibrary:
 
 
 def add_own_types(library: TypeLibrary, environment: Mapping[str, str] = os.environ) -> None:
-    """Add the types that the environment names; the library says which texts are not valid.
+    """Add the types that the environment names; the library reports texts that are not valid.
 
     Raises:
-        WireSettingsError: One of the paths is not there, or holds no types.
+        WireSettingsError: One of the paths does not exist, or has no types.
     """
     for path in filter(None, environment.get(INTERFACES_VARIABLE, "").split(os.pathsep)):
         try:

@@ -43,11 +43,11 @@ class RosArguments:
     """The ROS arguments of a process.
 
     Attributes:
-        rest: The words that are not of ROS.
-        remaps: In the order given; the first that fits counts.
+        rest: The arguments that are not ROS's.
+        remaps: In the order given; the first that matches counts.
         parameters: In the order given; the last one counts.
-        files: Of parameters, before `parameters`.
-        levels: Of loggers by name, "" for all.
+        files: Parameter files, read before `parameters`.
+        levels: Log level by logger, "" for all.
     """
 
     rest: tuple[str, ...] = ()
@@ -89,10 +89,10 @@ class NodeArguments:
     files: tuple[str, ...] = field(default_factory=tuple)
 
     def remapped(self, full_name: str, node: NodeToken) -> str:
-        """Return another full name to a topic or service, if a remapping says so.
+        """Return the name of a topic or service after remapping.
 
         Raises:
-            RosNameError: A remapping makes a name that breaks a rule.
+            RosNameError: The new name is not valid.
         """
         for rule in self.remaps:
             source = rule.source.removeprefix("rostopic://").removeprefix("rosservice://")
@@ -107,10 +107,10 @@ class NodeArguments:
 
 
 def parse_arguments(words: Sequence[str]) -> RosArguments:
-    """Read the words of a command line; those outside of `--ros-args ... --` are left.
+    """Read command-line arguments; those outside of `--ros-args ... --` are left.
 
     Raises:
-        RosArgumentError: A word is no argument of ROS, or its value cannot be read.
+        RosArgumentError: One is no argument of ROS, or its value cannot be read.
     """
     rest: list[str] = []
     remaps: list[Rule] = []

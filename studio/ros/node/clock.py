@@ -26,7 +26,7 @@ CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 class ClockType(IntEnum):
-    """What an instant counts from."""
+    """The time base of an instant."""
 
     UNINITIALIZED = 0
     ROS_TIME = 1
@@ -284,7 +284,7 @@ class TimeJump:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JumpThreshold:
-    """Which jumps count; None for none in that direction."""
+    """Jumps that count; None for none in that direction."""
 
     min_forward: Duration | None = None
     min_backward: Duration | None = None

@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 
 class Context:
-    """Joined by `init`, or made `over` a session that is open; `shutdown` ends it.
+    """Opened by `init`, or made `over` an open session; `shutdown` ends it.
 
-    `ok` turns false at once when the process is asked to end, while the session stays open until
-    `shutdown`, so that a node can say good-bye.
+    `ok` turns false at once when a signal asks the process to end, while the session stays open
+    until `shutdown`, so that a node can still publish.
     """
 
     def __init__(self) -> None:
@@ -117,7 +117,7 @@ class Context:
         """Return the arguments of a node: its own, then those of the process.
 
         Raises:
-            RosArgumentError: A word is none that ROS knows.
+            RosArgumentError: One of them is no argument of ROS.
         """
         own = parse_arguments(words or ())
         if not use_global:

@@ -11,18 +11,18 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 PROMPT_LOOK_S = 0.0005
-"""Between two looks into what somebody waits for, while data flows."""
+"""Between two reads of rings that somebody waits for, while data flows."""
 LOOK_S = 0.002
-"""Between two looks while data flows, or into what somebody waits for."""
+"""Between two reads while data flows, or of rings that somebody waits for."""
 STREAM_LOOK_S = 0.004
-"""Between two looks while so much comes that whatever is taken is one of many."""
+"""Between two reads while so many samples come that each is one of many."""
 IDLE_LOOK_S = 0.01
-"""Between two looks when nothing came for a while."""
+"""Between two reads when nothing came for a while."""
 _IDLE_S = (LOOK_S, IDLE_LOOK_S)
 _FLOWS_S = 0.25
 _REST = 5
 _MANY = 8
-"""Samples of one look, some 4,000 a second: to look half as often takes a tenth less processor."""
+"""Samples of one read, some 4,000 a second: half as many reads take a tenth less processor."""
 
 logger = logging.getLogger(__name__)
 
@@ -82,7 +82,7 @@ class Drain:
                 self._prompt = (*self._prompt, source)
 
     def wait_no_more_for(self, source: Source) -> None:
-        """Look into a ring as into all others; harmless where nobody waits for it."""
+        """Read a ring as often as all others; harmless where nobody waits for it."""
         with self._lock:
             self._prompt = tuple(one for one in self._prompt if one is not source)
 
@@ -115,7 +115,7 @@ class Drain:
             else:
                 taken = self._look_into(self._sources, now_s)
                 self._calm_down(now_s)
-                # Ten thousand rings are looked into less often, so that looking costs no core.
+                # With ten thousand rings, reads are less frequent, so that they do not take a core.
                 took_s = time.monotonic() - now_s
                 look_at_all_s = now_s + max(IDLE_LOOK_S, _REST * took_s)
 
@@ -145,5 +145,5 @@ class Drain:
 
 
 def _pause_s(taken: int) -> float:
-    """How long to sleep after a look that took so much."""
+    """Return how long to sleep after so many samples were read."""
     return STREAM_LOOK_S if taken >= _MANY else LOOK_S

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class MatchedInfo(NamedTuple):
-    """How many are at the other end; the changes are since the last callback."""
+    """Number of matched endpoints; the changes are since the last callback."""
 
     total_count: int
     total_count_change: int
@@ -29,7 +29,7 @@ class MatchedInfo(NamedTuple):
 
 
 class CountInfo(NamedTuple):
-    """How often it happened; the change is since the last callback."""
+    """Number of occurrences; the change is since the last callback."""
 
     total_count: int
     total_count_change: int

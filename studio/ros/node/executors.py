@@ -26,7 +26,7 @@ _LOOK_S = 0.05
 
 
 class ExecutorNode(Home, Protocol):
-    """What an executor needs of a node."""
+    """The part of a node that an executor uses."""
 
     @property
     def executor(self) -> Executor | None:
@@ -43,9 +43,9 @@ class ExecutorNode(Home, Protocol):
 
 
 class Piece(NamedTuple):
-    """What is to be carried out, and the work it is taken from; a task has none.
+    """A callable to run, and the work it is taken from; a task has none.
 
-    One is made for every message, for which a tuple takes the least time.
+    A tuple, for it is made fastest: there is one for every message.
     """
 
     run: Callable[[], object]
@@ -213,7 +213,7 @@ class Executor:
         return True
 
     def _keep(self, task: Task) -> None:
-        """Hold a task until it is done: what it awaits may be held by nobody but itself."""
+        """Hold a task until it is done: nothing else may refer to it."""
         self._tasks.add(task)
         task.listen(lambda: self._tasks.discard(task))
 
@@ -223,7 +223,7 @@ class Executor:
             self._carry_out(piece)
 
     def _next(self, timeout_s: float | None, enough: Callable[[], bool] | None) -> Piece | None:
-        """Wait for a piece, None when the time is over, `enough` says so or the executor ends."""
+        """Wait for a piece; None when the time is over, `enough()` is true or the executor ends."""
         end_s = None if timeout_s is None or timeout_s < 0 else time.monotonic() + timeout_s
         with self._lock:
             while True:
@@ -318,10 +318,10 @@ def _left(timeout_s: float | None) -> Any:  # noqa: ANN401
 
 
 class MultiThreadedExecutor(Executor):
-    """Carries out work in `num_threads` threads; callback groups say what may run beside what.
+    """Runs callbacks in `num_threads` threads; callback groups decide what may run concurrently.
 
-    A piece is taken only when a thread is free for it, so that what waits stays where the depth
-    of its subscription bounds it. What a callback raises is raised where the executor spins.
+    A piece is taken only when a thread is free for it, so that samples wait where the depth of
+    their subscription bounds them. What a callback raises is raised where the executor spins.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:

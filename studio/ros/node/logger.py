@@ -163,7 +163,7 @@ class Logger:
         with self._lock:
             last_s = self._said.get(place)
             if last_s is None:
-                # A first one that is skipped counts as not said for throttling, as in rclpy.
+                # A first one that is skipped does not count for throttling, as in rclpy.
                 self._said[place] = -throttle_s if skip_first else now_s
                 return not skip_first
             if once and last_s > 0:

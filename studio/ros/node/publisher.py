@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 
 class Publisher:
-    """One topic's sender; any thread may publish.
+    """Publishes on one topic; thread-safe.
 
     Attributes:
-        events: What calls back on events of it, work of its node.
+        events: Handlers that call back on its events, work of its node.
     """
 
     def __init__(self, endpoint: Endpoint, msg_type: type[MessageValue]) -> None:
@@ -49,7 +49,7 @@ class Publisher:
 
     @property
     def qos_profile(self) -> QoSProfile:
-        """As asked for."""
+        """The profile asked for."""
         return self.endpoint.token.qos
 
     def publish(self, msg: MessageValue | bytes | bytearray) -> None:

@@ -39,7 +39,7 @@ class QoSPolicyKind(IntEnum):
 
 
 class QosCallbackResult(NamedTuple):
-    """What a callback answers that judges a profile."""
+    """Result of a callback that accepts or refuses a profile."""
 
     successful: bool = True
     reason: str = ""
@@ -48,7 +48,7 @@ class QosCallbackResult(NamedTuple):
 class QoSOverridingOptions:
     """Policies that parameters `qos_overrides.<topic>.<publisher|subscription>[_id].*` may set.
 
-    `callback` is given the profile that comes of it, and says whether it may be.
+    `callback` receives the resulting profile, and decides whether it is accepted.
     """
 
     def __init__(

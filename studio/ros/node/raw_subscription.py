@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.zenoh import Incoming, Sample
 
 RING: Final = 4_096
-"""Samples that Zenoh keeps between two looks, where not only the newest counts."""
+"""Samples that Zenoh keeps between two reads, where not only the newest counts."""
 _SWAP_PATIENCE_S: Final = 2.0
 
 TakeSamples: TypeAlias = Callable[[list[RawSample], int, int], object]
@@ -64,7 +64,7 @@ class RawSubscription:
         self._next: _Swap | None = None
         self._closed = False
         self._turn = threading.Lock()
-        """Of who deepens and who closes it."""
+        """Held while its depth grows, and while it closes."""
         self._swapping = threading.Lock()
         self._newest_only = False
         self._endpoint, self._incoming = self._declared(qos)
@@ -77,7 +77,7 @@ class RawSubscription:
         return self._gaps.lost
 
     def read(self, *, newest_only: bool) -> None:
-        """Read of what comes together the newest alone, whose losses nobody counts, or all."""
+        """Read only the newest of samples that came together, without counting losses, or all."""
         if self._newest_only and not newest_only:
             self._gaps.begin_anew()
         self._newest_only = newest_only

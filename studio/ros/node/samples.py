@@ -17,7 +17,7 @@ BLINK_NS = 20_000_000
 SAMPLES_MAX = 4_096
 SENDERS_MAX = 10_000
 LATE_MAX = 256
-"""How many missing samples of one sender may still come late."""
+"""So many missing samples of one sender may still come late."""
 
 
 class RawSample(NamedTuple):
@@ -33,15 +33,15 @@ class RawSample(NamedTuple):
 
 
 class SampleQueue:
-    """Keeps the last `depth` samples, and those of the last blink of 20 ms.
+    """Keeps the last `depth` samples, and those of the last 20 ms.
 
-    The drain looks every 2 ms and threads take turns: what came a moment ago is no backlog,
-    however fast its sender is, so that a reader that keeps up loses nothing. A depth of 1 means
-    the newest and nothing else.
+    Rings are read every 2 ms and threads take turns: what came a moment ago is no backlog, however
+    fast its sender is, so that a reader that keeps up loses nothing. A depth of 1 means the newest
+    and nothing else.
 
     Attributes:
-        samples: Those that wait, the oldest first; they are taken from the left.
-        overwritten: How many fell out.
+        samples: Those that wait, the oldest first; taken from the left.
+        overwritten: The number dropped.
     """
 
     def __init__(self, depth: int) -> None:
@@ -56,7 +56,7 @@ class SampleQueue:
         return len(self.samples)
 
     def post(self, samples: list[RawSample]) -> None:
-        """Put in what came since the last look; what is too old falls out."""
+        """Add the samples that came since the last call; drop what is too old."""
         with self._lock:
             waiting = self.samples
             waiting.extend(samples)
@@ -77,7 +77,7 @@ class SampleQueue:
 
 @dataclass(slots=True)
 class _Sender:
-    """Where a sender is: its highest number, when that was sent, and what may still come."""
+    """A sender's highest number, when that was sent, and the numbers that may still come."""
 
     last: int
     last_ns: int

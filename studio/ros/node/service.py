@@ -49,9 +49,9 @@ class _Request:
 
 
 class Service(Work):
-    """One service's server; the callback takes a request and a response, and returns the response.
+    """Serves one service; the callback takes a request and a response, and returns the response.
 
-    The last `depth` requests wait; older ones are dropped, and their clients learn that there
+    The last `depth` requests wait; older ones are dropped, and their clients get an error at once.
     will be no answer.
     """
 
@@ -90,7 +90,7 @@ class Service(Work):
 
     @property
     def qos_profile(self) -> QoSProfile:
-        """As asked for."""
+        """The profile asked for."""
         return self.endpoint.token.qos
 
     @property

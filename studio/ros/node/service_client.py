@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.zenoh import Querier
 
 SERVICE_TIMEOUT_S = 600.0
-"""How long rmw_zenoh lets a service take."""
+"""rmw_zenoh's limit for the duration of a call."""
 _LOOK_S = 0.1
 _LOST_LOOK_S = 0.25
 _LOST_LOOKS = 4
@@ -53,7 +53,7 @@ _SILENCE = b"Timeout"
 
 @dataclass(slots=True)
 class _Call:
-    """A request that is under way; `answered` when a reply came, others may follow."""
+    """A pending request; `answered` when a reply came, others may follow."""
 
     future: Future[Any]
     replies: Replies
@@ -68,7 +68,7 @@ class Client(Work):
 
     A future ends with the first response; with NotServedError when nobody serves the service,
     and with NoAnswerError when a server was silent for longer than `timeout_s`. When several
-    nodes serve it, each does what was asked, and the first answer counts: this is said once.
+    nodes serve it, each handles the request, and the first answer counts, with one warning.
     """
 
     def __init__(
@@ -106,7 +106,7 @@ class Client(Work):
 
     @property
     def qos_profile(self) -> QoSProfile:
-        """As asked for."""
+        """The profile asked for."""
         return self.endpoint.token.qos
 
     @property
@@ -198,7 +198,7 @@ class Client(Work):
         return lambda: self._settle(future, answer)
 
     def destroy(self) -> None:
-        """Take it back; requests that are under way are cancelled."""
+        """End the client; pending requests are cancelled."""
         with self._lock:
             querier, self._querier = self._querier, None
             calls, self._calls = self._calls, {}
@@ -257,9 +257,9 @@ class Client(Work):
             self._done.append((call.future, failure))
 
     def _look_for_lost(self, calls: list[tuple[int, _Call]]) -> None:
-        """End calls whose server is gone for a while, and that Zenoh did not end.
+        """End calls whose server has been gone for a while, and that Zenoh did not end.
 
-        It forgets a request that meets the end of its server on the way.
+        Zenoh forgets a request that arrives while its server ends.
         """
         self._look_at_s = time.monotonic() + _LOST_LOOK_S
         is_served = self.service_is_ready()

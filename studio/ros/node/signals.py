@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from studio.ros.node.context import Context
 
 GRACE_S = 1.0
-"""How long a process may take to end by itself."""
+"""So long a process may take to end by itself."""
 CLOSING_S = 0.2
-"""How long sessions may take to close when it did not."""
+"""So long sessions may take to close if it did not."""
 
 
 class SignalHandlerOptions(IntFlag):
-    """Which signals end the contexts of a process."""
+    """Signals that end the contexts of a process."""
 
     NO = 0
     SIGINT = 1
@@ -98,7 +98,7 @@ class SignalHandlers:
         if number not in self._before or not contexts:
             return
         if number == signal.SIGINT:
-            # KeyboardInterrupt is under way when it is handled: what catches it may take its time.
+            # KeyboardInterrupt is being handled: what catches it may take its time.
             ends = self._interrupted.acquire(timeout=GRACE_S)
         else:
             ends = contexts[0].wait_closed(GRACE_S)
@@ -116,7 +116,7 @@ class _Watch:
 
     @classmethod
     def begin(cls, on_signal: Callable[[int], None]) -> _Watch | None:
-        """Begin, unless somebody else (such as asyncio) learns of signals in this way."""
+        """Begin, unless something else (such as asyncio) handles signals by this means."""
         watch = cls(on_signal)
         before = signal.set_wakeup_fd(watch._writer.fileno(), warn_on_full_buffer=False)
         if before != -1:

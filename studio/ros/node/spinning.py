@@ -52,12 +52,12 @@ def init(
     settings: WireSettings | None = None,
     router: str = "auto",
 ) -> InitContextManager:
-    """Join the wire; nodes are made after.
+    """Open the default context; nodes are made after.
 
     Args:
-        args: Words of the command line, by default those of the process; names, remappings and
-            parameters that follow `--ros-args` are read.
-        context: What is joined; by default the default context.
+        args: Arguments of the command line, by default those of the process; names, remappings and
+            parameters after `--ros-args` are read.
+        context: The context to open; by default the default context.
         domain_id: The domain; by default that of the environment.
         signal_handler_options: Which signals end the context; by default all end the default
             context, and none ends another.
@@ -65,9 +65,9 @@ def init(
         router: `auto` starts a router where none answers, `off` starts none.
 
     Raises:
-        AlreadyJoinedError: It is joined.
-        RosArgumentError: A word after `--ros-args` is none that ROS knows.
-        WireError: The router cannot be joined.
+        AlreadyJoinedError: It is open.
+        RosArgumentError: One after `--ros-args` is no argument of ROS.
+        WireError: The router cannot be reached.
     """
     joined = context or default_context()
     options = signal_handler_options
@@ -218,7 +218,7 @@ def wait_for_answer(
     """Wait for a future: a node that nobody spins is spun meanwhile.
 
     Raises:
-        NoAnswerError: It is not known in time; it is cancelled then.
+        NoAnswerError: It is not done in time, and was cancelled.
     """
     if node.executor is None:
         spin_until_future_complete(node, future, timeout_sec=timeout_s)

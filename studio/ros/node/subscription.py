@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.zenoh import Incoming, Sample
 
 RING = 4_096
-"""Samples that Zenoh keeps between two looks, where not only the newest counts."""
+"""Samples that Zenoh keeps between two reads, where not only the newest counts."""
 
 MessageCallback = Callable[[Any], object] | Callable[[Any, MessageInfo], object]
 """Takes a message, or its bytes where they are raw; and what came with it, if it has two."""
@@ -43,14 +43,14 @@ MessageCallback = Callable[[Any], object] | Callable[[Any, MessageInfo], object]
 
 @dataclass(slots=True)
 class Losses:
-    """What did not reach the callback of a subscription.
+    """Samples that did not reach the callback of a subscription.
 
     Attributes:
-        lost: Missing between the numbers of a sender: on the way, or overwritten in the ring.
-        overwritten: Came, and fell out of the queue because the callback was too slow.
-        refused: Came without an attachment of rmw_zenoh's.
-        malformed: Could not be decoded.
-        reason: The last one for which a sample was refused or malformed, in a sentence.
+        lost: Missing in the numbers of a sender: on the way, or overwritten in the ring.
+        overwritten: Received, and dropped from the queue because the callback was too slow.
+        refused: Received without an attachment of rmw_zenoh's.
+        malformed: Not decoded.
+        reason: Why the last sample was refused or malformed, a sentence.
     """
 
     lost: int = 0
@@ -61,13 +61,13 @@ class Losses:
 
 
 class Subscription(Work):
-    """One topic's receiver.
+    """Receives one topic.
 
-    The callback takes the message, or the message and a `MessageInfo`. With `raw` it is given
-    the bytes of the CDR instead of the message. Without a callback, `async for` takes messages.
+    The callback takes the message, or the message and a `MessageInfo`. With `raw` it takes the
+    bytes of the CDR instead of the message. Without a callback, `async for` takes messages.
 
     Attributes:
-        events: What calls back on events of it, work of its node.
+        events: Handlers that call back on its events, work of its node.
         lost_event: The one of them that counts lost messages.
     """
 
@@ -105,7 +105,7 @@ class Subscription(Work):
 
     @property
     def qos_profile(self) -> QoSProfile:
-        """As asked for."""
+        """The profile asked for."""
         return self.endpoint.token.qos
 
     def get_publisher_count(self) -> int:
@@ -114,7 +114,7 @@ class Subscription(Work):
 
     @property
     def losses(self) -> Losses:
-        """What was lost until now, a copy."""
+        """The losses until now, a copy."""
         return replace(self._losses, lost=self._gaps.lost, overwritten=self._inbox.overwritten)
 
     @property

@@ -168,7 +168,7 @@ class Future(Generic[ResultT]):
             return
         try:
             callback(self)
-        except Exception:  # the thread that settles it is nobody's who called back
+        except Exception:  # the thread that settles it has nothing to do with the callback
             logger.exception("a callback of a future failed")
 
 
@@ -217,7 +217,7 @@ class Task(Future[Any]):
                 self._coroutine = result
             self._go_on()
         except asyncio.CancelledError:
-            self.cancel()  # what it awaited was given up, which is nobody's fault
+            self.cancel()  # what it awaited was cancelled, which is no error
         except BaseException as error:
             self.set_exception(error)
             raise

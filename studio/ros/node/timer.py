@@ -76,7 +76,7 @@ class Timer(Work):
 
     @property
     def due_s(self) -> float | None:
-        """When it will be ready, on the monotonic clock; None when it is not to be waited for."""
+        """When it will be ready, on the monotonic clock; None if it is not to be waited for."""
         if self._cancelled:
             return None
         left_ns = self._next_ns - self._now_ns()
@@ -95,7 +95,7 @@ class Timer(Work):
         return self.callback or _nothing
 
     def cancel(self) -> None:
-        """Be ready no more, until `reset`."""
+        """Stop, until `reset`."""
         self._cancelled = True
 
     def is_canceled(self) -> bool:
@@ -119,7 +119,7 @@ class Timer(Work):
         return None if self._cancelled else self._next_ns - self._now_ns()
 
     def destroy(self) -> None:
-        """Be ready no more."""
+        """Stop for good."""
         self.cancel()
         self._jumps.unregister()
         self.clock.unwatch(self._told)

@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 _BUCKET_NS: Final = 50_000_000
 _WINDOW_NS: Final = 4_000_000_000
 _SEEN_NS: Final = 60_000_000_000
-"""How far back two arrivals may lie that still make a rate."""
+"""Largest gap between two arrivals that still give a rate."""
 _SILENT_NS: Final = 3_000_000_000
 _PERIODS: Final = 3
-"""So many periods of its own without a sample make it silent."""
+"""After so many of its own periods without a sample, a topic is silent."""
 RING: Final = 64
-"""Samples that Zenoh keeps between two looks; what falls out is counted by its numbers."""
+"""Samples that Zenoh keeps between two reads; dropped ones are counted by their numbers."""
 _MISSED_MAX: Final = 10_000
 """A peer may write any number."""
 
@@ -53,7 +53,7 @@ class Flow:
 
 
 class _Mark(NamedTuple):
-    """How much had come at a time."""
+    """The counts at a time."""
 
     at_ns: int
     samples: int
@@ -114,10 +114,10 @@ class Arrivals:
 class TopicStatistics:
     """Subscribes to a topic, and ends by itself when nobody asked for `kept_s`.
 
-    It shows no token, so that nobody sees one more subscription; payloads are never copied.
+    It declares no token, so the graph shows no further subscription; payloads are never copied.
 
     Raises:
-        RosNameError: No topic is named so.
+        RosNameError: The name of the topic is not valid.
     """
 
     def __init__(self, context: Context, topic: str, kept_s: float) -> None:
@@ -153,7 +153,7 @@ class TopicStatistics:
         return len(samples)
 
     def _missed(self, samples: Sequence[Sample]) -> int:
-        """How many fell out of the ring; none are known of senders that do not number them."""
+        """Count samples dropped from the ring, as far as senders number them."""
         missed = 0
         for sample in samples:
             attachment = sample.attachment

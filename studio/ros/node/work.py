@@ -72,7 +72,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
 
 
 class Home(Protocol):
-    """Where work announces itself: a node, or an executor."""
+    """What work reports to: a node, or an executor."""
 
     def announce(self, work: Work) -> None:
         """Note that a piece of work is ready; from any thread."""

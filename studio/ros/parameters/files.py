@@ -33,14 +33,14 @@ def read_parameters(
     *,
     wildcards: bool = True,
 ) -> list[Parameter]:
-    """Read what a file says of the node of that full name; `where` names the file in errors.
+    """Read what a file has for the node of that full name; `where` names the file in errors.
 
     A name may be whole (`/ns/node`), in levels (`ns: node:`), or, with `wildcards`, hold `*` for
-    one part and `**` for any number of them. What stands below in the file comes before what
-    stands above.
+    one part and `**` for any number of them. What is lower in the file comes before what is above
+    it.
 
     Raises:
-        ParameterFileError: It is no such file, or a value is none that a parameter can hold.
+        ParameterFileError: The file is not valid, or a value fits no parameter.
     """
     try:
         tree = read_yaml(text, "it")

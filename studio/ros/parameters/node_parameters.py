@@ -205,11 +205,11 @@ class NodeParameters:
 
         Args:
             host: The node, which can publish and serve already.
-            types: Those that the node's session speaks.
+            types: Those of the node's session.
             overrides: Values given at the start.
-            allow_undeclared: Take parameters that nobody declared.
-            declare_overrides: Declare what was given at the start by itself.
-            serve: Let other nodes ask and set.
+            allow_undeclared: Accept parameters that were not declared.
+            declare_overrides: Declare the values given at the start.
+            serve: Let other nodes get and set them.
         """
         events = ParameterEvents(host, types)
         self._parameter_store = ParameterStore(
@@ -407,7 +407,7 @@ class NodeParameters:
 
 
 class ParameterHost(Protocol):
-    """What the parameters need of their node."""
+    """The part of a node that its parameters use."""
 
     def create_service(
         self,

@@ -27,7 +27,7 @@ DESCRIPTOR = "rcl_interfaces/msg/ParameterDescriptor"
 
 
 class ParameterType(IntEnum):
-    """What a parameter holds, by the numbers of rcl_interfaces."""
+    """Type of a parameter, by the numbers of rcl_interfaces."""
 
     NOT_SET = 0
     BOOL = 1

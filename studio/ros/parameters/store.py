@@ -74,15 +74,15 @@ class ParameterCallbacks:
 
 
 def _refusal(result: Any, agreed: MessageValue) -> MessageValue:  # noqa: ANN401
-    # A callback without a return statement refuses everything: say so, it is a usual slip.
+    # A callback without a return statement refuses everything: report it, it is a usual slip.
     reason = getattr(result, "reason", "the callback of the node returned no SetParametersResult")
     return type(agreed)(successful=False, reason=reason or "the callback of the node refused it")
 
 
 def range_violation(parameter: Parameter, descriptor: MessageValue) -> str | None:
-    """Say in rclpy's words why a value is outside the range of a descriptor, None if it is not.
+    """Return rclpy's message for a value outside a descriptor's range; None if it is inside.
 
-    The ends of a range are always taken; a step counts from its lower end, 0 is none.
+    The ends of a range are always accepted; a step counts from its lower end, 0 is none.
     """
     if parameter.type_ is ParameterType.INTEGER and descriptor.integer_range:
         return _integer_violation(parameter, descriptor.integer_range[0])
@@ -150,7 +150,7 @@ class _Declared:
 
 @dataclass(slots=True)
 class _Step:
-    """What is about to be set, sorted by what it will be."""
+    """Parameters about to be set, sorted by what they will be."""
 
     new: list[Parameter] = field(default_factory=list[Parameter])
     changed: list[Parameter] = field(default_factory=list[Parameter])
@@ -371,7 +371,7 @@ class ParameterStore:
                 if known is not None:
                     self._check_change(parameter, known.descriptor)
         except InvalidParameterValueError as error:
-            # In rclpy's words, by which others may know it.
+            # rclpy's message, by which others may recognise it.
             return self.messages.SetParametersResult(successful=False, reason=error.reason)
         except ParameterError as error:
             return self.messages.SetParametersResult(successful=False, reason=str(error))

@@ -105,7 +105,7 @@ def parts_of(kind: type[MessageValue]) -> dict[str, type[MessageValue]]:
 
 
 def attribute_name(field: str) -> str:
-    """Name the attribute of a field: Python's own words end in an underscore."""
+    """Return the attribute of a field: Python's keywords end in an underscore."""
     return f"{field}_" if keyword.iskeyword(field) else field
 
 
@@ -115,9 +115,9 @@ def slot_name(attribute: str) -> str:
 
 
 def maker_of(kind: type[MessageValue]) -> Callable[..., MessageValue]:
-    """Write what makes a value of what was decoded, whose fields are of their types already.
+    """Write a function that makes a value from decoded fields, which have the right types.
 
-    Only how many there are in a bounded sequence is looked at again.
+    Only the lengths of bounded sequences are checked.
     """
     message = definition_of(kind)
     known: dict[str, object] = {"_kind": kind, "_new": object.__new__}

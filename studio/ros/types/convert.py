@@ -31,14 +31,14 @@ _ABBREVIATED = {"float32": "float", "float64": "double", "bool": "boolean", "byt
 _HEADER = "std_msgs/msg/Header"
 _TIME = "builtin_interfaces/msg/Time"
 _EXACT_MAX: Final = 2**53
-"""From here on numbers of JavaScript leave out whole ones."""
+"""From here on JavaScript's numbers skip integers."""
 _LENGTHS: Final = (10_000, 1_000, 100, 10)
-"""Of arrays and texts, tried in turn."""
+"""Limits for arrays and texts, tried in turn."""
 
 
 @dataclass(frozen=True, slots=True)
 class Brevity:
-    """What is left out: values of arrays, letters of texts, all beyond a length."""
+    """What to leave out: arrays, texts, or of both what is beyond a length."""
 
     no_arrays: bool = False
     no_texts: bool = False
@@ -153,7 +153,7 @@ class _Reader:
 
 
 def _fitted(kind: FieldType, value: object) -> object:
-    """Take what YAML makes of a bare word or number for what the field means."""
+    """Convert what YAML makes of a bare text or number to the type of the field."""
     if isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _HUGE:
         if kind.base in STRINGS:
             return str(value)
@@ -249,7 +249,7 @@ def _readable(value: object) -> object:
     return _number(value)
 
 
-def _number(value: Any) -> object:  # noqa: ANN401 - what YAML makes of a word
+def _number(value: Any) -> object:  # noqa: ANN401 - what YAML makes of a text
     if isinstance(value, int):
         return value if abs(value) <= _EXACT_MAX else str(value)
     if isinstance(value, float):

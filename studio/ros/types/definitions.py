@@ -163,7 +163,7 @@ def service_event(service: Service) -> Message:
 
 
 def service_as_message(service: Service) -> Message:
-    """Make the type that a service's hash is taken of; nobody sends it."""
+    """Return the type that a service's hash is taken of; it is never sent."""
     return Message(
         service.name,
         (
@@ -215,7 +215,7 @@ def feedback_message(action: Action) -> Message:
 
 
 def action_as_message(action: Action) -> Message:
-    """Make the type that an action's own hash is taken of; nobody sends it."""
+    """Return the type that an action's own hash is taken of; it is never sent."""
     parts = {
         "goal": f"{action.name}_Goal",
         "result": f"{action.name}_Result",
@@ -238,7 +238,7 @@ def check_sizes(message: Message, find: Callable[[str], Message]) -> None:
 
 
 class _Walk:
-    """One walk through a type; what was measured once is not walked again."""
+    """One traversal of a type; what was measured once is not measured again."""
 
     def __init__(self, find: Callable[[str], Message]) -> None:
         self._find = find

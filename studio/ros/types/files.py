@@ -95,7 +95,7 @@ def read_text(path: Path) -> str:
     try:
         # A pipe would wait for its writer, for ever.
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
-        with open(handle, "rb") as file:  # noqa: PTH123  # of the handle that was looked at
+        with open(handle, "rb") as file:  # noqa: PTH123  # of the handle that was checked
             if not stat.S_ISREG(os.fstat(handle).st_mode):
                 raise UnreadableFileError(str(path), "it is no regular file.")
             data = file.read(TEXT_BYTES_MAX + 1)

@@ -114,7 +114,7 @@ class _HintedError(ValueError):
 
 @dataclass
 class _Draft:
-    """What was read of one message so far; `above` are comments that wait for a member."""
+    """One message as read so far; `above` are comments that wait for a member."""
 
     package: str
     fields: list[Field] = field(default_factory=list[Field])
@@ -122,13 +122,13 @@ class _Draft:
     above: list[str] = field(default_factory=list[str])
     comment: str = ""
     lines: dict[str, int] = field(default_factory=dict[str, int])
-    """In which line each member stands."""
+    """The line of each member."""
 
     def take(self, number: int, line: str) -> None:
         """Read one line.
 
         Raises:
-            ValueError: It breaks a rule; half a sentence says which.
+            ValueError: It breaks a rule; half a sentence describes it.
         """
         if len(line) > LINE_CHARACTERS_MAX:
             raise ValueError(f"the line is longer than {LINE_CHARACTERS_MAX} characters")
@@ -357,7 +357,7 @@ def _items(text: str) -> list[str]:
 
 
 def text_of(interface: Interface) -> str:
-    """Write what a .msg, .srv or .action would say: constants, fields and defaults."""
+    """Return the text of a .msg, .srv or .action: constants, fields and defaults."""
     return "---\n".join("".join(_lines(part)) for part in messages_of(interface))
 
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     from studio.ros.types.files import InterfaceTexts
 
-# What nodes themselves speak: a text that says otherwise would cut them off from all others.
+# What nodes themselves use: another definition would cut them off from all others.
 _SETTLED = {
     "action_msgs",
     "builtin_interfaces",
@@ -210,7 +210,7 @@ class TypeLibrary:
         return read, faults
 
     def _take(self, read: list[tuple[Interface, str]]) -> dict[str, InterfaceTextError]:
-        """Take all, then say which are not sound among the others; the lock is held."""
+        """Add all, then return those that are not valid together; the lock is held."""
         self._own = self._own.with_more(read)
         unsound: dict[str, InterfaceTextError] = {}
         for interface, _ in read:

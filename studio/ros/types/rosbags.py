@@ -113,7 +113,7 @@ class CdrCode:
 
 
 class _Parts:
-    """The types that one is made of, where generated code looks for them by name."""
+    """The types that one is made of, by name, for generated code."""
 
     max_sequence_length = SEQUENCE_PLACES_MAX
 

@@ -41,9 +41,9 @@ def is_separator(line: str) -> bool:
 
 
 def hint_for(code: str) -> str:
-    """Say what to write instead of a line without its comment, in half a sentence; empty: unknown.
+    """Return what to write instead of a line without its comment, half a sentence; empty: unknown.
 
-    The line is one that was refused: what is fine is not looked for.
+    The line is one that was refused; a valid one is not checked for.
     """
     if len(code) > _CHARACTERS_MAX:
         return ""

@@ -1,4 +1,4 @@
-"""Type descriptions: what nodes tell each other about their types by `get_type_description`.
+"""Type descriptions, which nodes exchange by `get_type_description`.
 
 A library learns a type only if its description has the expected hash.
 """
@@ -190,15 +190,15 @@ def learn(
     descriptions: Mapping[str, tuple[str, MessageValue]],
     source_texts: Iterable[MessageValue] = (),
 ) -> list[str]:
-    """Take up a type and all it is made of that is not known yet; return the names added.
+    """Add a type and all it uses that is not known yet; return the names added.
 
     Args:
-        types: Where to.
+        types: The library to add to.
         name: A message, service or action.
-        descriptions: What nodes said, with the hash expected, by the name that was asked: `name`
-            itself, or the parts of an action that stand in `ACTION_QUESTIONS`.
-        source_texts: TypeSources; one that says the same as the description is kept with its
-            comments, others are passed over.
+        descriptions: Received from nodes, with the hash expected, by the name asked for: `name`
+            itself, or the parts of an action in `ACTION_QUESTIONS`.
+        source_texts: TypeSources; one that agrees with the description is kept with its comments,
+            others are skipped.
 
     Raises:
         TypeDescriptionError: A description is wrong, or differs from a known type.
@@ -221,7 +221,7 @@ def learn(
 
 
 def matching_sources(types: TypeLibrary, source_texts: Iterable[MessageValue]) -> dict[str, str]:
-    """Return those TypeSources, by name, that say what the library has; others are passed over."""
+    """Return the TypeSources that agree with the library, by name; others are skipped."""
     found: dict[str, str] = {}
     for one in source_texts:
         text = one.raw_file_contents

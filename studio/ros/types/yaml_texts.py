@@ -18,7 +18,7 @@ def read_yaml(text: str, source: str = "") -> Any:  # noqa: ANN401
     `source` names the text in errors, such as a file; without one, its beginning is quoted.
 
     Raises:
-        ValueError: It is no YAML, or too long; half a sentence says what, where and why.
+        ValueError: It is no YAML, or too long; half a sentence has what, where and why.
     """
     if len(text) > YAML_CHARACTERS_MAX:
         raise ValueError(f"more than {YAML_CHARACTERS_MAX} characters were given")
@@ -66,7 +66,7 @@ class _Dumper(yaml.SafeDumper):
     """YAML that reads back: texts with rare ends of lines are quoted with escapes."""
 
     def represent_text(self, text: str) -> yaml.ScalarNode:
-        """Choose how a text is written; the plain way where that keeps every letter."""
+        """Choose how a text is written; plain where that keeps every letter."""
         style = '"' if _RARE_LINE_ENDS.intersection(text) else None
         return yaml.ScalarNode("tag:yaml.org,2002:str", text, style=style)
 

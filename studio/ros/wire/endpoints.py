@@ -95,9 +95,9 @@ class ProbeResult(StrEnum):
     ZENOH = "zenoh"
     OTHER = "other"
     TLS = "tls"
-    """Something is there, behind TLS, where only Zenoh itself can look."""
+    """Something is there, behind TLS, where only Zenoh itself can connect."""
     UNKNOWN = "unknown"
-    """There is no looking without Zenoh."""
+    """It cannot be checked without Zenoh."""
 
 
 def probe(endpoint: Endpoint) -> ProbeResult:
@@ -114,16 +114,14 @@ def probe(endpoint: Endpoint) -> ProbeResult:
 
 
 def _knock(endpoint: Endpoint) -> ProbeResult | None:
-    """Knock once; None when somebody hung up without a word, as a router does that is ending."""
+    """Connect once; None when the other side closed at once, as a router does that is ending."""
     try:
         link = socket.create_connection((endpoint.host, endpoint.port), CONNECT_TIMEOUT_S)
     except OSError:
         return ProbeResult.NOBODY
     with link:
         if link.getsockname() == link.getpeername():
-            return (
-                ProbeResult.NOBODY
-            )  # a port that nobody holds may be lent to the one who asks for it
+            return ProbeResult.NOBODY  # a socket may connect to itself at a free port
         if endpoint.protocol == "tls":
             return ProbeResult.TLS
         return _answer_on(link)
@@ -149,6 +147,6 @@ def _is_zenoh(answer: bytes) -> bool:
     if len(answer) < 3:
         return False
     length, kind = int.from_bytes(answer[:2], "little"), answer[2] & _MESSAGE_ID
-    # A router that wants a name and password says so, and hangs up.
+    # A router that wants a name and password reports it, and closes.
     hung_up = kind == _CLOSE and length == 2
     return hung_up or (kind == _INIT and bool(answer[2] & _IS_ANSWER))

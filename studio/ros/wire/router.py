@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 _log = logging.getLogger(__name__)
 
 _TOKENS: Final = (f"{ADMIN_SPACE}/**", "**/@adv/**", "@/*/@ros2_lv/**")
-"""Of nodes and endpoints, of publishers that keep samples, and of bridges to DDS."""
+"""Tokens of nodes and endpoints, of publishers that keep samples, and of bridges to DDS."""
 _USERS: Final = "transport/auth/usrpwd"
 _SETTLE_S: Final = 0.5
 """After this the router has every token that it takes from the peers themselves."""
@@ -52,16 +52,16 @@ _ACCEPT_TIMEOUT_MS = 5_000
 """A peer that begins a handshake and falls silent is let go after this."""
 _LOOK_AGAIN_S = 0.25
 _OF_SESSIONS = frozenset({"mode", "connect", "listen", "scouting", "open"})
-"""Keys of an override that say how nodes find routers, which is no affair of a router here."""
+"""Keys of an override about how nodes find routers, which do not concern a router here."""
 
 
 @dataclass(frozen=True, slots=True)
 class RouterChoice:
-    """What `--router` says.
+    """The value of `--router`.
 
     Attributes:
         starts: Whether a router is started where none answers.
-        endpoint: Where, None for the endpoint that is connected to.
+        endpoint: Its address; None: the endpoint to connect to.
     """
 
     starts: bool = True
@@ -168,7 +168,7 @@ def run_router(
         signal.signal(number, end)
     with start_router(parse_endpoint(listen), overrides, config_file) as router:
         ready(router.endpoint.text)
-        # A signal that comes while a wait begins does not end that wait: look again.
+        # A signal that comes while a wait begins does not end that wait: check again.
         while not asked_to_end.wait(_LOOK_AGAIN_S):
             pass
 
@@ -188,7 +188,7 @@ def _base(config_file: str | None) -> Config:
                 f"ZENOH_ROUTER_CONFIG_URI names {config_file}, which is refused: {reason}."
             ) from None
     config = read_config()
-    # Zenoh would wait half a second for others that it finds by itself; nobody is to find it.
+    # Zenoh would wait half a second for others that it discovers; discovery is off.
     insert(config, "scouting/delay", "0")
     insert(config, "scouting/multicast/enabled", "false")
     insert(config, "transport/unicast/accept_timeout", str(_ACCEPT_TIMEOUT_MS))
@@ -196,7 +196,7 @@ def _base(config_file: str | None) -> Config:
     insert(config, "transport/unicast/max_sessions", "10000")
     insert(config, "transport/link/tx/lease", str(LEASE_MS))
     insert(config, "routing/router/peers_failover_brokering", "false")
-    insert(config, "adminspace/enabled", "true")  # who is linked, for those who look for faults
+    insert(config, "adminspace/enabled", "true")  # shows the links, to find faults
     return config
 
 
@@ -213,11 +213,11 @@ class TokenRelay:
 
     When a link to a router comes up, peers of Zenoh 1.8 and older send the tokens that they
     declared before it as the answer to an interest; routers of Zenoh 1.9 and later refuse them.
-    So the nodes of Jazzy that are older than the router would be seen by nobody who looks by way
-    of the router. This session receives the tokens of such peers by its own links to them, and what
-    the router does not know is declared there for as long as the peer shows it.
+    So the nodes of Jazzy that are older than the router would be invisible to all clients of the
+    router. This session receives the tokens of such peers by its own links to them, and what the
+    router does not know is declared there for as long as the peer declares it.
 
-    It listens nowhere, so it reaches those peers that listen where this machine can connect to:
+    It does not listen, so it reaches only peers that listen where this machine can connect to:
     rmw_zenoh's nodes on this machine, but not those on others, which listen on their localhost.
     """
 
@@ -320,19 +320,19 @@ def _beside(config: Config, endpoint: Endpoint, router_zid: str) -> Config:
 
 
 def _take_first_user(config: Config) -> None:
-    """Be one of those whom the router admits by name and password, if no user is given."""
+    """Use a name and password that the router accepts, if no user is given."""
     users = cast("Any", config).get_json(f"{_USERS}/dictionary_file")
     file = cast("str | None", json.loads(users))
     if file is None or json.loads(cast("Any", config).get_json(f"{_USERS}/user")) is not None:
         return
-    with contextlib.suppress(OSError):  # the router has said that it cannot read it
+    with contextlib.suppress(OSError):  # the router has reported that it cannot read it
         user, _, password = Path(file).read_text().partition("\n")[0].partition(":")
         insert(config, f"{_USERS}/user", json.dumps(user))
         insert(config, f"{_USERS}/password", json.dumps(password))
 
 
 def _near(endpoint: Endpoint) -> str:
-    """Where this machine finds a router that listens at an endpoint, which may be all addresses."""
+    """Return the address by which this machine reaches a router, which may listen on all."""
     try:
         address = ipaddress.ip_address(endpoint.host)
     except ValueError:

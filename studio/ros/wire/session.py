@@ -42,11 +42,11 @@ if TYPE_CHECKING:
     from studio.ros.wire.settings import WireSettings
 
 SERVICE_TIMEOUT_MS = 600_000
-"""How long rmw_zenoh lets a service take."""
+"""rmw_zenoh's limit for the duration of a call."""
 _RETRY = {"period_init_ms": 250, "period_max_ms": 1_000, "period_increase_factor": 2}
 """A session finds a router that has come back within a second."""
 _RACES_MAX = 5
-"""How often the one who wins a race for the endpoint may be gone when we come to join."""
+"""So many times the winner of a race for the endpoint may be gone when we connect."""
 _ROUTERS = frozenset({ProbeResult.ZENOH, ProbeResult.TLS})
 
 
@@ -132,7 +132,7 @@ def open_session(
 
 
 def zenoh_config(settings: WireSettings) -> Config:
-    """Zenoh's configuration of a session: a client that does not look around by multicast.
+    """Return Zenoh's configuration of a session: a client without multicast scouting.
 
     Raises:
         WireSettingsError: A file or value cannot be read.
@@ -210,7 +210,7 @@ def _open_once(
 
 
 def _router_of_our_own(settings: WireSettings, choice: RouterChoice) -> EmbeddedRouter | None:
-    """Start a router where nobody is, None where none is wanted."""
+    """Start a router if none answers; None if none is wanted."""
     place = _place_for_router(settings, choice)
     if place is None:
         return None

@@ -19,7 +19,7 @@ ROUTER_ENDPOINT = "tcp/127.0.0.1:7447"
 DOMAIN_MAX = 232
 """The highest ROS_DOMAIN_ID that every middleware of ROS takes."""
 LEASE_MS = 60_000
-"""How long rmw_zenoh takes a silent peer for alive: a busy machine, or a debugger, ends nobody."""
+"""rmw_zenoh's limit for a silent peer: a busy machine, or a debugger, ends nobody."""
 _CONNECT = "connect/endpoints"
 
 
@@ -30,10 +30,10 @@ class WireSettings:
     Attributes:
         connect: Zenoh endpoints of routers, such as `tcp/127.0.0.1:7447`.
         domain: The ROS_DOMAIN_ID.
-        profile: The distribution whose types and keys are spoken.
-        config_file: Of Zenoh, taken whole; what stands here comes on top.
+        profile: The distribution whose types and keys are used.
+        config_file: Of Zenoh, taken whole; the other settings override it.
         overrides: Zenoh's keys, such as `transport/link/tls/root_ca_certificate`, and JSON5.
-        router_config_file: Of Zenoh, for a router of our own; where it listens is said elsewhere.
+        router_config_file: Of Zenoh, for a router of our own; its address is set elsewhere.
     """
 
     connect: tuple[str, ...] = (ROUTER_ENDPOINT,)

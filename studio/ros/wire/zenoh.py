@@ -53,9 +53,9 @@ __all__ = [
 ]
 
 SAMPLES_WAITING_MAX: Final = 65_536
-"""Of a queue that loses nothing; Zenoh makes room for them only as they come."""
+"""Limit of a queue that loses nothing; Zenoh allocates it only as samples come."""
 REPLIES_WAITING_MAX: Final = 64
-"""Of one request."""
+"""Limit for one request."""
 BATCH_MAX: Final = 512
 _HEARTBEAT_S: Final = 0.5
 _CLOSE_TIMEOUT_S: Final = 1.0
@@ -67,7 +67,7 @@ _FEW_THREADS: Final = "(rx: (handover: app), app: (worker_threads: 1))"
 ItemT = TypeVar("ItemT")
 _log = logging.getLogger(__name__)
 _late_threads: set[threading.Thread] = set()
-"""Those that were still inside Zenoh when nobody waited for them any longer."""
+"""Threads still inside Zenoh when nobody waited for them any longer."""
 
 
 def use_few_threads() -> None:
@@ -149,7 +149,7 @@ def _wait_for_late_threads() -> None:
 
 
 class Declaration(Protocol):
-    """What is declared on a session, until it is undeclared or the session is closed."""
+    """A declaration of a session, valid until it is undeclared or the session is closed."""
 
     def undeclare(self) -> None:
         """Take it back; a second time is an error of Zenoh's."""
@@ -203,10 +203,10 @@ class Incoming(Generic[ItemT]):
 
 
 class ReadingThread(Generic[ItemT]):
-    """Hands what comes in to a function, in batches, until it is closed.
+    """Passes what comes in to a function, in batches, until it is closed.
 
     It sleeps in Zenoh until something comes, so that it costs nothing and is never late. Zenoh's
-    own threads only fill the queue: what is slow here holds up nobody else. A batch that cannot be
+    own threads only fill the queue: a slow function holds up nobody else. A batch that cannot be
     handled is logged, and the next one is read.
     """
 
