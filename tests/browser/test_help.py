@@ -129,7 +129,7 @@ def test_the_help_speaks_the_language_of_the_page(tab: StudioPage):
     page.locator("dialog.help article").wait_for()
     page.get_by_role("button", name="Settings").click()
     page.get_by_role("menuitemradio", name="Deutsch").click()
-    page.get_by_role("heading", name="Was man hier tut").wait_for()
+    page.get_by_role("heading", name="Was Sie tun können").wait_for()
 
 
 def test_none_of_the_help_is_loaded_before_it_is_asked_for(tab: StudioPage):
