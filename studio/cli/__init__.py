@@ -1,4 +1,4 @@
-"""The `studio` command: words of a command line in, the work of a room done, an exit code out."""
+"""The `studio` command: parses the command line, calls the rooms, returns an exit code."""
 
 from studio.cli.main import main
 

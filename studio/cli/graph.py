@@ -151,6 +151,6 @@ def say_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]
 
 
 def say_unknown(what: str, name: str) -> int:
-    """Print that nobody has a name; return ros2's exit code."""
+    """Print that nothing has a name; return ros2's exit code."""
     print(f"Unknown {what} '{name}'", file=sys.stderr)
     return 1

@@ -99,13 +99,13 @@ def add_interfaces_option(parser: argparse.ArgumentParser, text: str) -> None:
 def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
     """Make the library of a distribution with the user's own types.
 
-    A text that breaks a rule is left out: the library says why, and a warning does at once where
-    `--interfaces` names it.
+    A text that breaks a rule is left out: the library reports it, and a warning is printed at once
+    where `--interfaces` names it.
 
     Raises:
-        UnreadableFileError: What `--interfaces` names is not there, or holds no types.
-        SettingsError: What was pasted does not say which types it defines.
-        WireSettingsError: What the environment names is not there, or holds no types.
+        UnreadableFileError: What `--interfaces` names does not exist, or has no types.
+        SettingsError: A pasted text does not name the types it defines.
+        WireSettingsError: What the environment names does not exist, or has no types.
     """
     from studio.ros.messages import add_own_types
     from studio.ros.types.files import InterfaceTexts, texts_at

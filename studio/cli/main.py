@@ -1,4 +1,4 @@
-"""One run of `studio`: the command is looked up, read and carried out."""
+"""One run of `studio`: finds the command, parses its arguments and runs it."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def _take_late(options: argparse.Namespace, rest: list[str]) -> list[str]:
 def shield_values(words: Sequence[str]) -> list[str]:
     """Put a blank before values that begin with a dash, which argparse then takes for values.
 
-    YAML and Python's numbers pass over the blank; words behind `--` are values already.
+    YAML and Python's numbers skip the blank; arguments behind `--` are values already.
     """
     end = words.index("--") if "--" in words else len(words)
     shielded = [f" {word}" if _VALUE.match(word) else word for word in words[:end]]

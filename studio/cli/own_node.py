@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class OwnNode:
-    """What a verb needs that takes part; the node is the executor's once there is work to do."""
+    """A node for a verb that takes part; the executor spins it once there is work to do."""
 
     node: Node
     graph: Graph
@@ -93,7 +93,7 @@ def own_node(
 def learn_type(own: OwnNode, endpoints: Iterable[GraphEndpoint]) -> None:
     """Ask the nodes of endpoints in turn until one describes its type.
 
-    Failures are printed on stderr; the caller looks whether the type is known then.
+    Failures are printed on stderr; the caller checks whether the type is known then.
     """
     from studio.ros.type_lookup import learn_from_any
 

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 
 _MEMORY = "package_index/commands"
 ENTRIES_MAX = 2_000
-"""A folder in which more lies is nobody's workspace: it would be looked through for long."""
+"""Limit of entries: a folder with more is no workspace, and takes too long to search."""
 
 
 def add_package_options(parser: argparse.ArgumentParser) -> None:
-    """Options of every verb that looks for packages."""
+    """Add the options of every verb that finds packages."""
     parser.add_argument(
         "--package-path",
         action="append",

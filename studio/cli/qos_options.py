@@ -63,7 +63,7 @@ def is_given(options: argparse.Namespace) -> bool:
 
 
 def given_profile(options: argparse.Namespace, base: QoSProfile) -> QoSProfile:
-    """Give what the options say, of a profile by name or else of `base`.
+    """Return the profile of the options, based on a named one or else on `base`.
 
     Raises:
         SettingsError: The depth, or a time, is less than 0.

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 _HIGHEST_PORT = 65535
 _NEW_OBJECTS_MAX = 5_000
-"""From one collection of garbage to the next: an edit makes up to a thousand, and is collected
-after, when nobody waits for it."""
+"""Between two garbage collections: an edit makes up to a thousand objects, which are collected
+afterwards, when nobody waits."""
 
 
 def add_server_options(parser: argparse.ArgumentParser) -> None:
@@ -77,17 +77,17 @@ def _port(text: str) -> int:
 
 
 def package_paths(options: argparse.Namespace) -> tuple[Path, ...]:
-    """All `--package-path`, each of which may hold several, as PATH does."""
+    """Return all `--package-path`, each of which may hold several, as PATH does."""
     parts = (part for given in options.package_path for part in given.split(os.pathsep))
     return tuple(Path(part).expanduser() for part in parts if part)
 
 
 def server_settings(options: argparse.Namespace) -> Settings:
-    """What the options of a command that starts the server come to.
+    """Return the settings of a command that starts the server.
 
     Raises:
         SettingsError: The data folder cannot be used.
-        WireSettingsError: `--router` or `--connect` names no endpoint.
+        WireSettingsError: `--router` or `--connect` is no endpoint.
     """
     from studio.ros.wire.endpoints import parse_endpoint
     from studio.server.credentials import new_token
@@ -119,7 +119,7 @@ def serve(
 
     `nodes` starts nodes once the page is served, and the studio joins them.
     """
-    gc.disable()  # all that is imported lives on: looking through it meanwhile costs a third
+    gc.disable()  # everything imported stays: collections meanwhile cost a third
     from studio.server.launch import Opening, launch
 
     gc.freeze()
@@ -130,10 +130,10 @@ def serve(
 
 
 def read_mappings(words: Sequence[str]) -> dict[str, str]:
-    """`name:=value` by name, as xacro reads it: outer blanks dropped, `_name` is not for it.
+    """Return `name:=value` by name, as xacro reads it: outer blanks dropped, no `_name`.
 
     Raises:
-        SettingsError: A word has more than one `:=`.
+        SettingsError: An argument has more than one `:=`.
     """
     found: dict[str, str] = {}
     for word in words:

@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """What a verb listens to.
+    """How a verb subscribes to a topic.
 
     Attributes:
-        kind: The class of its messages; None where only the bytes are known.
-        form: Who has the type in a form of its own, in which it is listened to.
+        kind: Class of its messages; None where only the bytes are known.
+        form: An endpoint with its own version of the type, which is used.
     """
 
     name: str
@@ -44,12 +44,12 @@ class Joined:
 def join_topic(
     own: OwnNode, options: argparse.Namespace, topic: str, given_type: str | None, *, raw: bool
 ) -> Joined | None:
-    """Find out how to listen to a topic; None, after words on stderr, where that is not known.
+    """Find out the type of a topic; None, after a message on stderr, where it is not known.
 
-    Where bytes are enough (`raw`), a type that nobody knows is said and taken as it comes.
+    Where bytes are enough (`raw`), an unknown type is reported, and subscribed all the same.
 
     Raises:
-        UnknownTypeError: No such type is known, and nobody describes it.
+        UnknownTypeError: The type is not known, and no node describes it.
     """
     name = full_name(topic)
     types = dict(own.graph.topics()).get(name, [])
@@ -86,10 +86,10 @@ def _form_of(
 
 
 def _unread(error: UnknownTypeError, ends: list[GraphEndpoint], *, raw: bool) -> GraphEndpoint:
-    """Give one who has a type that nobody knows, and say so.
+    """Return an endpoint with an unknown type, and report it.
 
     Raises:
-        UnknownTypeError: Nobody has it, or its bytes are not enough.
+        UnknownTypeError: There is none, or its bytes are not enough.
     """
     if not ends:
         raise error
@@ -103,10 +103,10 @@ def _unread(error: UnknownTypeError, ends: list[GraphEndpoint], *, raw: bool) ->
 
 
 def _class_of(own: OwnNode, type_name: str, ends: list[GraphEndpoint]) -> type[MessageValue]:
-    """Find the type among those that are known, else ask the nodes that use it what it is.
+    """Return the class of a type; one that is not known is learned from nodes that use it.
 
     Raises:
-        UnknownTypeError: It is not known, and nobody could say.
+        UnknownTypeError: It is not known, and no node describes it.
     """
     try:
         return own.types.message(type_name)
@@ -177,10 +177,10 @@ def _no_part(name: str) -> type[MessageValue]:
 def _described_form(
     own: OwnNode, ends: Sequence[GraphEndpoint]
 ) -> tuple[type[MessageValue], GraphEndpoint] | None:
-    """Give the class of a type as one of its users has it, where nobody has it as we do.
+    """Return the class of a type as one of its users has it, if none has it as we do.
 
-    None where somebody does, where the form is only another distribution's, which is chosen by
-    name, and where nobody describes it. The types that are known stay as they are.
+    None if one does, if the form is only another distribution's, which is chosen by name, and
+    if no node describes it. The types that are known stay as they are.
     """
     if not ends or not _is_nobodys(own, ends):
         return None
@@ -213,10 +213,10 @@ def _is_nobodys(own: OwnNode, ends: Sequence[GraphEndpoint]) -> bool:
 
 
 def _class_as_told(own: OwnNode, end: GraphEndpoint) -> type[MessageValue]:
-    """Ask the node of an end what its type is made of; its hash proves the answer.
+    """Ask the node of an endpoint to describe its type; the hash proves the answer.
 
     Raises:
-        StudioError: It does not tell, or not the truth.
+        StudioError: It does not answer, or its answer has another hash.
     """
     from studio.ros.node.spinning import call_service
     from studio.ros.types.type_descriptions import (

@@ -34,11 +34,11 @@ class Verbs:
 
 
 def refuse(parser: argparse.ArgumentParser, line: str, instead: str) -> None:
-    """Have a line of `ros2` that the studio does not serve yet, whatever stands behind it, say so.
+    """Add a line of `ros2` that is not served yet: it prints so, whatever its arguments.
 
     Args:
         parser: Of the command or verb.
-        line: Its name behind `studio`.
+        line: Its name after `studio`.
         instead: What the user can do, as an end of a sentence.
     """
 

@@ -42,7 +42,7 @@ class AddPointsServiceClientNode(Node):
         self.future.add_done_callback(self.process_response)
 
     def process_response(self, future: Future[Any]) -> None:
-        """Log the answer; a question that was given up, or that nobody takes, has none."""
+        """Log the answer; a cancelled request, or one without a server, has none."""
         if future.cancelled() or future.exception() is not None:
             self.get_logger().info("The response was None.")
         else:

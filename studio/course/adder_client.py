@@ -16,7 +16,7 @@ from studio.ros.messages.learning_interface.srv import AddTwoInts
 
 
 class adderClient(Node):
-    """Sends one request, made of the words of the command line."""
+    """Sends one request, made of the command line's arguments."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name)

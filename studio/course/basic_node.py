@@ -1,4 +1,4 @@
-"""A node that says that it is there.
+"""A node that logs one line: it exists.
 
 Try: `studio run my_robot_package basic_node`, then `studio topic echo /rosout` before you start it.
 """

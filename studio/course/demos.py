@@ -18,7 +18,7 @@ class Demo:
 
     Attributes:
         name: As `studio demos NAME` starts it; also the name of its module.
-        executables: Packages and names under which `studio run` knows it.
+        executables: Packages and names by which `studio run` finds it.
     """
 
     name: str
@@ -113,13 +113,13 @@ def find_demo(name: str) -> Demo | None:
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """One demo, as somebody meets it who learns.
+    """One demo as a lesson.
 
     Attributes:
         demo: Its name in `DEMOS`.
         node: The full name of its node, while it runs.
-        words: Of a command line that it cannot do without.
-        has_keys: It is driven by key presses.
+        words: Arguments that it needs.
+        has_keys: Whether it is driven by key presses.
     """
 
     demo: str

@@ -1,4 +1,4 @@
-"""Jerry: a robot in a flat world. He follows /jerry_command, tells /jerry/pose, serves /distance.
+"""Jerry: a robot in a flat world. Follows /jerry_command, publishes /jerry/pose, serves /distance.
 
 Try: `studio demos jerry_robot`, then `studio topic echo /jerry/pose` and
 `studio topic pub --once /jerry_command pkg_with_interfaces/msg/JerryCommand
@@ -17,11 +17,11 @@ from studio.ros.messages.pkg_with_interfaces.msg import JerryCommand
 from studio.ros.messages.pkg_with_interfaces.srv import Distance
 
 STEPS = {"forward": (1, 0), "backward": (-1, 0), "left": (0, 1), "right": (0, -1)}
-"""Where one step of each direction leads: x points ahead and y to the left, as ROS has it."""
+"""The step of each direction: x points ahead and y to the left, as in ROS."""
 
 
 class JerryRobot(Node):
-    """Stands at the origin until he is told to go; one step is one metre."""
+    """Stays at the origin until the first command; one step is one metre."""
 
     def __init__(self) -> None:
         super().__init__("jerry_robot_node")
@@ -51,12 +51,12 @@ class JerryRobot(Node):
         return response
 
     def tell(self) -> None:
-        """Publish where he is; who comes late is told, too."""
+        """Publish his position, also for late subscribers."""
         self.pose.publish(Point(x=float(self.x), y=float(self.y)))
 
 
 def main(args: list[str] | None = None) -> None:
-    """Be Jerry until stopped."""
+    """Run until stopped."""
     with until_stopped(args):
         rclpy.spin(JerryRobot())
 

@@ -25,7 +25,7 @@ _WHEN_TOLD_S = 2.0
 
 
 def main() -> None:
-    """Run the module that is the first word; the others are its own."""
+    """Run the module that is the first argument; the others are its own."""
     module = sys.argv[1]
     keys: SimpleQueue[str] = SimpleQueue()
     take_keys_from(keys)
@@ -36,7 +36,7 @@ def main() -> None:
 
 
 def _hold(source: int, press: Callable[[str], None]) -> None:
-    """Pass keys on until nobody holds the other end, then end this process."""
+    """Pass keys on until the other end is closed, then end this process."""
     read_lines(source, press)
     os.kill(os.getpid(), signal.SIGTERM)
     time.sleep(_WHEN_TOLD_S)

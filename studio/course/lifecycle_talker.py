@@ -2,7 +2,7 @@
 
 Try: `studio demos lifecycle_talker`, then `studio topic echo /lifecycle_chatter` and, beside it,
 `studio lifecycle set /lc_talker configure`, `... activate`, `... deactivate`, `... cleanup`,
-`... shutdown`; `studio lifecycle get /lc_talker` says where it is.
+`... shutdown`; `studio lifecycle get /lc_talker` prints its state.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class LifecycleTalker(LifecycleNode):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Be managed until stopped."""
+    """Run until stopped."""
     with until_stopped(args):
         rclpy.spin(LifecycleTalker())
 

@@ -1,4 +1,4 @@
-"""Listener: logs what is said on /chatter.
+"""Listener: logs what is published on /chatter.
 
 Try: `studio demos listener`, then `studio topic pub /chatter std_msgs/msg/String "data: hello"`.
 """
@@ -19,7 +19,7 @@ class SubscriberNode(Node):
         self.sub = self.create_subscription(String, "chatter", self.listener_callback, 10)
 
     def listener_callback(self, msg: String) -> None:
-        """Log what was heard."""
+        """Log a message."""
         self.get_logger().info('I heard: "%s"' % msg.data)
 
 

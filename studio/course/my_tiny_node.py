@@ -1,4 +1,4 @@
-"""A node with a timer: says "Hello" and a number every second.
+"""A node with a timer: logs "Hello" and a number every second.
 
 Try: `studio run my_py_pkg my_tiny_node`, then `studio topic echo /rosout --field msg`.
 """

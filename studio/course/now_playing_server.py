@@ -1,4 +1,4 @@
-"""Radio station: the service /get_now_playing says what plays.
+"""Radio station: the service /get_now_playing returns what plays.
 
 Try: `studio run radio_station service_server`, then
 `studio service call /get_now_playing radio_station_interfaces/srv/GetNowPlaying "{}"`.

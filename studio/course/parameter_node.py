@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class ParameterNode(Node):
-    """Declares parameters, and has a say when they are set."""
+    """Declares parameters, and checks new values."""
 
     def __init__(self) -> None:
         super().__init__("parameter_node")

@@ -16,15 +16,15 @@ if TYPE_CHECKING:
     from studio.ros.wire.settings import WireSettings
 
 BY_ITSELF_S = 0.6
-"""How long a process has to end by the Ctrl-C that the terminal gave it, too."""
+"""So long a process may take to end by the Ctrl-C that the terminal sent it, too."""
 WHEN_TOLD_S = 1.0
 LEASHED = "studio.course.leashed"
-"""Runs the module that is its first word for as long as its input stays open."""
+"""Runs the module that is its first argument for as long as its input stays open."""
 _OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
 
 
 class DemoProcesses:
-    """Started one by one, ended together; nobody waits longer than two seconds for that."""
+    """Processes started one by one and ended together, within two seconds."""
 
     def __init__(self, environment: Mapping[str, str] = os.environ) -> None:
         self._environment = dict(environment)
@@ -53,7 +53,7 @@ class DemoProcesses:
         return next((code for code in codes if code), 0)
 
     def end(self) -> None:
-        """End those that still run: first they may by themselves, then they are told, then made."""
+        """End those that still run: after a wait they are terminated, then killed."""
         for process in self._processes:
             if process.stdin is not None:
                 process.stdin.close()
@@ -88,7 +88,7 @@ class DemoProcesses:
 
 
 def rover_words(package: Path, arguments: Mapping[str, str], router: str) -> tuple[str, list[str]]:
-    """Give the rover's module and its words, for a copy of its package and arguments of xacro."""
+    """Return the rover's module and its arguments, for a copy of its package and `arguments`."""
     file = package / "urdf" / "rover.urdf.xacro"
     mapping = [f"{name}:={value}" for name, value in arguments.items()]
     return "studio.course.rover", [str(file), *mapping, "--router", router]

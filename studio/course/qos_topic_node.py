@@ -16,7 +16,7 @@ from studio.ros.node.qos_overriding_options import QoSOverridingOptions, QoSPoli
 
 
 class QoSTopicNode(Node):
-    """Publishes rarely; whether its messages are kept for late subscribers, a parameter says."""
+    """Publishes rarely; a parameter decides whether late subscribers get earlier messages."""
 
     def __init__(self) -> None:
         super().__init__("qos_topic_node")

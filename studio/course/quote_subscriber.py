@@ -13,7 +13,7 @@ from studio.ros.messages.pkg_with_interfaces.msg import AmazingQuote
 
 
 class AmazingQuoteSubscriberNode(Node):
-    """Logs each quote, with who said it."""
+    """Logs each quote and its author."""
 
     def __init__(self) -> None:
         super().__init__("amazing_quote_subscriber_node")

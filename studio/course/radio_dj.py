@@ -20,7 +20,7 @@ THREADS = 32
 
 
 class ActionServerNode(Node):
-    """Plays what is wished; a song without a name is refused, one that is cancelled stops."""
+    """Plays the requested song; one without a name is rejected, a cancelled one stops."""
 
     def __init__(self) -> None:
         super().__init__("action_server_node")
@@ -36,7 +36,7 @@ class ActionServerNode(Node):
         )
 
     def goal_cb(self, goal: ChooseSong.Goal) -> GoalResponse:
-        """Take a wish that names a song."""
+        """Accept a goal that names a song."""
         return GoalResponse.ACCEPT if goal.song_name else GoalResponse.REJECT
 
     def execute_cb(self, goal_handle: ServerGoalHandle) -> ChooseSong.Result:

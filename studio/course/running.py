@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 @contextmanager
 def until_stopped(args: list[str] | None = None, router: str = "auto") -> Generator[None]:
-    """Join the wire for what stands within; Ctrl-C and a shutdown end it without a traceback.
+    """Open the default context for the body; Ctrl-C and a shutdown end it without a traceback.
 
-    What the studio can say in one sentence ends it with that sentence.
+    A StudioError ends it with its sentence.
 
-    Words that are given become those of the command line, which the course's nodes look at.
+    Given `args` become those of the command line, which the course's nodes read.
     """
     if args is not None:
         sys.argv[1:] = args

@@ -35,7 +35,7 @@ class ServiceClientNode(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Ask once, for the sum of two words of the command line."""
+    """Ask once, for the sum of two arguments of the command line."""
     with until_stopped(args):
         node = ServiceClientNode()
         a = int(sys.argv[1]) if len(sys.argv) > 1 else 1

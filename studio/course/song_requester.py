@@ -1,4 +1,4 @@
-"""Song requester: wishes a song of the radio DJ, logs what he says, and ends with the song.
+"""Song requester: requests a song from the radio DJ, logs the feedback, and ends with the song.
 
 Try: `studio run radio_station radio_dj`, then `studio run radio_station song_requester Clocks`.
 """
@@ -39,7 +39,7 @@ class SongRequester(Node):
         self.get_logger().info(f"DJ says: {fb.status_line}")
 
     def goal_response_cb(self, future: Future[Any]) -> None:
-        """Ask for the result, if the DJ takes the wish."""
+        """Ask for the result, if the DJ accepts the goal."""
         goal_handle = future.result()
         if not goal_handle.accepted:
             self.get_logger().warn("The DJ does not play it.")
@@ -49,7 +49,7 @@ class SongRequester(Node):
         result_future.add_done_callback(self.result_cb)
 
     def result_cb(self, future: Future[Any]) -> None:
-        """Log the last word, and end."""
+        """Log the result, and end."""
         result = future.result().result
         self.get_logger().info(f"DJ final: {result.final_message}")
         rclpy.shutdown()

@@ -22,7 +22,7 @@ class SubscriberNode(Node):
         self.get_logger().info("Subscriber Node initialized")
 
     def listener_callback(self, msg: String) -> None:
-        """Log what was heard."""
+        """Log a message."""
         self.get_logger().info(f'I heard: "{msg.data}"')
 
 

@@ -1,4 +1,4 @@
-"""Talker: says "Hello World" on /chatter twice a second.
+"""Talker: publishes "Hello World" on /chatter twice a second.
 
 Try: `studio demos talker listener`, then `studio topic echo /chatter` and
 `studio topic hz /chatter`.

@@ -15,7 +15,7 @@ COLD_C, WARM_C = 18.0, 26.0
 
 
 class TemperatureSubscriber(Node):
-    """Keeps the mean of all it heard."""
+    """Keeps the mean of all temperatures received."""
 
     def __init__(self) -> None:
         super().__init__("temperature_subscriber")

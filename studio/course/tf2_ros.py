@@ -28,7 +28,7 @@ class TransformBroadcaster:
 
 
 class StaticTransformBroadcaster:
-    """Tells on /tf_static where frames are for good; who comes late is told, too."""
+    """Publishes fixed transforms on /tf_static, latched for late subscribers."""
 
     def __init__(self, node: Node, qos: QoSProfile | None = None) -> None:
         kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -1,4 +1,4 @@
-"""Frames: the service /transform_point tells a point of one frame in another, out of /tf.
+"""Frames: the service /transform_point transforms a point from one frame to another, by /tf.
 
 Try: `studio demos transform_point rover`, then `studio service call /transform_point
 studio_interfaces/srv/TransformPoint "{point: {x: 1.0}, source_frame: laser_frame,
@@ -34,7 +34,7 @@ class TransformPointNode(Node):
         self.tf_callback(data, static=True)
 
     def tf_callback(self, data: bytes, *, static: bool = False) -> None:
-        """Take up transforms; what is none is said once in ten seconds."""
+        """Take up transforms; an invalid one is logged, at most every ten seconds."""
         try:
             notices = self.buffer.put(self.codec.decode(data), static=static)
         except CdrError as error:

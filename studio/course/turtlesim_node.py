@@ -53,7 +53,7 @@ class TurtleSim(Node):
         return turtle.name
 
     def on_step(self) -> None:
-        """Walk on, and tell of it."""
+        """Walk on, and publish the poses."""
         for turtle in self.flock.step():
             where = f"[x={turtle.x:.6f}, y={turtle.y:.6f}]"
             self.get_logger().warn(f"Oh no! I hit the wall! {where}", throttle_duration_sec=1.0)

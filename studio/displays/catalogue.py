@@ -66,7 +66,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     TwistDisplay,
     WrenchDisplay,
 )
-"""One row each. Of two that draw the same messages the one that fits them best comes first."""
+"""One row each. Of two that draw the same messages, the one that fits them best comes first."""
 
 _BY_KIND: Final = {one.KIND: one for one in DISPLAYS}
 

@@ -61,7 +61,7 @@ class Channels(Protocol):
         ...
 
     def numbers(self, name: str, raw: NDArray[np.intp] | None) -> NDArray[np.float32] | None:
-        """One number for each, or None when there is no such channel."""
+        """Return one number for each, or None when there is no such channel."""
         ...
 
     def colours(self, raw: NDArray[np.intp] | None) -> NDArray[np.uint8] | None:
@@ -75,17 +75,17 @@ class Channels(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cloud:
-    """What is shown of one message.
+    """The points of one message that are drawn.
 
     Attributes:
-        frame: Of the message.
-        stamp_ns: Of the message.
-        positions: Shape (N, 3), float32, m: those that are shown.
-        raw: Which points of the message they are; None when all are shown.
-        available: How many have a place.
-        channels: Of the message.
+        frame: The message's.
+        stamp_ns: The message's.
+        positions: Shape (N, 3), float32, m.
+        raw: Index of each in the message; None when all are drawn.
+        available: Number of points with finite coordinates.
+        channels: The message's.
         nothing: Why there are no points.
-        sweep: When each was met, if that was not all at the stamp.
+        sweep: When each was measured, if not all at the stamp.
     """
 
     frame: str
@@ -99,7 +99,7 @@ class Cloud:
 
     @property
     def count(self) -> int:
-        """Of points that are shown."""
+        """Number of points drawn."""
         return len(self.positions)
 
     def numbers(self, name: str) -> NDArray[np.float32] | None:

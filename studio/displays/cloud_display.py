@@ -194,7 +194,7 @@ def colours_of(
 
 
 def _automatic(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8]:
-    """As RViz chooses; where RViz finds nothing and draws white, height is seen on any ground."""
+    """Colour as RViz does; where RViz draws white for want of a channel, by height."""
     found = cloud.channels.colours(cloud.raw)
     if found is None:
         found = cloud.channels.float_colours(cloud.raw)
@@ -236,7 +236,7 @@ def _by_channel(cloud: Cloud, values: Mapping[str, Value]) -> NDArray[np.uint8] 
 def _shares(
     numbers: NDArray[np.float32], given: tuple[float, float] | None
 ) -> NDArray[np.floating]:
-    """Where each number lies between the bounds, 0 to 1; numbers that are all alike are at 0."""
+    """Return each number's place between the bounds, 0 to 1; numbers all alike are at 0."""
     low, high = _bounds(numbers) if given is None else given
     if low == high:
         return np.zeros(len(numbers), dtype=np.float32)

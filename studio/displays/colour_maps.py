@@ -14,7 +14,7 @@ RAINBOW: Final = "Rainbow"
 COLOUR_MAPS: Final = (RAINBOW, "Turbo", "Viridis")
 
 _STEPS: Final = 4096
-# Nine equal parts between ten colours each: nobody sees the rest of the curve.
+# Nine equal parts between ten colours each: the difference from the curve is invisible.
 _STOPS: Final = {
     "Turbo": "30123b 4662d7 36aaf9 1ae4b6 72fe5e c7ef34 faba39 f66b19 cb2a04 7a0403",
     "Viridis": "440154 482878 3e4a89 31688e 26828e 1f9e89 35b779 6dcd59 b4de2c fde725",
@@ -39,7 +39,7 @@ def mapped(shares: NDArray[np.floating], name: str, *, inverted: bool = False) -
 
 @cache
 def table(name: str, *, inverted: bool = False) -> NDArray[np.uint8]:
-    """All colours of a map in their order, shape (4096, 3), read-only."""
+    """Return all colours of a map in order, shape (4096, 3), read-only."""
     shares = np.linspace(0, 1, _STEPS)
     parts = _rainbow(shares) if name == RAINBOW else _between(_STOPS[name], shares)
     colours = np.rint(np.clip(parts, 0, 1) * 255).astype(np.uint8)

@@ -62,14 +62,14 @@ class TopicRole:
     """One of the topics that a display subscribes to.
 
     Attributes:
-        name: Of the role: empty for the main one; else as `updates`, and the topic is beside it.
+        name: The role's: empty for the main topic; else as `updates`, with a topic by `beside`.
         types: Of messages that it takes.
-        beside: What follows the name of the main topic, as `_updates`; with a leading slash the
-            last part of the main topic's name is replaced, as by `/camera_info`.
+        beside: Suffix to the name of the main topic, as `_updates`; a leading slash replaces the
+            last part of that name, as `/camera_info`.
         newest_only: Whether only the newest message counts; else every one does.
         reliable: Whether the first subscription asks for reliable delivery.
         latched: Whether the first subscription is transient local: it asks for earlier messages.
-        depth: How many messages are kept for a display that is slow.
+        depth: Number of messages kept for a display that is slow.
     """
 
     name: str
@@ -105,7 +105,7 @@ class Status(NamedTuple):
 
 
 class Display(ABC):
-    """One display with its settings; made anew when its topic changes.
+    """One display with its settings; a new one is made when its topic changes.
 
     All calls come from one thread. A message that cannot be read raises a StudioError, and what
     was drawn before stays.
@@ -123,7 +123,7 @@ class Display(ABC):
     """The topic to subscribe to when none was chosen."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     SETTINGS_MAX: ClassVar[int] = 1000
-    """How many properties are kept; some displays get more with their messages, as links."""
+    """Limit of the properties kept; some displays get more with their messages, as links."""
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         self._types = types
@@ -152,7 +152,7 @@ class Display(ABC):
 
     @property
     def interval_ns(self) -> int:
-        """How long what is drawn stays where it is, whatever arrives on /tf."""
+        """How long a drawing keeps its poses, whatever arrives on /tf."""
         return round(float(self.values.get(UPDATE_INTERVAL.name, 0.0)) * 1e9)
 
     def changed(self, name: str) -> None:

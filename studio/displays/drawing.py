@@ -27,7 +27,7 @@ Xyz: TypeAlias = tuple[float, float, float]
 Wxyz: TypeAlias = tuple[float, float, float, float]
 """A quaternion of length 1."""
 Pose: TypeAlias = tuple[Wxyz, Xyz]
-"""Of something in another frame, most often the fixed one."""
+"""Pose of an object in another frame, most often the fixed one."""
 FIXED_FRAME: Final = "<Fixed Frame>"
 """RViz's name of the fixed frame; `Placed.frame` may be it, too."""
 NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)
@@ -37,7 +37,7 @@ BODIES_MAX: Final = 20_000
 PointStyle: TypeAlias = Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"]
 """RViz's names."""
 Drawing: TypeAlias = "Mapping[str, Placed]"
-"""By path: words with slashes between, unique within the display."""
+"""By path: names with slashes between, unique within the display."""
 NOTHING: Drawing = {}
 
 
@@ -64,7 +64,7 @@ class LinkParts:
     opacity: float = 1.0
 
     def mesh_uris(self) -> frozenset[str]:
-        """Of the files that it is drawn with."""
+        """URIs of the meshes that it is drawn with."""
         drawn = self.link if self.visual else replace(self.link, visuals=())
         return frozenset(mesh_uris(drawn, collisions=self.collision))
 
@@ -246,15 +246,15 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frustum:
-    """What a camera sees, along z with x to the right and y down, and its picture at the far end.
+    """A camera's field of view, along z with x to the right and y down, with its picture.
 
     Attributes:
         fov_y_rad: Angle of view from top to bottom.
         aspect: Width by height.
-        far_m: Distance of the far end.
+        far_m: Distance of the far end, which has the picture.
         image: Shape (H, W, 3), uint8, row 0 on top; None draws the edges alone.
-        rgb: Of the edges.
-        opacity: Of the picture.
+        rgb: Colour of the edges.
+        opacity: Opacity of the picture.
     """
 
     fov_y_rad: float
@@ -286,11 +286,11 @@ Shape: TypeAlias = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sweep:
-    """When each of some points was met, where they were not met all at once.
+    """When points were measured, if not all at once.
 
     Attributes:
-        until_ns: When the last beam was sent, since the epoch; the first was at the stamp.
-        shares: Shape (N,), float32: of that time, for each point; 0 at the stamp.
+        until_ns: Time of the last beam, since the epoch; the first was at the stamp.
+        shares: Shape (N,), float32: each point's share of that time; 0 at the stamp.
     """
 
     until_ns: int
@@ -303,14 +303,14 @@ class Placed:
 
     Attributes:
         frame: Its name on /tf, or FIXED_FRAME.
-        stamp_ns: When the shapes were there, since the epoch; 0 is the newest that is known.
-        shapes: By name; names are plain words without slashes.
+        stamp_ns: Time of the pose, since the epoch; 0: the newest known.
+        shapes: By name, which has no slashes.
         follows: Whether the shapes move with the frame from now on, as `frame_locked` markers do;
             else they stay in the fixed frame where they were at the stamp.
-        turns: Whether the shapes are turned as the frame is; else they are at its origin, in the
-            axes of the fixed frame.
-        sweep: Of the points among the shapes, where not all were met at the stamp: each belongs
-            where the frame was at its own time.
+        turns: Whether the shapes turn with the frame; else they are at its origin, in the axes of
+            the fixed frame.
+        sweep: For points not all measured at the stamp: each is placed where the frame was at its
+            own time.
     """
 
     frame: str

@@ -36,7 +36,7 @@ _NO_DESCRIPTION: Final = (
 )
 _OTHER_JOINTS: Final = "The robot description has none of the joints whose efforts are told."
 RINGS_MAX: Final = 1000
-"""Of one message: more would make the view slow."""
+"""Limit for one message: more would make the view slow."""
 _JOINTS: Final = "Joints"
 _ROUND: Final = (JointType.REVOLUTE, JointType.CONTINUOUS)
 _UP: Final = np.array([0.0, 0.0, 1.0])
@@ -53,7 +53,7 @@ class Efforts(NamedTuple):
 
 
 class Ring(NamedTuple):
-    """How one joint is drawn: about which axis in the frame of its child link, and how strongly."""
+    """The axis of a joint in the frame of its child link, and its effort."""
 
     frame: str
     axis: Floats
@@ -118,7 +118,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         return Entry(*frame_and_stamp(message.header), Efforts(names, efforts))
 
     def shapes(self, content: Efforts) -> dict[str, Shape]:
-        """Nothing in the frame of the message: each joint has a frame of its own."""
+        """Return nothing in the frame of the message: each joint has a frame of its own."""
         del content
         return {}
 

@@ -23,7 +23,7 @@ _AXES: Final[dict[str, tuple[Literal["xy", "xz", "yz"], tuple[int, int, int]]]] 
     "XZ": ("xz", (0, 2, 1)),
     "YZ": ("yz", (1, 2, 0)),
 }
-"""Of each plane its two axes, and the one across."""
+"""For each plane its two axes, and the normal."""
 
 
 def _offset(axis: str) -> Property:
@@ -128,7 +128,7 @@ class GridDisplay(StillDisplay):
         return {"grid": Placed(str(self.values["Reference Frame"]), 0, shapes, follows=True)}
 
     def _position(self, across: int, layer: int) -> Xyz:
-        """Where a layer's centre is: they lie evenly to both sides."""
+        """Return the centre of a layer: they lie evenly to both sides."""
         position = [float(self.values[f"Offset/{axis}"]) for axis in "XYZ"]
         position[across] += (layer - self._layers / 2) * float(self.values["Cell Size"])
         return position[0], position[1], position[2]

@@ -60,7 +60,7 @@ class GridCellsDisplay(HistoryDisplay[Cells]):
         return Entry(read.cells.frame, read.cells.stamp_ns, Cells(middles, size_m))
 
     def shapes(self, content: Cells) -> dict[str, Shape]:
-        """One surface of all tiles."""
+        """Return one surface of all tiles."""
         count = len(content.middles)
         if not count:
             return {}

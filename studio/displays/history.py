@@ -25,7 +25,7 @@ Content = TypeVar("Content")
 
 
 class Entry(NamedTuple, Generic[Content]):
-    """What is kept of a message."""
+    """A message that is kept, as content."""
 
     frame: str
     stamp_ns: int
@@ -45,7 +45,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
     """
 
     KEEPS: ClassVar[str] = ""
-    """The property that says how many messages are kept; empty keeps the newest alone."""
+    """The property with the number of messages kept; empty keeps the newest alone."""
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)

@@ -159,7 +159,7 @@ def _planar(first: int) -> Reader:
 
 
 def _bayer(pattern: str, numbers: str) -> Reader:
-    """One pixel of each square of 2 x 2: in space it is seen small, and nothing is guessed."""
+    """Read one pixel of each square of 2 x 2: pictures are drawn small, and nothing is guessed."""
     red_row, red_column = _RED_AT[pattern]
 
     def read(raw: Raw) -> NDArray[np.uint8]:

@@ -35,12 +35,12 @@ _PARTS = {
     _HAS_ACCELERATION[0]: (f"{_ACCELERATION}/Acc. vector scale",),
     _HAS_RATE[0]: (f"{_RATE}/Vector scale",),
 }
-"""What can be shown, by its switch, and the properties that say how large it is."""
+"""What can be shown, by its switch, with the properties of its size."""
 _NO_ATTITUDE = "This unit says that it measures no orientation: it is drawn as no turn."
 
 
 class Motion(NamedTuple):
-    """What a unit measures: its attitude in the world, the rest in its own axes; shapes (3,)."""
+    """A unit's measurements: its attitude in the world, the rest in its own axes; shapes (3,)."""
 
     attitude: Poses
     rate: Floats
@@ -101,7 +101,7 @@ class ImuDisplay(HistoryDisplay[Motion]):
         return Entry(*frame_and_stamp(message.header), Motion(attitude, rest[0], rest[1]))
 
     def shapes(self, content: Motion) -> dict[str, Shape]:
-        """What is switched on."""
+        """Return shapes of what is switched on."""
         shapes: dict[str, Shape] = {}
         if self.values[_HAS_AXES[0]]:
             size_m = self.number(f"{_AXES}/Axes scale")
@@ -118,7 +118,7 @@ class ImuDisplay(HistoryDisplay[Motion]):
         return shapes
 
     def sizes(self) -> tuple[str, ...]:
-        """Those of what is switched on."""
+        """Return the properties of what is switched on."""
         on = (sizes for part, sizes in _PARTS.items() if self.values[part])
         return tuple(name for sizes in on for name in sizes)
 
@@ -131,7 +131,7 @@ class ImuDisplay(HistoryDisplay[Motion]):
         return (*super().statuses(), off)
 
     def placed(self, entry: Entry[Motion], shapes: Mapping[str, Shape]) -> Placed:
-        """Where the unit is, turned with its frame unless its attitude is that in the world."""
+        """Place the unit, turned with its frame unless its attitude is that in the world."""
         turns = not self.values[_IN_WORLD]
         return Placed(entry.frame, entry.stamp_ns, shapes, turns=turns)
 

@@ -55,7 +55,7 @@ class LaserScanDisplay(CloudDisplay):
 
 
 class _Beams:
-    """What is known of each beam of a scan."""
+    """Directions of the beams of a scan, and the like."""
 
     def __init__(self, scan: Any) -> None:  # noqa: ANN401 - a sensor_msgs/LaserScan
         self._columns: dict[str, NDArray[np.float32]] = {"range": scan.ranges}

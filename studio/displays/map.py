@@ -89,14 +89,14 @@ def _illegal(colours: NDArray[np.uint8]) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """Where the cells of a map lie.
+    """Geometry of a map's cells.
 
     Attributes:
-        rows: Of cells, from the smallest y on.
-        columns: Of cells, from the smallest x on.
+        rows: Number, from the smallest y on.
+        columns: Number, from the smallest x on.
         cell_m: Edge of a cell.
-        corner: Where the corner of the first cell is.
-        wxyz: How the map is turned about that corner.
+        corner: Position of the first cell's corner.
+        wxyz: Rotation of the map about that corner.
     """
 
     rows: int
@@ -115,7 +115,7 @@ class Paint:
 
 
 def paint_of(palette: NDArray[np.uint8], alpha: float, *, behind: bool) -> Paint:
-    """A palette, shape (256, 4), as opaque as `alpha` says."""
+    """Return a palette, shape (256, 4), with the opacity `alpha`."""
     colours = palette.copy()
     colours[:, 3] = np.rint(colours[:, 3] * alpha)
     return Paint(colours, behind)
@@ -155,7 +155,7 @@ class Tiles:
         self._pictures.clear()
 
     def painted(self, paint: Paint) -> Mapping[str, Picture]:
-        """All pictures by name; those that are missing are painted."""
+        """Return all pictures by name; those that are missing are painted."""
         if self._sheet is None:
             return {}
         for name, part in _parts(self._sheet):
@@ -165,7 +165,7 @@ class Tiles:
 
 
 def _parts(sheet: Sheet) -> Iterator[tuple[str, tuple[slice, slice]]]:
-    """Each tile's name and where its cells are."""
+    """Yield each tile's name and cells."""
     for row in range(0, sheet.rows, TILE_CELLS):
         for column in range(0, sheet.columns, TILE_CELLS):
             rows = slice(row, min(row + TILE_CELLS, sheet.rows))

@@ -32,7 +32,7 @@ class Scale(NamedTuple):
 
 
 def measurement_properties(scale: Scale) -> tuple[Property, ...]:
-    """Those of clouds, with the colours of a scale."""
+    """Return the properties of clouds, with the colours of a scale."""
     first = {
         "Color Transformer": INTENSITY,
         "Channel Name": scale.field,
@@ -110,7 +110,7 @@ class TemperatureDisplay(MeasurementDisplay):
     PROPERTIES = measurement_properties(SCALE)
 
     def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
-        """In degrees Celsius."""
+        """Return degrees Celsius."""
         return message.temperature
 
 
@@ -125,7 +125,7 @@ class FluidPressureDisplay(MeasurementDisplay):
     PROPERTIES = measurement_properties(SCALE)
 
     def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
-        """In Pa."""
+        """Return Pa."""
         return message.fluid_pressure
 
 
@@ -140,7 +140,7 @@ class IlluminanceDisplay(MeasurementDisplay):
     PROPERTIES = measurement_properties(SCALE)
 
     def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
-        """In lx."""
+        """Return lx."""
         return message.illuminance
 
 
@@ -155,5 +155,5 @@ class RelativeHumidityDisplay(MeasurementDisplay):
     PROPERTIES = measurement_properties(SCALE)
 
     def measured(self, message: Any) -> float:  # noqa: ANN401 - a message
-        """From 0 to 1."""
+        """Return a share, 0 to 1."""
         return message.relative_humidity

@@ -24,7 +24,7 @@ _CONTROLS: Final = {"t": "\t", "n": "\n", "r": "\r", "f": "\f", "v": "\v"}
 
 
 class _Letters(NamedTuple):
-    """Which letters a step takes."""
+    """The letters that a step matches."""
 
     ranges: tuple[tuple[str, str], ...]
     others: bool = False
@@ -56,7 +56,7 @@ class NamePattern:
     def __init__(self, steps: list[_Step]) -> None:
         self._steps = steps
         self._known: dict[tuple[frozenset[int], bool, str], frozenset[int] | None] = {}
-        """Where a letter leads from steps that were reached; None when the goal was there."""
+        """Steps after a letter, by the steps before it; None when the end was reached."""
 
     def is_in(self, name: str) -> bool:
         """Whether the pattern is found in a name."""
@@ -88,7 +88,7 @@ class NamePattern:
         return isinstance(step, _Letters) and step.take(letter)
 
     def _followed(self, reached: frozenset[int], *, is_first: bool, is_last: bool) -> set[int]:
-        """All steps that are reached without a letter, also when it all begins here."""
+        """Return all steps reachable without a letter, also from the beginning."""
         states, rest = set[int](), [0, *reached]
         while rest:
             state = rest.pop()

@@ -86,7 +86,7 @@ class PathDisplay(HistoryDisplay[Line]):
         return Entry(read.frame, read.stamp_ns, line)
 
     def points_in(self, content: Line) -> int:
-        """Its poses."""
+        """Return the number of its poses."""
         return len(content.poses)
 
     def shapes(self, content: Line) -> dict[str, Shape]:

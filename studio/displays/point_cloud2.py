@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from studio.displays.display import Limits, Received
 
 RAW_POINTS_MAX: Final = 8_000_000
-"""Of more points in a message, every second, third ... is read."""
+"""With more points in a message, every second, third ... is read."""
 
 # By `datatype` of sensor_msgs/PointField: INT8 1 to FLOAT64 8.
 _NUMBERS: Final = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
@@ -225,10 +225,10 @@ class PointCloud2Display(CloudDisplay):
     )
 
     def read(self, received: Received, limits: Limits) -> Cloud:
-        """The cloud of a message.
+        """Return the cloud of a message.
 
         Raises:
-            StudioError: It cannot be read, or its data is not what its fields say.
+            StudioError: It cannot be read, or its data does not match its fields.
         """
         message = self.decode(received)
         fields = CloudFields(message)

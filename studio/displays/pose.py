@@ -46,5 +46,5 @@ class PoseDisplay(HistoryDisplay[Poses]):
         return pose_shapes(content, self.values)
 
     def sizes(self) -> tuple[str, ...]:
-        """How long the arrow or the axes are."""
+        """Return the properties with the length of the arrow or the axes."""
         return pose_sizes(self.values)

@@ -73,7 +73,7 @@ class PoseArrayDisplay(HistoryDisplay[Poses]):
         return {"arrows": self._flat(content)}
 
     def sizes(self) -> tuple[str, ...]:
-        """How long each of them is."""
+        """Return the properties with the length of each."""
         return ("Arrow Length",) if self.values["Shape"] == _FLAT else pose_sizes(self.values)
 
     def _flat(self, poses: Poses) -> Lines:

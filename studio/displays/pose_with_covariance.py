@@ -112,13 +112,13 @@ class _Own(NamedTuple):
 
 
 class Spread(NamedTuple):
-    """How sure a pose is.
+    """Uncertainty of a pose.
 
     Attributes:
-        pose: Whose it is, in the frame of its message.
+        pose: The pose, in the frame of its message.
         is_flat: Whether z, roll and pitch have no variance: a pose in a plane.
         position: One row: deviations along x and y if flat, else along three axes, m.
-        orientation: One row of yaw if flat; else three of where the tips of the axes are, rad.
+        orientation: One row of yaw if flat; else three rows for the tips of the axes, rad.
     """
 
     pose: Poses
@@ -199,7 +199,7 @@ def _orientation(spread: Spread, values: Mapping[str, Value]) -> Solids | None:
 
 
 def _wedge(spread: Spread, values: Mapping[str, Value], offset_m: float) -> Solids:
-    """How far the yaw of a pose in a plane may be off, as a flat cone along its x."""
+    """Return the deviation of the yaw of a pose in a plane, as a flat cone along its x."""
     across_m = float(_widths(spread.orientation.deviations, values)[0, 0]) * offset_m
     return Solids(
         "cone",
@@ -212,7 +212,7 @@ def _wedge(spread: Spread, values: Mapping[str, Value], offset_m: float) -> Soli
 
 
 def _discs(spread: Spread, values: Mapping[str, Value], offset_m: float, seen: Flags) -> Solids:
-    """Where the tips of the axes may be: a disc across each."""
+    """Return the deviations of the tips of the axes: a disc across each."""
     base, own = _base_turn(spread, values), spread.orientation
     tips = spread.pose.xyz + offset_m * turned(base[None].repeat(3, axis=0), np.eye(3))
     scales = np.full((3, 3), _THIN_M)
@@ -258,7 +258,7 @@ def _base_turn(spread: Spread, values: Mapping[str, Value]) -> Floats:
 
 
 def _colours(values: Mapping[str, Value]) -> NDArray[np.uint8]:
-    """Of the three axes, shape (3, 3)."""
+    """Return the colours of the three axes, shape (3, 3)."""
     if values["Covariance/Orientation/Color Style"] == "RGB":
         return _RED_GREEN_BLUE
     return np.tile(colour_of(rgb_of(values["Covariance/Orientation/Color"])), (3, 1))
@@ -293,7 +293,7 @@ class SpreadDisplay(HistoryDisplay[Spread]):
         return pose | covariance_shapes(content, self.values)
 
     def sizes(self) -> tuple[str, ...]:
-        """How long the pose is: without, how sure it is may still be seen."""
+        """Return the properties with its length, 0 of which still shows the covariance."""
         return pose_sizes(self.values, self.UNDER)
 
 

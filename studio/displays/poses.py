@@ -50,7 +50,7 @@ class Poses(NamedTuple):
 
 
 class Sizes(NamedTuple):
-    """What the parts of an arrow, or of axes, measure at first, m."""
+    """Default sizes of the parts of an arrow, or of axes, m."""
 
     shaft_length: float = 1.0
     shaft_radius: float = 0.05
@@ -121,7 +121,7 @@ def pose_shapes(poses: Poses, values: Mapping[str, Value], under: str = "") -> d
 
 
 def pose_sizes(values: Mapping[str, Value], under: str = "") -> tuple[str, ...]:
-    """How long a pose is drawn, by the names of properties; where all are 0 it is not."""
+    """Return the properties with the length of a pose; with all 0 it is not drawn."""
     names = ("Axes Length",) if values["Shape"] == "Axes" else ("Shaft Length", "Head Length")
     return tuple(f"{under}{name}" for name in names)
 
@@ -212,14 +212,14 @@ def poses_of_chosen(chosen: Floats, what: str, display: Reporter) -> Poses:
 
 
 def drawable_poses(rows: Floats) -> Flags:
-    """Which rows (N, 7) are poses that can be drawn."""
+    """Return which rows (N, 7) are poses that can be drawn."""
     return drawable(rows[:, :3]) & np.isfinite(rows[:, 3:7]).all(axis=1)
 
 
 def chosen_rows(
     rows: Floats, sound: Flags, what: str, at_most: int, display: Reporter
 ) -> Floats | None:
-    """Those of rows (N, K) that are drawn: the sound ones, spread evenly if there are too many."""
+    """Return those of rows (N, K) to draw: valid ones, spread evenly if there are too many."""
     count = len(rows)
     if count and not sound.any():
         display.refuse(

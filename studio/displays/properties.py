@@ -31,13 +31,13 @@ class Property:
 
     Attributes:
         name: RViz's; parts of a group are named with slashes, as `Covariance/Position/Alpha`.
-        kind: What it takes: a colour is written `#rrggbb`, a frame by its name on /tf.
-        default: What it is at first.
+        kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf.
+        default: The first value.
         doc: One sentence for the user.
         low: Least number.
         high: Greatest number.
         unit: Of a number: m, s, px, or empty.
-        choices: What a choice may be.
+        choices: Values of a choice.
         when: Another property, and those of its values with which this one has an effect.
     """
 

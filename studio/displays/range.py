@@ -58,7 +58,7 @@ class RangeDisplay(HistoryDisplay[Cone]):
         return Entry(*frame_and_stamp(message.header), Cone(length_m, width_m))
 
     def shapes(self, content: Cone) -> dict[str, Shape]:
-        """One cone."""
+        """Return one cone."""
         if content.length_m == 0:
             return {}
         scales = np.array([[content.width_m, content.width_m, content.length_m]], dtype=np.float32)
@@ -68,9 +68,9 @@ class RangeDisplay(HistoryDisplay[Cone]):
 
 
 def _length_m(message: Any) -> float:  # noqa: ANN401 - a message
-    """What is shown: the range within its limits, or what a sensor of one distance found near.
+    """Return the range within its limits, or the distance of a sensor that only detects.
 
-    Such a sensor says by -inf that there is something, by inf that there is nothing (REP 117).
+    Such a sensor reports an object as -inf, and none as inf (REP 117).
     """
     if message.min_range <= message.range <= message.max_range and math.isfinite(message.range):
         return max(0.0, message.range)

@@ -42,7 +42,7 @@ _AXIS_RADIUS_M: Final = 0.01
 
 
 class DescriptionSource(NamedTuple):
-    """Where a description comes from."""
+    """A topic or parameter with a description."""
 
     kind: Literal["Topic", "Parameter", "File", "Document"]
     where: str = ""
@@ -103,7 +103,7 @@ class RobotModelDisplay(StillDisplay):
     _left_out = 0
 
     def properties(self) -> tuple[Property, ...]:
-        """Those of the robot, and three of each link that is known."""
+        """Properties of the robot, and three of each link that is known."""
         of_links = (
             self._property(f"{_LINKS}{link}{part}")
             for link in self.robot.links
@@ -112,12 +112,12 @@ class RobotModelDisplay(StillDisplay):
         return (*self.PROPERTIES, *of_links)
 
     def roles(self) -> tuple[TopicRole, ...]:
-        """Its topic, as long as the description comes from there."""
+        """Its topic, while the description comes from one."""
         return self.TOPICS if self.source.kind == "Topic" else ()
 
     @property
     def source(self) -> DescriptionSource:
-        """Where the description is expected from."""
+        """The topic or parameter to read."""
         kind = cast('Literal["Topic", "Parameter", "File", "Document"]', self.values[_SOURCE])
         match kind:
             case "Parameter":
@@ -171,7 +171,7 @@ class RobotModelDisplay(StillDisplay):
         return link_frame(link, str(self.values["TF Prefix"]))
 
     def statuses(self) -> tuple[Status, ...]:
-        """What is wrong with the description, and why nothing of the robot is seen."""
+        """Return what is wrong with the description, and why the robot is invisible."""
         return (*self._of_description(), *self._of_settings())
 
     def _of_description(self) -> tuple[Status, ...]:

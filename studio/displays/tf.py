@@ -56,10 +56,10 @@ _ALONG_AXES: Final = np.array(
 )
 """Turns of z onto x, y and z."""
 NAMES_MAX: Final = 1000
-"""Names are nodes of their own, and nobody could read more."""
+"""Limit: each name is a node of the scene, and nobody could read more."""
 _PARTS: Final = ("Show Names", "Show Axes", "Show Arrows")
 _STILL: Final = 1e-6
-"""Of a position in m or of a part of a quaternion: a frame that moved less stands still."""
+"""A frame whose position in m or parts of a quaternion changed less did not move."""
 
 
 class FrameChoice:
@@ -79,7 +79,7 @@ class FrameChoice:
         self._last = None
 
     def of(self, names: tuple[str, ...]) -> Flags:
-        """Which of the names, (F,), are chosen."""
+        """Return which of the names, (F,), are chosen."""
         if self._last is None or self._last[0] is not names:
             if len(self._passes) > _NAMES_KEPT_MAX:
                 self._passes.clear()
@@ -109,7 +109,7 @@ class Shades(NamedTuple):
     """How far N frames have faded.
 
     Attributes:
-        grey: Shape (N,): 0 has its colours, 1 is grey.
+        grey: Shape (N,): 0 is its own colours, 1 is grey.
         opacity: Shape (N,).
     """
 
@@ -122,7 +122,7 @@ class Shades(NamedTuple):
         return self.grey == 0.0
 
     def of(self, chosen: NDArray[np.bool_]) -> Shades:
-        """Those of some."""
+        """Return those of some."""
         return Shades(self.grey[chosen], self.opacity[chosen])
 
 
@@ -313,7 +313,7 @@ class TfDisplay(Display):
         self._frames = frames
 
     def properties(self) -> tuple[Property, ...]:
-        """Those of all frames, and a check for each frame that is there."""
+        """Properties of all frames, and a switch for each frame."""
         names = () if self._frames is None else self._frames.names
         if self._checks[0] is not names or self._checks[1] != self.values[FRAMES]:
             checks = tuple(self._property(f"{FRAMES}/{name}") for name in sorted(names))
@@ -335,7 +335,7 @@ class TfDisplay(Display):
         super().reset()
 
     def draw(self, now_ns: int) -> Drawing:
-        """What is to be seen of the frames shown last."""
+        """Draw the frames shown last."""
         if self._frames is None or not self.values["Marker Alpha"]:
             self._seen = None
             return NOTHING
@@ -434,7 +434,7 @@ class TfDisplay(Display):
         return {**arrows_to_parents(places[hung], places[parents[hung]], shades, *self._size)}
 
     def _written(self, seen: _Seen) -> dict[str, Placed]:
-        """The names by their paths; one that looks as before is the same object."""
+        """Return the names by path; one that did not change is the same object."""
         scale, alpha = self._size
         height_m = float(self.values["Name Height"]) * scale
         written: dict[str, Placed] = {}

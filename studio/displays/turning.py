@@ -17,7 +17,7 @@ FAR: Final = 1e12
 
 
 def drawable(rows: Floats) -> Flags:
-    """Which rows (N, K) hold only numbers that can be drawn; shape (N,)."""
+    """Return which rows (N, K) have only numbers that can be drawn; shape (N,)."""
     return np.logical_and.reduce(np.abs(rows) <= FAR, axis=1)
 
 
@@ -71,7 +71,7 @@ def products(one: Floats, other: Floats) -> Floats:
 
 
 def turns_from_z(directions: Floats) -> Floats:
-    """Return unit quaternions (N, 4) that turn z to unit vectors (N, 3), the short way."""
+    """Return unit quaternions (N, 4) of the shortest rotations of z to unit vectors (N, 3)."""
     x, y, z = directions.T
     turns = np.stack((1.0 + z, -y, x, np.zeros_like(z)), axis=1)
     turns[z < -1.0 + 1e-12] = (0.0, 1.0, 0.0, 0.0)
@@ -79,9 +79,9 @@ def turns_from_z(directions: Floats) -> Floats:
 
 
 def shortest_turn(start: Floats, end: Floats) -> Floats:
-    """Return the unit quaternion (4,) that turns one direction (3,) to another the short way.
+    """Return the unit quaternion (4,) of the shortest rotation from one direction (3,) to another.
 
-    Directions have length 1; opposite ones are half a turn about an axis across.
+    Directions have length 1; between opposite ones it is half a turn about a perpendicular axis.
     """
     w = 1.0 + start @ end
     if w < 1e-12:
@@ -92,5 +92,5 @@ def shortest_turn(start: Floats, end: Floats) -> Floats:
 
 
 def angle_between_rad(one: Floats, other: Floats) -> float:
-    """How far two attitudes (4,) are apart, 0 to pi."""
+    """Return the angle between two attitudes (4,), 0 to pi."""
     return float(2.0 * np.arccos(min(1.0, abs(float(one @ other)))))

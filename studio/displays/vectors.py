@@ -43,7 +43,7 @@ class Vectors(NamedTuple):
 
 
 class Names(NamedTuple):
-    """What the two are called, as `Force` and `Torque`."""
+    """Names of the two vectors, as `Force` and `Torque`."""
 
     straight: str
     turning: str
@@ -80,7 +80,7 @@ def vectors_of(straight: Any, turning: Any) -> Vectors | None:  # noqa: ANN401 -
 
 
 def lengths_m(vectors: Vectors, names: Names, values: Mapping[str, Value]) -> tuple[float, float]:
-    """How long the two arrows are by the properties."""
+    """Return the lengths of the two arrows by the properties."""
     return (
         float(np.linalg.norm(vectors.straight)) * float(values[scale_of(names.straight)]),
         float(np.linalg.norm(vectors.turning)) * float(values[scale_of(names.turning)]),

@@ -24,12 +24,12 @@ class Change:
 
     robot: Robot
     changed_links: frozenset[str]
-    """Links that are new or look, touch or weigh different; not those that only moved."""
+    """Links that are new or differ in looks, collisions or mass; not those that only moved."""
     changed_joints: frozenset[str]
     structural: bool
     """Links or joints came, went, changed order, type, parent, child or leader."""
     problems: tuple[Problem, ...]
-    """All problems of the robot now, not only new ones."""
+    """All present problems of the robot, not only new ones."""
     kept_last_good: bool
     """The parts make no robot (no link, a cycle): `robot` is the one before."""
     only_numbers: bool = dataclasses.field(default=False, compare=False)
@@ -96,8 +96,8 @@ class Assembly:
     def _swapped(self, parsed: Mapping[str, _Element]) -> Change | None:
         """Replace values that differ in numbers only; return None when it is not that simple.
 
-        What is dragged changes a few numbers sixty times a second: names, ties, materials, meshes
-        and problems are then as they were, and nothing else need be looked at.
+        A drag changes a few numbers sixty times a second: names, ties, materials, meshes and
+        problems are then as before, and are not checked again.
         """
         before = self._kept
         if before is None or self._name != self.robot.name:
@@ -192,7 +192,7 @@ class Assembly:
     def _resolve(
         self, link: Link, materials: Mapping[str, Material], problems: list[Problem]
     ) -> Link:
-        """The link with each named material looked up; the same object while nothing changed."""
+        """Return the link with each named material resolved; the same object if nothing changed."""
         found = tuple(_lookup(visual, materials) for visual in link.visuals)
         for visual, material in zip(link.visuals, found, strict=True):
             if visual.material is not None and material is None:
@@ -308,7 +308,7 @@ def _skeleton(robot: Robot) -> object:
 
 
 def _looks(link: Link) -> object:
-    """What a link is drawn with, but for numbers: kinds of shapes, meshes and materials."""
+    """Return what a link is drawn with, but for numbers: kinds of shapes, meshes, materials."""
     return (
         [(_kind(one.geometry), one.material) for one in link.visuals],
         [_kind(one.geometry) for one in link.collisions],

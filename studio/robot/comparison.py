@@ -41,7 +41,7 @@ _NO_AXIS: Final = frozenset({JointType.FIXED, JointType.FLOATING})
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One thing that two robots do not have alike; None where one of them has none."""
+    """One difference between two robots; None where one of them has no such value."""
 
     what: str
     """E.g. `mass`, `origin.x`, `visual.radius`; `link` or `joint` for a whole one."""
@@ -49,7 +49,7 @@ class Row:
     other: Value
     unit: str = ""
     number: int = 0
-    """Which visual or collision of a link, from 1; 0 where it is about none."""
+    """Which visual or collision of a link, from 1; 0: none."""
 
 
 def is_near(one: float, other: float, absolute: float = ABSOLUTE) -> bool:
@@ -120,9 +120,9 @@ class Difference:
 
 
 def differences(one: Robot, other: Robot) -> tuple[Difference, ...]:
-    """What differs: links, then joints, in the order of `one`, then what only `other` has.
+    """Return the differences: links, then joints, in the order of `one`, then those of `other`.
 
-    A robot's values are shared between its states: what is the same object is not looked at.
+    A robot's values are shared between its states: identical objects are skipped.
     """
     parents = _parents(one), _parents(other)
 

@@ -1,8 +1,8 @@
 """One `<link>`, `<joint>` or `<material>` of an expanded URDF as a value, read as urdfdom reads it.
 
-What is missing takes urdfdom's default. What is written wrongly becomes a fault, a RobotError that
-names the element, the attribute and the text; the sub-element that holds it is left out and the
-rest of the element still comes out, so that one typing error never hides a robot.
+What is missing takes urdfdom's default. What is not valid becomes a fault, a RobotError with the
+element, the attribute and the text; the sub-element that holds it is left out and the rest of the
+element is kept, so that one typing error never hides a robot.
 """
 
 from __future__ import annotations
@@ -302,10 +302,10 @@ def _vector(element: Element, key: str, where: str, default: Vector3 | None = No
 def _numbers(
     element: Element, key: str, where: str, limit: float = _COORDINATE_LIMIT
 ) -> tuple[float, ...]:
-    """Finite numbers of an attribute, each between `-limit` and `limit`.
+    """Return the finite numbers of an attribute, each between `-limit` and `limit`.
 
     Raises:
-        RobotError: The attribute is missing, or a word of it is no number.
+        RobotError: The attribute is missing, or a part of it is no number.
     """
     written = element.get(key)
     if written is None:
@@ -321,12 +321,12 @@ def _numbers(
 
 @lru_cache(maxsize=4096)
 def _read_numbers(written: str) -> tuple[tuple[float, ...], float]:
-    """Numbers between blanks and the largest absolute one, NaN if any is; 0 for none.
+    """Return numbers between blanks and the largest absolute one, NaN if any is; 0 for none.
 
-    Most texts of a part stay as they were.
+    Cached, for most texts of a part stay as they were.
 
     Raises:
-        ValueError: A word is no number.
+        ValueError: A part is no number.
     """
     if "_" in written or not written.isascii():  # numbers to Python, to no other reader of URDF
         raise ValueError(written)

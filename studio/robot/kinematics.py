@@ -280,7 +280,7 @@ class _Motion(NamedTuple):
 
     @classmethod
     def of(cls, joints: Sequence[Joint]) -> _Motion:
-        """All joints, in order."""
+        """Return the motions of all joints, in order."""
         origins = np.array([(*one.origin.xyz, *one.origin.rpy) for one in joints], np.float64)
         origins = origins.reshape(-1, 6)
         parent_from_joint = np.zeros((len(joints), 4, 4))

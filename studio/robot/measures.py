@@ -234,7 +234,7 @@ def is_closed(vertices: NDArray[np.float32], faces: NDArray[np.uint32]) -> bool:
 
 
 def _places(vertices: NDArray[np.float32]) -> NDArray[np.int64]:
-    """For each vertex the same number as for all others at its place, (N,)."""
+    """Return for each vertex the number shared by all at its place, (N,)."""
     exact = vertices + np.float32(0.0)  # -0 is 0
     order = np.lexsort(exact.T)
     moved = np.any(np.diff(exact[order], axis=0, prepend=np.nan), axis=1)

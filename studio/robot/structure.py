@@ -115,7 +115,7 @@ def _report_cycles(
 
 
 def _cycles(links: Iterable[str], parents: Mapping[str, str]) -> Iterable[list[str]]:
-    """Each cycle once, from child to parent."""
+    """Yield each cycle once, from child to parent."""
     done: set[str] = set()
     for start in links:
         path: dict[str, None] = {}

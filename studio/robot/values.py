@@ -1,4 +1,4 @@
-"""A robot as plain frozen values: what the URDF says, in SI units, nothing computed.
+"""A robot as plain frozen values: the URDF in SI units, nothing computed.
 
 Source: the URDF specification as urdfdom reads it. Angles in rad, lengths in m, masses in kg.
 """
@@ -67,7 +67,7 @@ class Material:
 
 @dataclass(frozen=True, slots=True)
 class Visual:
-    """What a link looks like; `material` may be only a name, resolved in the robot's materials."""
+    """Shape and material to draw; `material` may be a mere name, one of the robot's materials."""
 
     origin: Origin
     geometry: Geometry
@@ -77,7 +77,7 @@ class Visual:
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """What a link touches with."""
+    """Shape for collisions."""
 
     origin: Origin
     geometry: Geometry

@@ -16,7 +16,7 @@ _TEXT_BUFFER_BYTES = 1 << 20
 
 
 def parse_tree(xml: str | bytes) -> Element:
-    """Parse XML without namespaces: URDF in the wild uses prefixes that nobody declares.
+    """Parse XML without namespaces: real URDF uses prefixes that are not declared.
 
     Raises:
         RobotError: Not well-formed, of unknown encoding, or it declares entities.

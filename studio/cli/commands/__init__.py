@@ -1,4 +1,4 @@
-"""The commands of `studio`, found by looking: each file here is one, and each folder.
+"""The commands of `studio`, found by name: each file here is one, and each folder.
 
 The first line of a command's file is its line in `studio --help`, a docstring of the form
 `studio NAME`: SUMMARY. It is read and not imported, so that the help stays quick.
@@ -23,7 +23,7 @@ _FIRST = (
 
 
 class CommandModule(Protocol):
-    """What a command's file holds."""
+    """A command's file."""
 
     def add(self, parser: argparse.ArgumentParser) -> None:
         """Give the parser its options and verbs, and these defaults, of which only `run` is needed.
@@ -50,7 +50,7 @@ def add_command(name: str, parser: argparse.ArgumentParser) -> None:
 
 
 def _place(name: str) -> tuple[int, str]:
-    """Return where a command stands in the help: what a newcomer needs first, then by name."""
+    """Return a command's place in the help: those for beginners first, then by name."""
     return (_FIRST.index(name) if name in _FIRST else len(_FIRST), name)
 
 

@@ -83,10 +83,10 @@ def _ends(graph: Graph, name: str) -> list[tuple[str, list[str]]]:
 
 _CANCEL_TIMEOUT_S = 5.0
 _LOG_PATIENCE_S = 0.5
-"""What a server logs may come later than its answer."""
+"""A server's log may arrive later than its answer."""
 _WARNING = 30
 _LOOK_S = 0.1
-"""How often the wait for an answer looks whether Ctrl-C was pressed."""
+"""Between two checks for Ctrl-C while waiting for an answer."""
 
 
 def _add_send_goal(verbs: Verbs) -> None:
@@ -168,7 +168,7 @@ def _follow(
 
 
 def _cancel_sent(own: OwnNode, sent: Future[ClientGoalHandle]) -> None:
-    """Cancel a goal of which the server has not yet said whether it takes it."""
+    """Cancel a goal that the server has neither accepted nor rejected yet."""
     if not own.wait(sent, _CANCEL_TIMEOUT_S):
         print("The server did not say whether it accepted the goal.", file=sys.stderr)
     elif sent.result().accepted:
@@ -176,7 +176,7 @@ def _cancel_sent(own: OwnNode, sent: Future[ClientGoalHandle]) -> None:
 
 
 def _cancel(own: OwnNode, goal: ClientGoalHandle) -> None:
-    """Ask that the goal end, as nobody waits for it any more."""
+    """Cancel a goal, as nobody waits for it any more."""
     print("Canceling goal...", flush=True)
     asked = goal.cancel_goal_async()
     if not own.wait(asked, _CANCEL_TIMEOUT_S):
@@ -226,7 +226,7 @@ class _Feedback:
         self._early: list[Any] | None = []
 
     def take(self, message: Any) -> None:  # noqa: ANN401  # of the action's own class
-        """Say it now, or once the goal is said to be accepted."""
+        """Print it now, or once the goal is accepted."""
         if self._early is None:
             print(f"Feedback:\n    {_text(message.feedback)}", flush=True)
         else:
@@ -240,7 +240,7 @@ class _Feedback:
 
 
 class _ServerLog:
-    """What the server of an action logs from now on: its answer holds no reason."""
+    """What an action's server logs from now on: its answer has no reason."""
 
     def __init__(self, own: OwnNode, action: str) -> None:
         from studio.ros.names import logger_name
@@ -254,7 +254,7 @@ class _ServerLog:
         own.node.create_subscription(log, ROSOUT, self._take, 100)
 
     def say(self) -> None:
-        """Print its last warning or error, or where to look."""
+        """Print its last warning or error, or where to find it."""
         self._actor.work_until(lambda: self._warning is not None, _LOG_PATIENCE_S)
         server = ", ".join(self._servers)
         if self._warning is None:

@@ -137,7 +137,7 @@ def _print_sections(sections: list[_Section]) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """One thing that is wrong: which kind, and a sentence."""
+    """One problem: its kind, and a sentence."""
 
     kind: str
     sentence: str
@@ -182,7 +182,7 @@ def _service_faults(graph: Graph, name: str, types: TypeLibrary) -> Iterator[Fau
     servers, clients = graph.servers(name), graph.clients(name)
     yield from _type_faults(name, [*servers, *clients], types)
     paths = [server.node.path for server in servers]
-    # Of nodes with one name that is said, not each of their services.
+    # Reported once for nodes of one name, not for each of their services.
     is_one_name = len(set(paths)) == 1 and paths[0] in graph.duplicate_nodes()
     if len(servers) > 1 and not is_one_name:
         yield Fault(

@@ -75,7 +75,7 @@ def _list(options: argparse.Namespace) -> None:
         for name in names:
             if f"/{kind}/" in name:
                 print(f"    {name}")
-    if not options.interfaces:  # else said when they were read
+    if not options.interfaces:  # else printed when they were read
         say_faults(library.faults().values())
 
 
@@ -90,7 +90,7 @@ def _package(options: argparse.Namespace) -> int:
     library = _library(options)
     names = [name for name in library.names() if name.startswith(wanted)]
     faults = [fault for name, fault in library.faults().items() if name.startswith(wanted)]
-    if not options.interfaces:  # else said when they were read
+    if not options.interfaces:  # else printed when they were read
         say_faults(faults)
     if not names and not faults:
         raise UnknownTypeError(options.package_name, f"no package {options.package_name} has types")
@@ -143,7 +143,7 @@ _FIELD = re.compile(r"\s*([A-Za-z][\w/]*)\S*\s+([A-Za-z]\w*)\s*(?!\s*=)")
 
 
 class _Comments(Enum):
-    """Which comments of the texts are kept."""
+    """Which comments of the definitions are printed."""
 
     NONE = auto()
     OWN = auto()

@@ -96,7 +96,7 @@ def _set(options: argparse.Namespace) -> int:
 
 @contextmanager
 def _named_client(options: argparse.Namespace) -> Generator[LifecycleClient | None]:
-    """Give a client of the node that is named; None, after words on stderr, if it is not there."""
+    """Yield a client of the node that is named; None, after a message, if it is not there."""
     from studio.ros.lifecycle.client import LifecycleClient
 
     with own_node(options) as own:

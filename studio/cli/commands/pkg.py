@@ -63,7 +63,7 @@ def _xml(options: argparse.Namespace) -> int:
 
 
 def _manifest(index: PackageIndex, name: str) -> str:
-    """Give the text of a package.xml; for a package of our demos one that says what they are."""
+    """Return the text of a package.xml; one is made for a package of our demos."""
     from studio.cli.packages import demo_manifest
 
     if name not in index and (written := demo_manifest(name)):

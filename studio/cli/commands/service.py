@@ -109,7 +109,7 @@ def _call(options: argparse.Namespace) -> int:
 
 
 def _wait_for_service(client: Client, timeout_s: float | None) -> bool:
-    """Wait until somebody serves, and say so when that is not at once."""
+    """Wait until there is a server, with a message if it takes time."""
     if client.service_is_ready():
         return True
     print("waiting for service to become available...", flush=True)

@@ -60,7 +60,7 @@ def _read_policy(options: argparse.Namespace) -> ReadPolicy:
 
 
 def _write(content: bytes, output: Path | None) -> None:
-    """To stdout, or to a file whose folder is made, as xacro does."""
+    """Write to stdout, or to a file whose folder is made, as xacro does."""
     if output is None:
         sys.stdout.buffer.write(content)
         sys.stdout.buffer.flush()

@@ -1,4 +1,4 @@
-"""Rover: drives round a room and tells all of itself; /cmd_vel takes the wheel.
+"""Rover: drives round a room and publishes all its sensors; /cmd_vel drives it.
 
 Try: `studio demos rover`, then `studio topic list`, `studio topic hz /scan`, and
 `studio topic pub -r 5 /cmd_vel geometry_msgs/msg/Twist "{linear: {x: 0.3}, angular: {z: 0.8}}"`;

@@ -25,7 +25,7 @@ _ARM = {
     "arm_roll_joint": (0.8, 8.0),
     "gripper_joint": (0.008, 4.0),
 }
-"""How far each joint swings, rad or m, and how long a swing takes, s."""
+"""The amplitude of each joint, rad or m, and its period, s."""
 _PAN_RAD, _PAN_S, _TILT_RAD, _TILT_S = 0.9, 12.0, 0.15, 8.0
 
 
@@ -89,7 +89,7 @@ class Body:
 
 
 def pan_rad(seconds: float) -> float:
-    """Where the mast's head looks, to the left of ahead."""
+    """Return the direction of the mast's head, to the left of ahead."""
     return _swing(_PAN_RAD, _PAN_S, seconds)
 
 

@@ -16,7 +16,7 @@ WIDTH_PX, HEIGHT_PX = 160, 120
 FOCAL_PX = 140.0
 """Both focal lengths; the middle of the picture is its principal point."""
 EYE_M, WALL_M = 0.55, 1.3
-"""How high the camera stands, and the walls."""
+"""Heights of the camera, and of the walls."""
 _FAR_M = 9.0
 _WALL_COLORS = np.array(
     [[214, 206, 190], [198, 180, 158], [176, 190, 196], [186, 170, 188]], dtype=np.float64
@@ -66,5 +66,5 @@ def _ground(rows: NDArray[np.intp]) -> NDArray[np.float64]:
 
 
 def field_of_view_rad() -> float:
-    """How wide the picture is, as an angle."""
+    """Return the horizontal angle of view."""
     return 2 * math.atan(WIDTH_PX / 2 / FOCAL_PX)

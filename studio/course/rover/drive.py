@@ -11,7 +11,7 @@ WHEEL_RADIUS_M = 0.105
 TRACK_M = 0.492
 """Left wheels to right wheels, middle to middle."""
 REACH_M = 0.38
-"""How near to a wall its middle comes."""
+"""The nearest that its middle comes to a wall."""
 COMMAND_LASTS_S = 0.5
 SPEED_MAX_M_S, TURN_MAX_RAD_S = 1.0, 2.0
 _ACCELERATION_M_S2, _TURN_RAD_S2 = 1.5, 4.0
@@ -28,12 +28,12 @@ class Drive:
     turn_rad_s: float = 0.0
     acceleration_m_s2: float = 0.0
     wheels_rad: list[float] = field(default_factory=lambda: [0.0, 0.0])
-    """How far the left and the right wheels have turned."""
+    """Angles of the left and the right wheels."""
     _wanted: tuple[float, float] = (0.0, 0.0)
     _wanted_for_s: float = 0.0
 
     def command(self, forward_m_s: float, turn_rad_s: float) -> None:
-        """Take up a wish, as far as the motors go; one that is no number means to stand."""
+        """Take a velocity, within the motors' limits; one that is no number means to stop."""
         if not (math.isfinite(forward_m_s) and math.isfinite(turn_rad_s)):
             forward_m_s = turn_rad_s = 0.0
         self._wanted = (

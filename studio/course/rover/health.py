@@ -1,4 +1,4 @@
-"""Health: the battery and the motors, as /diagnostics and /battery_state tell of them."""
+"""Health: publishes battery and motors on /diagnostics and /battery_state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""OwnModel: the rover's description and transforms, for as long as nobody else tells them."""
+"""OwnModel: publishes the rover's description and transforms while nobody else does."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ _PACKAGE = "rover_description"
 
 
 class OwnModel:
-    """Runs a robot_state_publisher beside the rover; a studio that tells its model takes over."""
+    """Runs a robot_state_publisher beside the rover, unless a studio publishes its model."""
 
     def __init__(self, executor: Executor, urdf: str) -> None:
         self._executor, self._urdf = executor, urdf
         self._told_by: RobotStateNode | None = None
 
     def look(self, rover: Node) -> None:
-        """Begin to tell, or leave it to others who do; from time to time."""
+        """Start to publish, or leave it to others who do; called every second."""
         if is_told_by_others(rover, "/robot_description"):
             if self._told_by is not None:
                 rover.get_logger().info("Somebody else tells the model of the robot.")

@@ -1,4 +1,4 @@
-"""RoverNode: drives, looks and tells, each at its own rate."""
+"""RoverNode: drives, measures and publishes, each at its own rate."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from studio.ros.messages.geometry_msgs.msg import Twist
 
 STEP_S, CAMERA_S = 1 / 30, 0.2
 TAKES_OVER_S = 5.0
-"""How long nobody has driven when it goes on by itself."""
+"""Time without a command after which it goes on by itself."""
 
 
 class RoverNode(Node):
@@ -47,7 +47,7 @@ class RoverNode(Node):
         self.drive.command(msg.linear.x, msg.angular.z)
 
     def on_step(self) -> None:
-        """Drive on, by itself if nobody else does, and tell of it."""
+        """Drive on, by itself if nobody else does, and publish the motion."""
         was_driven = self.idle_s < TAKES_OVER_S
         self.seconds += STEP_S
         self.idle_s += STEP_S
@@ -63,7 +63,7 @@ class RoverNode(Node):
         self.camera.publish(self.stamp(), self.drive, pan_rad(self.seconds))
 
     def on_second(self) -> None:
-        """Tell what changes slowly; joints that another node tells are left to it."""
+        """Publish what changes slowly; joints that another node publishes are left to it."""
         self.body.tells_joints = not is_told_by_others(self, "/joint_states")
         self.surroundings.publish(self.stamp(), self.drive)
         self.health.publish(self.stamp(), self.drive, self.seconds, is_blocked=self.is_blocked)

@@ -45,7 +45,7 @@ def cast_rays(x: float, y: float, angles_rad: Floats) -> tuple[Floats, NDArray[n
 
 
 def clearance_m(x: float, y: float) -> float:
-    """How far the nearest wall or post is in any direction; 0 within a post."""
+    """Return the distance of the nearest wall or post in any direction; 0 within a post."""
     starts, spans = WALLS_M[:, :2], WALLS_M[:, 2:] - WALLS_M[:, :2]
     place = np.array([x, y])
     along = ((place - starts) * spans).sum(axis=1) / (spans**2).sum(axis=1)

@@ -1,4 +1,4 @@
-"""RoundTrip: the way around the room that the rover drives when nobody else drives it."""
+"""RoundTrip: the path around the room that the rover drives when nobody else drives it."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ _QUARTER = math.pi / 2
 
 
 class RoundTrip:
-    """A closed way; `way_m` has shape (N, 2), one place every tenth of a metre."""
+    """A closed path; `way_m` has shape (N, 2), one point every tenth of a metre."""
 
     def __init__(self) -> None:
         self.way_m = _rounded(_CORNERS_M, _CORNER_RADIUS_M)
 
     def plan_from(self, x: float, y: float) -> NDArray[np.float64]:
-        """Give the way from the place nearest to the rover once around, shape (N, 2)."""
+        """Return the path from the point nearest to the rover once around, shape (N, 2)."""
         return np.roll(self.way_m, -self._nearest(x, y), axis=0)
 
     def steer(self, x: float, y: float, yaw: float) -> tuple[float, float]:
-        """Give speeds, m/s ahead and rad/s to the left, that bring the rover along the way."""
+        """Return speeds, m/s ahead and rad/s to the left, that bring the rover along the path."""
         ahead = (self._nearest(x, y) + round(_LOOK_AHEAD_M / _STEP_M)) % len(self.way_m)
         goal_x, goal_y = self.way_m[ahead] - (x, y)
         bearing = math.remainder(math.atan2(goal_y, goal_x) - yaw, math.tau)

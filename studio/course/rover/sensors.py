@@ -56,7 +56,7 @@ class Camera:
         )
 
     def publish(self, stamp: Time, drive: Drive, pan_rad: float) -> None:
-        """Take a picture of the room from where the mast's head is and looks now."""
+        """Take a picture of the room from the mast's head."""
         x, y = _on_the_rover(drive, _CAMERA_M)
         image = Image(height=HEIGHT_PX, width=WIDTH_PX, encoding="rgb8", step=3 * WIDTH_PX)
         image.header.stamp, image.header.frame_id = stamp, _CAMERA_FRAME
@@ -78,7 +78,7 @@ def _camera_info() -> CameraInfo:
 
 
 def _on_the_rover(drive: Drive, place_m: tuple[float, float]) -> tuple[float, float]:
-    """Where in the room a place of the rover is."""
+    """Return where in the room a point of the rover is."""
     cosine, sine = math.cos(drive.yaw), math.sin(drive.yaw)
     ahead, left = place_m
     return drive.x + cosine * ahead - sine * left, drive.y + sine * ahead + cosine * left

@@ -1,4 +1,4 @@
-"""Surroundings: the map, the way ahead, and markers of what stands in the room."""
+"""Surroundings: the map, the path ahead, and markers of the posts in the room."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Surroundings:
         self._markers.publish(_markers())
 
     def publish(self, stamp: Time, drive: Drive) -> None:
-        """Tell the way from here once around."""
+        """Publish the path from here once around."""
         plan = Path()
         plan.header.stamp, plan.header.frame_id = stamp, "map"
         for x, y in self._trip.plan_from(drive.x, drive.y).tolist():
@@ -60,7 +60,7 @@ def _map(stamp: Time) -> OccupancyGrid:
 
 
 def _markers() -> MarkerArray:
-    """All stand in their frame for good, without a time: told once, they are seen ever after."""
+    """Return markers that stay in their frame, without a stamp: sent once, they stay drawn."""
     walls = _marker("walls", 0, Marker.LINE_LIST, _GREY, (0.05, 0.0, 0.0))
     walls.points = list(_wall_edges())
     posts = [_post(number, *place) for number, place in enumerate(POSTS_M.tolist())]

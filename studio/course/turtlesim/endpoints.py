@@ -22,7 +22,7 @@ _FEEDBACK_S = 0.05
 
 
 class TurtleEndpoints:
-    """What a node tells of one turtle and takes for it; `destroy` takes it all off the wire."""
+    """Publishers, subscription and servers of one turtle; `destroy` removes them all."""
 
     def __init__(self, node: Node, flock: Flock, turtle: Turtle) -> None:
         self._node, self._flock, self._turtle = node, flock, turtle
@@ -56,7 +56,7 @@ class TurtleEndpoints:
         self._color.publish(Color(r=red, g=green, b=blue))
 
     def destroy(self) -> None:
-        """Leave the wire; a rotation that is under way ends."""
+        """Remove all endpoints; a rotation that is running ends."""
         self._turtle.goal_theta = None
         self._rotate.destroy()
         for service in self._services:
@@ -122,6 +122,6 @@ class TurtleEndpoints:
         return result
 
     def _is_turning(self, goal_handle: ServerGoalHandle, wanted: float) -> bool:
-        """Whether the turtle turns for this goal still, and nobody asked to cancel it."""
+        """Whether the turtle still turns for this goal, and nobody asked to cancel it."""
         is_current = self._rotating is goal_handle and self._turtle.goal_theta == wanted
         return is_current and not goal_handle.is_cancel_requested

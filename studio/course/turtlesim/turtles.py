@@ -17,7 +17,7 @@ ROTATION_RAD_S = 1.0
 
 @dataclass(slots=True)
 class Pen:
-    """What a turtle draws with; `width_px` in pixels."""
+    """A turtle's pen; `width_px` in pixels."""
 
     color: tuple[int, int, int] = (179, 184, 255)
     width_px: int = 3
@@ -69,7 +69,7 @@ class Turtle:
 
     @property
     def remaining_rad(self) -> float:
-        """How far it has yet to turn to the heading that was asked for; 0 without one."""
+        """The angle left to the goal's heading; 0 without one."""
         return 0.0 if self.goal_theta is None else within_a_turn(self.goal_theta - self.theta)
 
     def _rotate(self, goal_theta: float, step_s: float) -> None:
@@ -106,7 +106,7 @@ _PIXELS_BY_M = (SIZE_PX - 1) / FIELD_M
 
 
 class Paper:
-    """Square of `SIZE_PX` pixels; what nobody drew on shows the background."""
+    """Square of `SIZE_PX` pixels; undrawn ones show the background."""
 
     def __init__(self) -> None:
         self._colors = np.zeros((SIZE_PX, SIZE_PX, 3), dtype=np.uint8)
@@ -134,7 +134,7 @@ class Paper:
         return red, green, blue
 
     def picture(self, background: tuple[int, int, int]) -> np.ndarray:
-        """Give the ground as it looks, shape (SIZE_PX, SIZE_PX, 3), uint8, top row first."""
+        """Return the ground, shape (SIZE_PX, SIZE_PX, 3), uint8, top row first."""
         return np.where(self._drawn[..., None], self._colors, np.array(background, dtype=np.uint8))
 
     def _dot(self, column: int, row: int, pen: Pen) -> None:

@@ -151,7 +151,7 @@ def shapes_of(markers: Rows) -> dict[str, Shape]:
 
 
 def _named(shapes: Mapping[str, Shape], namespace: str | None) -> dict[str, Shape]:
-    """Return names that no other namespace has, and that are plain words whatever its own is."""
+    """Return names that no other namespace has, without slashes whatever its own is."""
     mark = "rest"
     if namespace is not None:
         mark = hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()

@@ -59,7 +59,7 @@ def place(markers: Rows, owners: Whole, points: Floats) -> Floats:
 
 
 def item_colors(markers: Rows, items: PlacedItems) -> NDArray[np.float32]:
-    """Of each point its own colour if the marker has one for each, else the marker's. (P, 4)."""
+    """Return each point's own colour if its marker has one for each, else the marker's. (P, 4)."""
     if not any(len(each.rgba) for each in markers.items):
         return markers.rgba[items.owners]
     return np.concatenate(

@@ -1,4 +1,4 @@
-"""What the numbers of a visualization_msgs/Marker mean, and what can be wrong with one."""
+"""The numbers of a visualization_msgs/Marker by name, and what can be wrong with one."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ OF_POINTS: Final = (
     Kind.LINE_STRIP, Kind.LINE_LIST, Kind.CUBE_LIST, Kind.SPHERE_LIST, Kind.POINTS, Kind.TRIANGLES,
     Kind.ARROW_STRIP,
 )  # fmt: skip
-"""Those that show nothing without points."""
+"""Types that show nothing without points."""
 COLOURED_POINTS: Final = (
     Kind.LINE_STRIP, Kind.LINE_LIST, Kind.CUBE_LIST, Kind.SPHERE_LIST, Kind.POINTS, Kind.TRIANGLES,
 )  # fmt: skip
-"""Those whose points may have colours of their own."""
+"""Types whose points may have colours of their own."""
 
 
 class Problem(IntEnum):
@@ -133,9 +133,9 @@ class Columns(NamedTuple):
     scales: Floats
     alphas: NDArray[np.float32]
     points: Whole
-    """How many each has."""
+    """Number of points of each."""
     colors: Whole
-    """How many each has."""
+    """Number of colours of each."""
     nameless: Flags
     """Which name no frame."""
 

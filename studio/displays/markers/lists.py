@@ -98,7 +98,7 @@ def _with_items(markers: Rows) -> Rows:
 
 
 def _beginnings(drawn: Rows, items: PlacedItems) -> Whole:
-    """Which points begin a line: all of a strip but its last, every other one of a list."""
+    """Return which points begin a line: all of a strip but its last, every other one of a list."""
     is_begin = np.ones(len(items.owners), dtype=np.bool_)
     is_begin[items.starts[1:] - 1] = False
     in_list = drawn.types[items.owners] == Kind.LINE_LIST
@@ -170,7 +170,7 @@ def _meshes(markers: Rows) -> Iterator[tuple[str, MeshFile]]:
 
 
 def _looks(markers: Rows) -> Iterator[tuple[Xyz, Rgb, float]]:
-    """Where each is, its colour and its opacity."""
+    """Yield each marker's position, colour and opacity."""
     positions: list[list[float]] = markers.positions.tolist()
     colors: list[list[int]] = colors_of(markers.rgba).tolist()
     alphas: list[int] = alphas_of(markers.rgba).tolist()

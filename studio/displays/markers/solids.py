@@ -34,11 +34,11 @@ _KINDS: Final[tuple[tuple[str, SolidKind, Kind, Kind | None], ...]] = (
 )
 """Names of shapes, what they are, and which single markers and lists become them."""
 MANY: Final = 2000
-"""From so many equal boxes or balls on a list is drawn as a cloud of them."""
+"""From this number on, equal boxes or balls are drawn as a point cloud."""
 _HALF_PRECISION: Final = 2.0**-10
 _SEEN_SHARE: Final = 0.05
 HEAD_SHARE: Final = 0.23
-"""Of the length, where the head's length is not given."""
+"""Share of the length, where the head's length is not given."""
 _HEAD_SHARE_OF_STRIPS: Final = 0.25
 _HEAD_BY_SHAFT: Final = 2.0
 _HALF: Final = np.sqrt(0.5)
@@ -83,7 +83,7 @@ def solids_of(markers: Rows) -> dict[str, Shape]:
 
 
 def solids(kind: SolidKind, bodies: Bodies) -> Solids | None:
-    """One shape of all that is not clear; None when nothing is left."""
+    """Return one shape of all that is not transparent; None when nothing is left."""
     alphas = alphas_of(bodies.rgba)
     seen = alphas > 0
     if not seen.any():
@@ -211,7 +211,7 @@ def _by_pose(markers: Rows) -> Arrow:
 
 
 def _by_points(markers: Rows, head_share: float) -> Arrow:
-    """From each point to the next: scale.x is the shaft, y the head, and z the head's length."""
+    """Return arrows from point to point: scale.x is the shaft, y the head, z the head's length."""
     owners, tails, tips = _pairs(markers)
     tails, tips = place(markers, owners, tails), place(markers, owners, tips)
     lengths_m = np.linalg.norm(tips - tails, axis=1)
@@ -262,7 +262,7 @@ def _sized(diameters_m: Floats, lengths_m: Floats) -> Floats:
 
 
 def _solid(bodies: Bodies) -> Bodies:
-    """Those of any length and thickness: an arrow may be all shaft, or all head."""
+    """Return those with a length and thickness: an arrow may be all shaft, or all head."""
     kept = (bodies.scales[:, 2] > 0) & (bodies.scales[:, :2] > 0).any(axis=1)
     return Bodies(bodies.positions[kept], bodies.wxyz[kept], bodies.scales[kept], bodies.rgba[kept])
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _KEPT: Final = 4
 _BYTES_KEPT_MAX: Final = 1 << 20
 STAMPS_MAX: Final = 256
-"""Of one message: of more, those that are close to each other are taken for one."""
+"""Limit for one message: of more, those close to each other are taken as one."""
 _CLOSE_NS: Final = 10_000_000
 MARKERS_MAX: Final = 50_000
 NAMESPACES_MAX: Final = 1000
@@ -134,7 +134,7 @@ def few_stamps(stamps_ns: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 class Outcome(NamedTuple):
-    """What is to be done, in this order."""
+    """What to do, in this order."""
 
     clears_all: bool
     """Whether all markers are deleted first."""
@@ -144,7 +144,7 @@ class Outcome(NamedTuple):
     added: Whole
     """Shape (A,): which markers of the message exist afterwards; their keys differ."""
     twice: Key | None
-    """One that the message holds more than once."""
+    """A marker that the message has more than once."""
 
 
 def outcome_of(
@@ -201,13 +201,13 @@ def _duplicate(namespaces: Sequence[str], ids: NDArray[np.int32], named: Whole) 
 
 
 class _LastAdd(NamedTuple):
-    """Of a message that added nothing but markers that were all taken in."""
+    """A message that only added markers, all of which were accepted."""
 
     named: Named
     ids: NDArray[np.int32]
     rows: Whole
     deletions: int
-    """How often markers were deleted before it."""
+    """Number of deletions before it."""
 
 
 class MarkerStore:
@@ -281,7 +281,7 @@ class MarkerStore:
         return dirty
 
     def namespaces(self) -> set[str]:
-        """Those that hold a marker now."""
+        """Namespaces with a marker."""
         return {namespace for namespace, _ in self._rows}
 
     def _taken(self, columns: MarkerColumns, named: Named) -> Flags:

@@ -57,15 +57,15 @@ class Rows:
     """Some markers, column by column.
 
     Attributes:
-        rows: Shape (M,): which of the table they are.
+        rows: Shape (M,): their rows of the table.
         types: Shape (M,), int32.
         positions: Shape (M, 3), m in the frame.
         rotations_wxyz: Shape (M, 4), of length 1.
-        scales: Shape (M, 3), as they were sent.
+        scales: Shape (M, 3), as sent.
         rgba: Shape (M, 4), 0 to 1 or beyond.
         items: Of each.
-        words: Of each: its text, or the address of its mesh.
-        embedded: Shape (M,): whether a mesh brings its own colours.
+        words: Text of each, or the URI of its mesh.
+        embedded: Shape (M,): whether a mesh uses its own colours.
     """
 
     rows: Whole
@@ -79,7 +79,7 @@ class Rows:
     embedded: NDArray[np.bool_]
 
     def only(self, chosen: NDArray[np.bool_]) -> Rows:
-        """Those for which `chosen` (M,) holds."""
+        """Return those for which `chosen` (M,) holds."""
         if chosen.all():
             return self
         places = np.flatnonzero(chosen)
@@ -93,7 +93,7 @@ class Rows:
         )  # fmt: skip
 
     def part(self, begin: int, end: int) -> Rows:
-        """Those from one place to before another, as views."""
+        """Return those from `begin` to before `end`, as views."""
         run = slice(begin, end)
         return Rows(
             self.rows[run], self.types[run], self.positions[run], self.rotations_wxyz[run],
@@ -102,7 +102,7 @@ class Rows:
         )  # fmt: skip
 
     def of_types(self, *types: int) -> Rows:
-        """Those of some types."""
+        """Return those of some types."""
         chosen = self.types == types[0]
         for other in types[1:]:
             chosen |= self.types == other
@@ -182,10 +182,10 @@ class MarkerTable:
         """Write markers into their rows.
 
         Args:
-            columns: Of a message.
-            nameless: Shape (M,): which markers of the message name no frame.
-            rows: Shape (A,), each another.
-            added: Shape (A,): which markers of the message.
+            columns: The markers of a message.
+            nameless: Shape (M,): which markers of the message have no frame.
+            rows: Shape (A,), all different.
+            added: Shape (A,): which markers of the message to write.
 
         Returns:
             Shape (A,): which may look different now.
@@ -307,7 +307,7 @@ def _items_of(  # noqa: PLR0913 - numbers of one marker
 
 
 def _color_counts(kind: int, points: int) -> tuple[int, ...]:
-    """How many colours make the points of a marker coloured; of triangles one each is enough."""
+    """How many colours colour each point of a marker; for triangles one each is enough."""
     if kind == Kind.TRIANGLES:
         return points, points // 3
     return (points,) if kind in COLOURED_POINTS else ()

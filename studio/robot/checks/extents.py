@@ -64,9 +64,9 @@ class _Boxes:
 def extents(
     links: Iterable[Link], mesh_bounds: Callable[[str], Bounds | None]
 ) -> dict[str, Extent]:
-    """The extent of each link by its name; `mesh_bounds` as for `measure`.
+    """Return the extent of each link by name; `mesh_bounds` as for `measure`.
 
-    A side with one unknown mesh is None as a whole: half a box says nothing.
+    A side with an unknown mesh is None as a whole: half a box is of no use.
     """
     found: dict[str, Extent] = {}
     boxes = _Boxes()

@@ -97,10 +97,10 @@ Mend: TypeAlias = SwapAttributes | SetAttributes | AddChild | RemoveChild
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that is wrong with a part of the robot.
+    """One fault of a part of the robot.
 
     `key` is the part (`link:<name>`, `joint:<name>`), empty for the robot as a whole; `others` are
-    further parts that are involved.
+    further parts involved.
     """
 
     severity: Severity

@@ -57,8 +57,8 @@ def _of_limits(robot: Robot, element_of: Callable[[str], Element | None]) -> Ite
 
     Args:
         robot: As it is drawn.
-        element_of: The element of a part by its key; None when it is not known. Only that tells
-            an effort that is not written from one of 0.
+        element_of: Returns the element of a part by its key; None when it is not known. Only that
+            distinguishes a missing effort from one of 0.
     """
     for joint in robot.joints.values():
         if joint.limit is None:

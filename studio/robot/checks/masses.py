@@ -29,7 +29,7 @@ _ENTRIES: Final = {
     "izz": (2, 2),
 }
 _TOLERANCE: Final = 1e-6
-"""Of the largest moment: rounding in the file is no fault."""
+"""Share of the largest moment: rounding in the file is no fault."""
 _WHY: Final = {
     "bad-inertia": "all must be above zero",
     "inertia-triangle": "in a real body none exceeds the sum of the two others",
@@ -37,13 +37,13 @@ _WHY: Final = {
 _DENSEST_KG_M3: Final = 20_000.0
 """Gold has 19,300; steel 7,850."""
 _LIGHTEST_KG_M3: Final = 5.0
-"""Of the box around a link, most of which may be air; of the corpus the lightest has 19."""
+"""Mean density of the box around a link, mostly air; of the corpus the lightest has 19."""
 _THINNEST_M: Final = 0.005
 """A sheet or a line as a picture of something is taken to be that thick."""
 _TOO_WIDE: Final = 1.5
 """Times the moment of the whole mass in the farthest corner, which nothing exceeds."""
 _TOO_NARROW: Final = 0.01
-"""Of the moment of a solid box of that size: a tenth of its size."""
+"""Share of the moment of a solid box of that size: a tenth of its size."""
 
 
 def findings(checked: CheckedRobot) -> Iterator[Finding]:
@@ -160,7 +160,7 @@ def _bad_mass(link: Link, inertial: Inertial) -> Finding:
 
 
 def _moments_finding(link: Link, moments: Floats, extent: Extent) -> Finding | None:
-    """What is wrong with principal moments (3,), kg m², ascending."""
+    """Return what is wrong with principal moments (3,), kg m², ascending."""
     if not (fault := moments_fault(moments)):
         return None
     why = _WHY[fault]
@@ -171,9 +171,9 @@ def _moments_finding(link: Link, moments: Floats, extent: Extent) -> Finding | N
 
 
 def _against_shapes(robot: Robot, extents: Mapping[str, Extent]) -> Iterator[Finding]:
-    """Links much denser or lighter than matter, or that turn like something of another size.
+    """Yield links much denser or lighter than matter, or with the inertia of another size.
 
-    What only marks a frame says nothing of the body that is meant.
+    Shapes that only mark a frame do not count.
     """
     known: list[tuple[Link, Inertial, Floats, Floats]] = []
     for link in robot.links.values():

@@ -1,4 +1,4 @@
-"""How a finding is mended in the text of the robot: edits of literal text, or none at all."""
+"""Fixes of findings in the text of the robot: edits of literal text, or none at all."""
 
 from __future__ import annotations
 

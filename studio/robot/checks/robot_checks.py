@@ -1,4 +1,4 @@
-"""All checks of a robot, each finding as a Problem where it was written."""
+"""All checks of a robot, each finding as a Problem at its place in the texts."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def _more(last: Finding, count: int) -> Problem:
 
 
 def robot_findings(checked: CheckedRobot) -> Iterator[Finding]:
-    """Return the findings of every check, before places and fixes are looked up."""
+    """Return the findings of every check, before their places and fixes are found."""
     for check in _checks():
         yield from check(checked)
 

@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from studio.robot.values import Geometry, Link, Robot
 
 _TIMES: Final = 3.0
-"""How much larger one diagonal may be than the other."""
+"""Largest ratio of two diagonals."""
 _SLACK_M: Final = 0.002
 _LARGEST_M: Final = 20.0
 _SMALLEST_M: Final = 0.0005
 _ORDINARY_M: Final = 0.01
 """Where another part drawn in the same unit is that large, a tiny one is a marker."""
 _STRIKING_M: Final = 2.0
-"""Of this size on a mesh is suspected when it dwarfs the rest of the robot."""
+"""From this size on a mesh is suspected when it dwarfs the rest of the robot."""
 _DWARFS: Final = 100.0
 
 
@@ -85,7 +85,7 @@ def _of_scales(robot: Robot, mesh_bounds: Callable[[str], Bounds | None]) -> Ite
 
 
 def _unit(mesh: Mesh | None) -> float | None:
-    """What a mesh's numbers are scaled by; None for a shape, whose numbers are metres."""
+    """Return the scale of a mesh's numbers; None for a shape, whose numbers are metres."""
     return None if mesh is None else max(map(abs, mesh.scale))
 
 

@@ -151,7 +151,7 @@ def _image_uri(image: Element | None) -> str:
 
 
 def read_collada(files: MeshFiles) -> list[Surface]:
-    """All triangles of the scene, in metres.
+    """Return all triangles of the scene, in metres.
 
     Raises:
         MeshError: Not well-formed, or its lists do not fit each other.
@@ -309,7 +309,7 @@ def _rotate(numbers: Matrix) -> Matrix:
 
 
 def _look_at(numbers: Matrix) -> Matrix:
-    """Eye, point looked at (along -z), up."""
+    """Read the eye, the point it is directed at (along -z), and up."""
     eye, at, up = numbers.reshape(3, 3)
     back = unit_vectors(eye - at)
     right = unit_vectors(np.cross(up, back))

@@ -109,7 +109,7 @@ class _Sources:
         self._rows: dict[str, NDArray[np.float32]] = {}
 
     def inputs(self, primitive: Element) -> list[_Input]:
-        """The inputs of a primitive that are drawn, `<vertices>` looked through."""
+        """Return the inputs of a primitive that are drawn, those of `<vertices>` too."""
         found: list[_Input] = []
         for one in primitive.findall("input"):
             offset = self._integer(one, "offset", 0)
@@ -198,14 +198,14 @@ def _polylist(element: Element, stride: int, files: MeshFiles) -> Polygons:
     rows = _joined([_index_rows(p, stride, files) for p in element.findall("p")], stride)
     counts = element.find("vcount")
     sizes = np.zeros(0, dtype=np.int64) if counts is None else _index_rows(counts, 1, files)[:, 0]
-    most = int(sizes.max(initial=0))  # looked at first: a sum of huge ones may wrap round
+    most = int(sizes.max(initial=0))  # checked first: a sum of huge ones may wrap round
     if int(sizes.min(initial=0)) < 0 or most > len(rows) or int(sizes.sum()) > len(rows):
         raise files.fault(f"its polygons need more than the {len(rows)} corners that it lists.")
     return rows, sizes, polygon_corners
 
 
 def _polygons(element: Element, stride: int, files: MeshFiles) -> Polygons:
-    """Each `<p>` a polygon; of one with holes only the outline is drawn, as by most readers."""
+    """Read each `<p>` as a polygon; of one with holes only the outline, as most readers do."""
     return _runs([*element.findall("p"), *element.findall("ph/p")], stride, files, polygon_corners)
 
 

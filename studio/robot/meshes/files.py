@@ -1,4 +1,4 @@
-"""What the readers of mesh files share: bounded access to files, textures, numbers in text."""
+"""Shared by the readers of mesh files: bounded access to files, textures, numbers in text."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from PIL import Image
 
 TRIANGLE_LIMIT = 4_000_000
-"""What a browser can still draw; a mesh beyond it needs simplifying, not loading."""
+"""Most that a browser can draw; a mesh beyond it needs simplifying, not loading."""
 _REFERENCE_LIMIT = 256
 _REFERENCES_LIMIT_BYTES = 1 << 30
 _SCHEME = re.compile(r"^([a-z][a-z0-9+.-]+):", re.IGNORECASE)
@@ -91,8 +91,8 @@ class MeshFiles:
     def read_beside(self, uri: str) -> bytes:
         """Read a file that the mesh refers to.
 
-        An absolute path of another machine, as many exporters write it, is looked for by its name
-        in the mesh's own folder.
+        An absolute path of another machine, as many exporters write it, stands for its name in
+        the mesh's own folder.
 
         Raises:
             MeshError: It is on the network, outside the served roots, missing, or too much.
@@ -155,9 +155,9 @@ def read_texture(files: MeshFiles, uri: str) -> Texture | None:
 
 
 def encode_texture(files: MeshFiles, name: str, data: bytes) -> Texture | None:
-    """An image as browsers know it; None, and a warning, when it is broken or too large.
+    """Return an image for browsers; None, and a warning, when it is broken or too large.
 
-    Only the header of PNG and JPEG is looked at: its size decides what unpacking would cost.
+    Of PNG and JPEG only the header is read: its size decides what unpacking would cost.
     """
     from PIL import Image  # noqa: PLC0415 - many meshes have no texture
 
@@ -192,13 +192,13 @@ def _too_large(name: str, width: int, height: int) -> str:
 
 
 def parse_floats(text: str) -> NDArray[np.float64]:
-    """Numbers separated by blanks of any kind.
+    """Return numbers separated by blanks of any kind.
 
     Most writers put one blank between numbers and write them as JSON does: its decoder takes half
     the time of numpy's.
 
     Raises:
-        ValueError: A word is no number.
+        ValueError: A part is no number.
     """
     try:
         return np.array(_FLOATS.decode(f"[{text.strip().replace(' ', ',')}]"), dtype=np.float64)
@@ -208,10 +208,10 @@ def parse_floats(text: str) -> NDArray[np.float64]:
 
 
 def parse_integers(text: str) -> NDArray[np.int64]:
-    """Whole numbers separated by blanks of any kind.
+    """Return whole numbers separated by blanks of any kind.
 
     Raises:
-        ValueError: A word is no whole number.
+        ValueError: A part is no whole number.
     """
     with _no_word_skipped():
         return np.fromstring(text, dtype=np.int64, sep=" ")
@@ -219,7 +219,7 @@ def parse_integers(text: str) -> NDArray[np.int64]:
 
 @contextlib.contextmanager
 def _no_word_skipped() -> Generator[None]:
-    """Numpy stops at the first word that is no number, and only warns."""
+    """Raise where numpy only warns: it stops at the first part that is no number."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", DeprecationWarning)
         try:

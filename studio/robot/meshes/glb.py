@@ -50,7 +50,7 @@ class _Writer:
         self._primitives: list[dict[str, Any]] = []
 
     def add(self, welded: Welded, appearance: Appearance | None) -> None:
-        """One more primitive."""
+        """Add one primitive."""
         attributes = {
             "POSITION": self._accessor(welded.vertices, "VEC3", bounded=True),
             "NORMAL": self._accessor(welded.normals, "VEC3"),
@@ -156,7 +156,7 @@ class _Writer:
         }
         if shown.texture is not None:
             surface["baseColorTexture"] = {"index": self._image(shown.texture)}
-        # both sides: many makers' triangles look inwards, and RViz shows them all the same
+        # both sides: many makers' triangles face inwards, and RViz shows them all the same
         material: dict[str, Any] = {"pbrMetallicRoughness": surface, "doubleSided": True}
         if shown.rgba[3] < 1.0:
             material["alphaMode"] = "BLEND"

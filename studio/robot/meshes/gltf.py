@@ -36,7 +36,7 @@ _DEPTH_LIMIT: Final = 200
 
 
 def read_gltf(files: MeshFiles) -> list[Surface]:
-    """All triangles of the scene, in metres.
+    """Return all triangles of the scene, in metres.
 
     Raises:
         MeshError: Not glTF 2.0, compressed, or its parts do not fit each other.
@@ -165,7 +165,7 @@ class _Scene:
         return rows
 
     def _corners(self, primitive: Primitive, count: int) -> NDArray[np.int64]:
-        """Which row stands at each corner of each triangle."""
+        """Return the row at each corner of each triangle."""
         rows = np.arange(count)
         if primitive.indices is not None:
             rows = self._buffers.indices(primitive.indices)

@@ -27,7 +27,7 @@ Item = TypeVar("Item")
 
 
 class Asset(msgspec.Struct):
-    """Which glTF this is."""
+    """The version of glTF."""
 
     version: str = "2.0"
 
@@ -48,7 +48,7 @@ class BufferView(msgspec.Struct):
 
 
 class SparsePart(msgspec.Struct):
-    """Where the indices or the values of a sparse accessor lie."""
+    """The indices or the values of a sparse accessor."""
 
     bufferView: int
     byteOffset: int = 0
@@ -86,7 +86,7 @@ class Primitive(msgspec.Struct):
 
 
 class Mesh(msgspec.Struct):
-    """What a node shows."""
+    """The primitives of a node."""
 
     primitives: list[Primitive]
 
@@ -231,7 +231,7 @@ class GltfBuffers:
         return data[start : start + length]
 
     def uri(self, uri: str) -> bytes:
-        """What a URI names: inline data, or a file beside the mesh.
+        """Return the content of a URI: inline data, or a file beside the mesh.
 
         Raises:
             MeshError: It is neither.

@@ -107,7 +107,7 @@ class MeshLibrary:
     async def _shared(
         self, key: Hashable, start: Callable[[], Coroutine[None, None, LoadedMesh]]
     ) -> LoadedMesh:
-        """Wait for the load of that key, starting it if it is not under way."""
+        """Wait for the load of a key, and start it if it does not run."""
         task = self._under_way.get(key)
         if task is None:
             task = asyncio.create_task(start())

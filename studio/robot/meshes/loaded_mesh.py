@@ -38,7 +38,7 @@ class LoadedMesh:
     digest: str
     """Hex digest of the file and of every file it refers to: equal means drawn the same."""
     vertices: NDArray[np.float32]
-    """Shape (N, 3), metres, split at creases: smooth normals computed from the faces look right."""
+    """Shape (N, 3), metres, split at creases, so that smooth normals come out right."""
     faces: NDArray[np.uint32]
     """Shape (M, 3), M > 0, indices into `vertices`."""
     glb: bytes
@@ -48,7 +48,7 @@ class LoadedMesh:
     bounds_m: tuple[Vector3, Vector3]
     """Least and greatest corner."""
     problems: tuple[Problem, ...] = ()
-    """What was drawn without, e.g. a missing texture; warnings."""
+    """Warnings about what is missing, e.g. a texture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +96,7 @@ def pack_mesh(mesh: LoadedMesh, references: dict[str, str]) -> bytes:
 
 
 def unpack_mesh(blob: bytes) -> tuple[LoadedMesh, dict[str, str]]:
-    """The mesh and the digests of what it refers to; its arrays look into `blob`, read-only.
+    """Return the mesh and the digests of what it refers to; its arrays view `blob`, read-only.
 
     Raises:
         ValueError: Cut off, or not such a blob.
@@ -138,7 +138,7 @@ class MeshCache:
 
     @staticmethod
     def name(path: Path, digest: str, shape: str = "") -> str:
-        """What a mesh file with this content is kept under: the suffix chooses its reader."""
+        """Return the name of a mesh file with this content: the suffix chooses its reader."""
         return f"{digest}{shape and f'.{shape}'}{path.suffix.lower()}"
 
     def read(self, name: str) -> tuple[LoadedMesh, dict[str, str]] | None:

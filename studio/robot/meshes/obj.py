@@ -80,15 +80,15 @@ class _Lines:
     uvs: list[str] = field(default_factory=list[str])
     normals: list[str] = field(default_factory=list[str])
     faces: dict[str, list[list[str]]] = field(default_factory=dict[str, list[list[str]]])
-    """Corner words of each face, by material."""
+    """Corners of each face as written, by material."""
     libraries: list[str] = field(default_factory=list[str])
 
 
 def read_obj(files: MeshFiles) -> list[Surface]:
-    """One surface per material, in metres as written.
+    """Return one surface per material, in metres as written.
 
     Raises:
-        MeshError: A number of it is none, or a face points beyond its vertices.
+        MeshError: A number is not valid, or a face points beyond its vertices.
     """
     try:
         _refuse_floods(files)
@@ -204,7 +204,7 @@ class _Tables:
 
 
 def _table(rows: list[str], width: int) -> Floats:
-    """Numbers of equal lines; the first says how many, at least `width`."""
+    """Return numbers of equal lines; the first decides how many, at least `width`."""
     if not rows:
         return np.zeros((0, width), dtype=np.float32)
     columns = len(rows[0].split())

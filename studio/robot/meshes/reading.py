@@ -109,7 +109,7 @@ def _finish(files: MeshFiles, surfaces: list[Surface]) -> LoadedMesh:
 
 
 def _merged(surfaces: list[Surface]) -> Iterable[Surface]:
-    """One surface for all of one appearance: each costs the browser a draw call."""
+    """Merge the surfaces of one appearance: each costs the browser a draw call."""
     groups: dict[tuple[Appearance | None, bool, bool, bool], list[Surface]] = {}
     for one in surfaces:
         key = (one.appearance, one.normals is None, one.uv is None, one.colors is None)
@@ -148,6 +148,6 @@ def _bounds_m(vertices: Floats) -> tuple[Vector3, Vector3]:
 
 
 def _concatenated(arrays: list[NDArray[Number] | None]) -> NDArray[Number] | None:
-    """All of them, or None: the surfaces of one group have the same streams."""
+    """Concatenate them, or return None: surfaces of one group have the same streams."""
     given = [one for one in arrays if one is not None]
     return np.concatenate(given) if given else None

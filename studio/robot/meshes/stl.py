@@ -18,12 +18,12 @@ _VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
 def read_stl(files: MeshFiles) -> list[Surface]:
-    """One surface without an appearance: STL has no colours that readers agree on.
+    """Return one surface without an appearance: STL has no colours that readers agree on.
 
-    Normals of the file are not used: many exporters write zeros; the corners' order tells.
+    Normals of the file are not used, for many exporters write zeros; the corners' order is.
 
     Raises:
-        MeshError: Neither binary nor text, or shorter than its header says.
+        MeshError: Neither binary nor text, or shorter than its header promises.
     """
     data = files.data
     if len(data) >= _HEADER_BYTES and len(data) >= _HEADER_BYTES + 50 * _declared_count(data):

@@ -29,7 +29,7 @@ class Texture:
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """What a surface is made of; colours in sRGB, each component in [0, 1]."""
+    """Material of a surface; colours in sRGB, each component in [0, 1]."""
 
     rgba: Rgba = (1.0, 1.0, 1.0, 1.0)
     texture: Texture | None = None
@@ -71,7 +71,7 @@ class Surface:
         return moved.flipped() if np.linalg.det(linear) < 0 else moved
 
     def flipped(self) -> Surface:
-        """Corners of each triangle the other way round."""
+        """Return it with the corners of each triangle in reverse order."""
         return self.chosen(np.arange(len(self.positions)).reshape(-1, 3)[:, ::-1].ravel())
 
     def drawable(self) -> Surface:
@@ -108,7 +108,7 @@ def _moved_normals(normals: Floats | None, linear: Matrix) -> Floats | None:
 
 
 def linear_from_srgb(component: float) -> float:
-    """One component in [0, 1]; formulas of IEC 61966-2-1."""
+    """Return one component in [0, 1]; formulas of IEC 61966-2-1."""
     return component / 12.92 if component <= 0.04045 else ((component + 0.055) / 1.055) ** 2.4
 
 

@@ -54,7 +54,7 @@ def mesh_uris(link: Link, *, collisions: bool = True) -> Iterator[str]:
 
 
 def scale_of(geometry: Geometry) -> Vector3:
-    """What a unit shape is scaled by."""
+    """Return the scale of a unit shape."""
     match geometry:
         case Box(size_m):
             return size_m
@@ -111,7 +111,7 @@ def _cylinder() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _end(ring: NDArray[np.float64], z: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """One end as a fan round its middle."""
+    """Return one end as a fan round its middle."""
     flat = np.stack([np.zeros_like(ring[:-1]), ring[:-1], ring[1:]], axis=1).reshape(-1, 2)
     return np.column_stack([flat, np.full(len(flat), z)]), flat + 0.5
 

@@ -43,7 +43,7 @@ def polygon_corners(sizes: Integers, points: NDArray[np.float32]) -> Integers:
 
 
 def _dented(sizes: Integers, corners: Integers, points: NDArray[np.float32]) -> list[int]:
-    """Polygons of which some triangle of the fan looks the other way than the whole."""
+    """Return polygons of which some triangle of the fan faces the other side than the whole."""
     with np.errstate(over="ignore", invalid="ignore"):  # points at infinity are not drawn
         a, b, c = np.moveaxis(points.astype(np.float64)[corners.reshape(-1, 3)], 1, 0)
         normals = np.cross(b - a, c - a)
@@ -101,7 +101,7 @@ def fan_corners(sizes: Integers) -> Integers:
 
 
 def strip_corners(sizes: Integers) -> Integers:
-    """Corners of the triangles of strips; every second one turns the other way round."""
+    """Return the corners of the triangles of strips; every second one is in reverse order."""
     first, second = _within(sizes)
     at = first + second - 1
     odd = second % 2 == 0
@@ -109,7 +109,7 @@ def strip_corners(sizes: Integers) -> Integers:
 
 
 def _within(sizes: Integers) -> tuple[Integers, Integers]:
-    """For each triangle the first corner of its polygon, and its number there, from 1."""
+    """Return for each triangle the first corner of its polygon, and its number there, from 1."""
     triangles = np.maximum(sizes - 2, 0)
     starts = np.cumsum(sizes) - sizes
     before = np.cumsum(triangles) - triangles

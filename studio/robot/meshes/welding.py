@@ -47,7 +47,7 @@ def weld(surface: Surface) -> Welded:
 
 
 def _rows(surface: Surface, normals: Floats) -> Floats:
-    """All that makes a corner, side by side; colours by their bits."""
+    """Return all that makes a corner, side by side; colours by their bits."""
     rows = [surface.positions, normals]
     if surface.uv is not None:
         rows.append(surface.uv)
@@ -57,7 +57,7 @@ def _rows(surface: Surface, normals: Floats) -> Floats:
 
 
 def _number_labels(label: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """As `weld_rows`, for labels that are each the index where they first stand."""
+    """Return as `weld_rows`, for labels that are each the index of their first occurrence."""
     is_first = label == np.arange(len(label))
     return np.flatnonzero(is_first), (np.cumsum(is_first) - 1)[label]
 
@@ -140,7 +140,7 @@ def _smooth_groups(point: NDArray[np.intp], face_normals: NDArray[np.float64]) -
     smooth = np.einsum("ij,ij->i", unit[one // 3], unit[other // 3]) > _CREASE_COSINE
     one, other = one[smooth], other[smooth]
     one_end, other_end = _next_corner(one), _next_corner(other)
-    straight = point[one] == point[other]  # else the two faces walk the edge in opposite ways
+    straight = point[one] == point[other]  # else the two faces use the edge in opposite directions
     left = np.concatenate((one, one_end))
     right = np.concatenate(
         (np.where(straight, other, other_end), np.where(straight, other_end, other))

@@ -109,7 +109,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _wait_for_listeners(own: OwnNode, name: str, wanted: int, timeout_s: float | None) -> bool:
-    """Wait until so many subscribe, and say so each second; False when the time is over."""
+    """Wait for so many subscriptions, with a message each second; False when the time is over."""
     end_s = None if timeout_s is None else time.monotonic() + timeout_s
     while not own.graph.wait_for(lambda: len(own.graph.subscriptions(name)) >= wanted, 0.01):
         print(f"Waiting for at least {wanted} matching subscription(s)...", flush=True)

@@ -125,9 +125,9 @@ def _measure(
     raw: bool,
     begin: Callable[[str], None] = lambda _name: None,
 ) -> None:
-    """Listen until Ctrl-C; each second, print the report when something came since the last.
+    """Receive until Ctrl-C; each second, print the report when something came since the last.
 
-    A topic that nobody has yet is waited for, as `ros2` does.
+    A topic that does not exist yet is waited for, as `ros2` does.
     """
     with own_node(options) as own:
         listening = _Listening(own, options, take, raw=raw)
@@ -196,7 +196,7 @@ _KILO, _MEGA = 1e3, 1e6
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """Of some numbers: how many, mean, extremes and the deviation from the mean."""
+    """Number, mean, extremes and standard deviation of some numbers."""
 
     count: int
     mean: float
@@ -245,7 +245,7 @@ class Rate:
         return Spread.of(self._gaps_s)
 
     def report(self) -> str | None:
-        """Say it as `ros2 topic hz` does; None when there is nothing to say."""
+        """Return the report of `ros2 topic hz`; None when there is nothing to report."""
         if self.hertz is None:
             return None
         gaps = self.gaps()
@@ -253,7 +253,7 @@ class Rate:
 
 
 class Delay:
-    """How old samples are when they come, by the stamp of their header."""
+    """Age of samples on arrival, by the stamp of their header."""
 
     def __init__(self, window: int = WINDOW) -> None:
         self._delays_s: deque[float] = deque(maxlen=window)
@@ -263,7 +263,7 @@ class Delay:
         self._delays_s.append(delay_s)
 
     def report(self) -> str | None:
-        """Say it as `ros2 topic delay` does; None when there is nothing to say."""
+        """Return the report of `ros2 topic delay`; None when there is nothing to report."""
         if not self._delays_s:
             return None
         delays = Spread.of(self._delays_s)
