@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 class DescriptionWorker:
     """One document's worker process, started at the first `open`.
 
-    When the process dies or does not answer in time the call answers a Failure and
+    When the process dies or does not answer in time the call returns a Failure and
     `needs_reopen` is set: the texts in the worker are gone, so `open` must be called with the
     unsaved ones before anything else.
     """
@@ -80,9 +80,9 @@ class DescriptionWorker:
         return await self._ask(VerifyRequest())
 
     async def query(self, query: Query) -> Reply:
-        """Ask about the last good run, behind whatever is under way.
+        """Ask about the last good run, after the running request.
 
-        Whoever asks may be cancelled: the process answers all the same, and keeps its robot.
+        The caller may be cancelled: the process answers all the same, and keeps its robot.
 
         Raises:
             WorkerDiedError: The process ended, perhaps long ago, and with it its robot.
@@ -126,7 +126,7 @@ class DescriptionWorker:
         return self._timeout_s + self._reading_s
 
     def _read(self, files: tuple[str, ...]) -> None:
-        """Note the files of a run; long ones take long to read, and nobody is to blame for it."""
+        """Note the files of a run: long ones get more time."""
         if files != self._files:
             self._files = files
             self._reading_s = reading_time_s(sum(map(_size_bytes, files)))

@@ -22,7 +22,7 @@ _SENTENCE_LIMIT: Final = 480
 class Fault(Exception):  # noqa: N818 - a fault of the description, not of the studio
     """The description cannot be expanded; one sentence with what to do.
 
-    Whoever knows the place fills it in once, on the way out.
+    The place is filled in once, by the first caller that knows it.
 
     Attributes:
         code: Stable, kebab-case, the `code` of the Problem.
@@ -37,7 +37,7 @@ class Fault(Exception):  # noqa: N818 - a fault of the description, not of the s
         self.code, self.sentence = code, sentence
         self.unreadable, self.package = unreadable, package
         self.misnamed: tuple[str, str] | None = None
-        """The name that nobody knows, and the one that was likely meant."""
+        """The unknown name, and the one that was probably meant."""
         self.place: Place | None = None
         self.include_chain: tuple[Place, ...] = ()
         self.macro_stack: tuple[MacroCall, ...] = ()
@@ -52,14 +52,14 @@ class Unsupported(Exception):  # noqa: N818 - never leaves the room
 
 
 def misnamed(code: str, sentence: str, name: str, known: Iterable[str], otherwise: str) -> Fault:
-    """A name that nobody knows: the sentence goes on with the one that was likely meant.
+    """Return the fault of an unknown name: its sentence ends with the one probably meant.
 
     Args:
         code: As of a `Fault`.
         sentence: What is wrong, up to its colon.
         name: As it is written.
-        known: The names that there are.
-        otherwise: What to do when none of them is near.
+        known: The existing names.
+        otherwise: What to do when none of them is similar.
     """
     meant = near(name, known)
     fault = Fault(

@@ -165,25 +165,25 @@ def rounded(position: float) -> float:
 
 
 def read_poses(path: str, data: bytes) -> tuple[NamedPose, ...]:
-    """The poses of a file, in its order; an empty file has none.
+    """Return the poses of a file, in its order; an empty file has none.
 
     Raises:
-        PosesFileError: It is no YAML, too large, or says something that no pose can.
+        PosesFileError: It is no YAML, too large, or has something that no pose can have.
     """
     return tuple(item.pose for item in _Reading(path, data).items())
 
 
 def write_poses(path: str, entry: str, before: bytes, poses: Sequence[NamedPose]) -> bytes:
-    """The bytes of a file with these poses, as much as can be as it was.
+    """Return the bytes of a file with these poses, otherwise unchanged as far as possible.
 
     Args:
-        path: Where the file lies, for the words of errors.
-        entry: Name of the entry file, told in a new file's first line.
-        before: The file as it is; empty for none.
+        path: Path of the file, for errors.
+        entry: Name of the entry file, for a new file's first line.
+        before: The present content; empty for none.
         poses: All of them, in order; their positions `rounded`.
 
     Raises:
-        PosesFileError: The file as it is cannot be read, or what was written could not be.
+        PosesFileError: The present file, or the new one, cannot be read.
     """
     written = _woven(path, before, poses) if before.strip() and poses else None
     if written is None or not _says(path, written, poses):
@@ -240,7 +240,7 @@ def _plain(text: str) -> str:
     try:
         return yaml_bytes(text, b"x").decode()
     except EditError:
-        return '""'  # which does not read back as it was, and so is told
+        return '""'  # which does not read back as it was, and so is reported
 
 
 def _number(value: float) -> str:
@@ -248,7 +248,7 @@ def _number(value: float) -> str:
 
 
 class _Reading:
-    """One look at a file; every fault names its line."""
+    """Reads a file once; every fault names its line."""
 
     def __init__(self, path: str, data: bytes) -> None:
         self._path, self._list = path, NamedList(path, data, _KIND)

@@ -1,4 +1,4 @@
-"""What the studio and its xacro worker say to each other, packed alike at both ends.
+"""Messages between the studio and its xacro worker, packed alike at both ends.
 
 Queries change nothing; every one is answered from the last good run, also while the texts are
 broken. A new question is a value in `QUERIES`, its reply one in `REPLIES`, and an arm in

@@ -92,7 +92,7 @@ def _unproven(failure: Failure, entry: str) -> Failure:
 
 
 def _corrections(answer: Expansion, before: Expansion | None) -> Iterator[str]:
-    """What a full run says otherwise, each by its name."""
+    """Yield the names of what differs in a full run."""
     yield from (part.key for part in answer.changed_parts)
     yield from (site.id for site in answer.changed_sites)
     if answer.part_order is not None:
@@ -129,7 +129,7 @@ class Session:
         self._fault = ""
         """Code of what the last run failed for; empty when it gave a robot."""
         self._chain_to: Callable[[str], tuple[Place, ...]] = lambda _: ()
-        """How a file came to be included in the last good run."""
+        """Returns how a file came to be included in the last good run."""
         self._language = LanguageService(self._store, self._policy, self._entry)
 
     def answer(self, request: Request) -> Answer:
@@ -203,7 +203,7 @@ class Session:
     def query(self, query: Query) -> Reply:
         """Answer a question from the last good run; nothing changes.
 
-        One that has no answer, or fails, is answered by a sentence that says why.
+        A question that has no answer, or fails, gets a NoReply with the reason.
         """
         try:
             return self._reply(query)

@@ -16,7 +16,7 @@ PATCH_DIFFERED: Final = "patch-differed"
 
 
 class SiteKind(StrEnum):
-    """What an editable text is in its file."""
+    """Kind of an editable text in its file."""
 
     ARG = "arg"
     PROPERTY = "property"
@@ -26,7 +26,7 @@ class SiteKind(StrEnum):
 
 
 class WidgetKind(StrEnum):
-    """How a site is best turned: `VECTOR` is two or more numbers separated by blanks."""
+    """How a site is edited: `VECTOR` is two or more numbers separated by blanks."""
 
     SLIDER = "slider"
     SWITCH = "switch"
@@ -37,7 +37,7 @@ class WidgetKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Widget:
-    """How to turn a site; `minimum`, `maximum` and `step` are in `unit`, the unit of the file."""
+    """Editing control of a site; `minimum`, `maximum` and `step` are in `unit`, the file's unit."""
 
     kind: WidgetKind
     minimum: float | None = None
@@ -53,9 +53,9 @@ class Widget:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Where a site's raw bytes stand: `start` and `end` are byte offsets in the file as it is now.
+    """A site's raw bytes: `start` and `end` are byte offsets in the present file.
 
-    `syntax` says how text is written there: `"` or `'` (an XML attribute in those quotes),
+    `syntax` is how text is written there: `"` or `'` (an XML attribute in those quotes),
     `yaml` (a scalar, its quotes if any inside the span), `param` (one default inside the
     `params` attribute of a macro, whose quote is `"`), `param'` (the same in `'`).
     """
@@ -67,7 +67,7 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """One text in a source file that can be edited, and what it came to in the last run."""
+    """One text in a source file that can be edited, and its value in the last run."""
 
     id: str
     """Stable over edits of its own and other texts, e.g. `/p/urdf/a.xacro#12@value`."""
@@ -88,9 +88,9 @@ class Site:
     group: str
     """Heading it is listed under: a section comment of the file, or a link or joint name."""
     owner: str = ""
-    """For a literal: `link:<name>` or `joint:<name>` that it shapes, when it is one only."""
+    """For a literal: the one `link:<name>` or `joint:<name>` that it affects, if it is one."""
     values: tuple[str, ...] = ()
-    """All distinct values seen, when there was more than one."""
+    """All distinct values, when there was more than one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,8 +142,8 @@ class Expansion:
     """`studio`, or `xacro` when a construct needed the stock library."""
     fallback_reason: str = ""
     is_patch: bool = False
-    """Only what depends on the edits was looked at. Sites that merely moved with an edit before
-    them in their file are not among `changed_sites`."""
+    """Whether only what depends on the edits was evaluated. Sites that merely moved with an edit
+    before them in their file are then not among `changed_sites`."""
     is_recovered: bool = False
     """The texts are broken, and never gave a robot before: this is what could be read. Nothing can
     be edited but texts; `warnings` has what is wrong, as errors."""
@@ -155,14 +155,14 @@ class Failure:
 
     problem: Problem
     files: tuple[str, ...]
-    """What was read before it failed, so that a change on disk of any of them tries again."""
+    """Files read before it failed, so that a change on disk of any of them tries again."""
     problems: tuple[Problem, ...] = ()
-    """All that is wrong, where more than `problem` is known; else empty."""
+    """All faults, where more than `problem` is known; else empty."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReadPolicy:
-    """What a description may read: given to the worker once, checked at its one open.
+    """What a description may read: given to the worker once, checked whenever a file is opened.
 
     `packages` maps a name to its folders, the wanted one for `entry` first; `duplicates` are
     resolved per asking file by the longest shared path. `environment` is what `$(env)` sees.
@@ -183,7 +183,7 @@ class OpenRequest:
     policy: ReadPolicy
     overlay: dict[str, bytes]
     known: tuple[str, ...] = ()
-    """Ids of attributes that were sites before: they are sites again, whatever they say now."""
+    """Ids of attributes that were sites before: they are sites again, whatever they are now."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,23 +210,23 @@ class ReloadRequest:
 
 @dataclass(frozen=True, slots=True)
 class VerifyRequest:
-    """Run in full, and correct what patches have made otherwise.
+    """Run in full, and correct what patches made differently.
 
-    The answer then has a warning with the code PATCH_DIFFERED; else it `is_patch` without news. A
-    failure says that the robot is one that only patches have made.
+    The answer has a warning with the code PATCH_DIFFERED, or it `is_patch` without changes. A
+    failure means that only patches could make the robot.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class NoReply:
-    """The question cannot be answered; `sentence` says why and what to do."""
+    """The question cannot be answered; `sentence` has the reason and advice."""
 
     sentence: str
 
 
 @dataclass(frozen=True, slots=True)
 class CheckQuery:
-    """What is wrong with the texts as they are now, beyond what a run tells?"""
+    """Asks what is wrong with the present texts, besides the problems of a run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +239,7 @@ class ReadRobot:
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """What the checks found; where the texts are broken, over what can be read of them."""
+    """Findings of the checks; where the texts are broken, of what can be read of them."""
 
     problems: tuple[Problem, ...]
     read: ReadRobot | None = None

@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 class XacroFile:
     """A file that was evaluated, and is evaluated again as far as each change needs it.
 
-    When a change leaves no robot, ExpansionError says why; the change stands, and `urdf`, `parts`
-    and `sites` are those before it. A file of unknown origin is better evaluated by a
+    When a change leaves no robot, ExpansionError has the reason; the change stays, and `urdf`,
+    `parts` and `sites` are those before it. A file of unknown origin is better evaluated by a
     `DescriptionWorker`, whose process has bounded memory.
 
     Args:
@@ -42,7 +42,7 @@ class XacroFile:
         policy: What may be read; by default the package that the file lies in, or else its folder.
 
     Raises:
-        ExpansionError: It gives no robot; `problem` has the place.
+        ExpansionError: There is no robot; `problem` has the place.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class XacroFile:
 
     @property
     def warnings(self) -> tuple[Problem, ...]:
-        """What the last run that gave a robot warned of."""
+        """Warnings of the last run that gave a robot."""
         return self._last.warnings
 
     @property

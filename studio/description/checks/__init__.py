@@ -1,1 +1,1 @@
-"""A finished run in, findings out: what its texts hardly mean as they say it, and what mends it."""
+"""Checks of a finished run: texts that were probably not meant as written, and their fixes."""

@@ -1,4 +1,4 @@
-"""What the checks look at: the robot that came out of a run, and the texts that it came from."""
+"""What the checks examine: the robot of a run, and the texts that it came from."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CheckedRun:
-    """One run; `chain_to` says how a file came to be included."""
+    """One run; `chain_to` returns how a file came to be included."""
 
     root: OutputElement
     trees: Mapping[str, SourceTree]

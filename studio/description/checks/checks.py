@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def checked_good(run: GoodRun, chain_to: Callable[[str], tuple[Place, ...]]) -> Checked:
-    """The findings of a run; of one that stock xacro made none, for it tells no places."""
+    """Return the findings of a run; none if stock xacro made it, for it knows no places."""
     if run.evaluator != "studio":
         return Checked(())
     record = run.record
@@ -28,10 +28,10 @@ def checked_good(run: GoodRun, chain_to: Callable[[str], tuple[Place, ...]]) -> 
 
 
 def checked_broken(run: RecoveredRun) -> Checked:
-    """What is wrong with broken texts, and the findings in what can be read of them.
+    """Return what is wrong with broken texts, and the findings in what can be read of them.
 
     Raises:
-        Refusal: The robot comes to more text than can be shown.
+        Refusal: The robot has more text than can be shown.
     """
     if run.root is None:
         return Checked(run.problems)

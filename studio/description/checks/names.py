@@ -29,13 +29,13 @@ _WORD: Final = re.compile(r"[^\W\d]\w*")
 _KINDS: Final = {SiteKind.PROPERTY: ("property", "properties"), SiteKind.ARG: ("arg", "args")}
 _DEFINING: Final = frozenset({"xacro:property", "xacro:arg"})
 _ONE_BY_ONE: Final = 3
-"""So many of one file are findings of their own; a library that offers more is one finding."""
+"""So many of one file are findings of their own; more, as in a library, are one finding."""
 _SHOWN: Final = 6
 _MENDED: Final = 500
 
 
 def odd_names(run: CheckedRun) -> Iterator[Problem]:
-    """A robot without a name, and materials of one name that look different."""
+    """Yield a robot without a name, and materials of one name that differ."""
     if not run.root.attributes.get("name"):
         yield _nameless(run)
     yield from _differing_materials(run)
@@ -74,10 +74,10 @@ def _look(material: OutputElement) -> str:
 
 
 def repeated_names(run: CheckedRun) -> Iterator[Problem]:
-    """Each link and joint whose name is taken by one before it, in the words of the robot's check.
+    """Yield each link and joint whose name is taken already, worded as in the robot's check.
 
     A name of its own is offered where the element came out once: a macro that is called twice
-    needs a parameter, and which one nobody can know.
+    needs a parameter, and which one is not known.
     """
     origins = Counter(element.origin for element in run.keys)
     names = {(one.tag, one.attributes.get("name", "")) for one in run.keys}
@@ -107,7 +107,7 @@ def _fix(element: OutputElement, names: set[tuple[str, str]]) -> Fix | None:
 
 
 def unused_names(run: CheckedRun) -> Iterator[Problem]:
-    """What is bound, read by nothing in this run, and mentioned nowhere: a typing error, or old."""
+    """Yield names that are bound, not read in this run, and used nowhere: misspelt, or old."""
     unread = [one for one in run.bindings if one.kind in _KINDS and not one.readings]
     mentioned = _mentioned(run) if unread else set[str]()
     groups: dict[tuple[SiteKind | None, str], dict[SourceElement, Binding]] = {}
@@ -124,7 +124,7 @@ def unused_names(run: CheckedRun) -> Iterator[Problem]:
 
 
 def _unused(run: CheckedRun, found: Sequence[Binding]) -> Problem:
-    """One finding for all of these, which are of one kind and in one file."""
+    """Return one finding for names of one kind in one file."""
     first = found[0]
     one, several = _KINDS[first.kind] if first.kind else ("", "")
     shown = ", ".join(f'"{each.name}"' for each in found[:_SHOWN])
@@ -141,7 +141,7 @@ def _unused(run: CheckedRun, found: Sequence[Binding]) -> Problem:
 
 
 def _mentioned(run: CheckedRun) -> set[str]:
-    """Every word of the texts that xacro evaluates, in all files of the run."""
+    """Return every word of the texts that xacro evaluates, in all files of the run."""
     texts: list[str] = []
     for tree in run.trees.values():
         for element in tree.elements:

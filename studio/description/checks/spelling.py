@@ -28,7 +28,7 @@ _CALL: Final = "xacro:"
 
 
 class _Kind(NamedTuple):
-    """What an element may hold."""
+    """What an element may contain."""
 
     children: frozenset[str]
     attributes: frozenset[str]
@@ -72,7 +72,7 @@ _URDF: Final = {
 
 
 def misspelt_names(run: CheckedRun) -> Iterator[Problem]:
-    """Each element and attribute that is likely misspelt, once, however often it came out."""
+    """Yield each element and attribute that is likely misspelt, once, however often it came out."""
     reported: set[tuple[SourceElement, str]] = set()
     for part, key in run.keys.items():
         for problem, mark in _within(run, "robot", part, (key,)):

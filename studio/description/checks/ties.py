@@ -1,4 +1,4 @@
-"""How joints tie links together: ends that name no link, links that no joint holds, and fixes."""
+"""Ties of links by joints: ends that name no link, links that no joint holds, and fixes."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _SEPARATORS: Final = re.compile(r"[\s_-]+")
 
 
 def loose_ties(run: CheckedRun) -> Iterator[Problem]:
-    """What is wrong with how joints hold links: one finding for each fact."""
+    """Yield what is wrong with the ties: one finding for each fact."""
     links = {name: one for one in run.keys if one.tag == "link" and (name := _name(one))}
     ties = [tie for one in run.keys if one.tag == "joint" for tie in _ties(one)]
     named = {tie.link for tie in ties}
@@ -61,7 +61,7 @@ class _Joint(NamedTuple):
 
 
 class Holding:
-    """Who holds whom in a run; of several joints with one child the first holds it."""
+    """The joint and parent of each link; of several joints with one child the first counts."""
 
     def __init__(self, run: CheckedRun) -> None:
         self._run = run
@@ -83,7 +83,7 @@ class Holding:
                 self.second += [joint] if first is not joint else []
 
     def problems(self) -> Iterator[Problem]:
-        """What one edit mends for certain, in the words of the robot's check."""
+        """Yield what one edit certainly mends, worded as in the robot's check."""
         if len(self.second) == 1:
             yield from self._second_parent(self.second[0])
         lacking = [one for one in self.joints if not (one.parent and one.child)]
@@ -133,7 +133,7 @@ class Holding:
         return mends.fix(f'Write "{meant}"', mends.value("link", meant))
 
     def _taken_out(self, joint: _Joint, first: _Joint) -> Fix | None:
-        """Where it says all that the first says, and nothing else names it."""
+        """Return a fix that removes a joint that repeats the first and is not used by name."""
         if not self._is_alone(joint) or _said(joint) != _said(first):
             return None
         named = re.findall(
@@ -249,7 +249,7 @@ def _meant(name: str, links: dict[str, OutputElement]) -> str:
 def _spelling_fix(
     tie: _Tie, meant: str, links: dict[str, OutputElement], named: set[str]
 ) -> Fix | None:
-    """Make both names the same: the joint's, or the link's when nobody can mean that one."""
+    """Make both names the same: the joint's, or the link's when nothing can mean that one."""
     if not meant:
         return None
     link = ElementMends(links[meant].origin)

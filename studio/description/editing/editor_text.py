@@ -1,10 +1,10 @@
-"""A file's bytes as the text that a browser's editor holds, and the way between the two.
+"""Conversion between a file's bytes and the text that a browser's editor holds.
 
 The editor's text has no byte order mark, every line break (CRLF, LF, CR) is one LF, and offsets
-count UTF-16 code units from 0, as JavaScript counts. A byte that is no text of the file's encoding
+count UTF-16 code units from 0, as JavaScript does. A byte that is not valid in the file's encoding
 is shown as U+FFFD and stays the byte that it is. What an edit does not touch keeps its bytes.
 
-`changes_between` gives what changed between two such texts, for editors that follow it.
+`changes_between` returns what changed between two such texts, for editors that follow it.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class EditorText:
         self._raw = data[self._bom_bytes :].decode(self._encoding, "surrogateescape")
         shown = self._raw if data.isascii() else _NOT_TEXT.sub("\ufffd", self._raw)
         self.text = _LINE_BREAK.sub("\n", shown) if "\r" in shown else shown
-        """What the editor shows."""
+        """The text in the editor."""
 
     @cached_property
     def line_break(self) -> str:
@@ -119,7 +119,7 @@ class EditorText:
         return edits[::-1]
 
     def _bytes_between(self, start: int, end: int) -> int:
-        """How many bytes stand between two indices into `text`."""
+        """Return the number of bytes between two indices into `text`."""
         raw_start, raw_end = self._raw_index(start), self._raw_index(end)
         if self._is_of_single_bytes:
             return raw_end - raw_start
@@ -152,7 +152,7 @@ class EditorText:
 
     @cached_property
     def _line_starts(self) -> tuple[list[int], list[int]]:
-        """Where each line starts: in `text`, and in the text with its own line breaks."""
+        """Return where each line starts: in `text`, and in the text with its own line breaks."""
         raw = [0, *(found.end() for found in _LINE_BREAK.finditer(self._raw))]
         widths = (len(found[0]) - 1 for found in _LINE_BREAK.finditer(self._raw))
         shifts = accumulate(widths, initial=0)
@@ -187,7 +187,7 @@ def _readable_encoding(data: bytes) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """In the text before, characters [start, end) give way to `text`."""
+    """Replaces characters [start, end) of the text before by `text`."""
 
     start: int
     end: int
@@ -202,7 +202,7 @@ def changes_between(old: str, new: str) -> tuple[Piece, ...]:
     """
     if old == new:
         return ()
-    # Only what lies between the first and the last difference is looked at closely.
+    # Only what is between the first and the last difference is compared closely.
     start = old.rfind("\n", 0, common_start(old, new)) + 1
     end = common_start(old[start:][::-1], new[start:][::-1])
     before, after = old[start : len(old) - end], new[start : len(new) - end]

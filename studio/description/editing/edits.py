@@ -43,7 +43,7 @@ def decode(data: bytes, span: Span) -> str:
 
 
 def encode(text: str, data: bytes, span: Span) -> bytes:
-    """Spell `text` for `span` in the style it has; as it is now when it says that already.
+    """Spell `text` for `span` in the style it has; unchanged if it has that text already.
 
     Raises:
         EditError: The place cannot hold the text.
@@ -52,7 +52,7 @@ def encode(text: str, data: bytes, span: Span) -> bytes:
     if span.syntax in _QUOTES and text.isascii() and _PLAIN.fullmatch(raw):
         written = text.encode()
         if _PLAIN.fullmatch(written):
-            return written  # a number, mostly: then nobody reads the whole file for its encoding
+            return written  # a number, mostly: then the file need not be read for its encoding
     if text == decode(data, span):
         return raw
     if span.syntax == "yaml":
@@ -127,12 +127,12 @@ def common_start(one: AnyStr, other: AnyStr) -> int:
 def edits_of(
     replacements: Iterable[Replacement], text_of: Callable[[str], bytes]
 ) -> tuple[Edit, ...]:
-    """What the replacements change, file by file, the last place first: so each one's bytes hold.
+    """Return the edits of the replacements, file by file, the last place first: so offsets hold.
 
-    Of two that put something in at the same place, the first one's text comes first.
+    Of two insertions at the same place, the first one's text comes first.
 
     Raises:
-        StaleTextError: Other bytes stand there by now, or two want the same place.
+        StaleTextError: Other bytes are there by now, or two want the same place.
         PackageError: A file cannot be read.
     """
     by_file: dict[str, list[Edit]] = {}

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 LineKind: TypeAlias = Literal["same", "old", "new"]
 LINES_SHOWN: Final = 1500
-"""Of one file; of more than that nobody reads every one."""
+"""Limit for one file; nobody reads more."""
 _LINES_COMPARED: Final = 4000
-"""Where more lines lie between the first and the last difference, all of them are one change."""
+"""With more lines between the first and the last difference, all of them are one change."""
 _AROUND: Final = 3
 _LETTERS_SHOWN: Final = 1000
 
@@ -42,7 +42,7 @@ class LineDiff:
 
 
 def line_diff(hunks: Sequence[tuple[DiffLine, ...]], limit: int) -> LineDiff:
-    """All differences counted, of their lines the first `limit` kept."""
+    """Return the first `limit` lines of all differences, and the count of all."""
     kinds = [line.kind for hunk in hunks for line in hunk]
     shown = tuple(_cut(hunks, limit))
     return LineDiff(
@@ -75,7 +75,7 @@ def _lines(data: bytes) -> list[str]:
 
 @dataclass(frozen=True, slots=True)
 class _Change:
-    """Lines [start, end) of the text before give way to [into, into_end) of the one after."""
+    """Replaces lines [start, end) of the text before by [into, into_end) of the one after."""
 
     start: int
     end: int
@@ -106,7 +106,7 @@ def _changes(old: Sequence[str], new: Sequence[str]) -> Iterator[_Change]:
 
 
 def _alike(old: Sequence[str], new: Sequence[str]) -> tuple[int, int]:
-    """How many lines both begin with, and how many of the rest both end with."""
+    """Return how many lines both begin with, and how many of the rest both end with."""
     shorter = min(len(old), len(new))
     start = next((at for at in range(shorter) if old[at] != new[at]), shorter)
     left = shorter - start

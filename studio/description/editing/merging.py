@@ -1,8 +1,7 @@
-"""Three texts into one: what was read from the disk, what was made of it here, what it is now.
+"""Merges three texts: as read from the disk, as edited here, and as it is on disk now.
 
-Both sides keep what they changed, to the byte. Two changes collide when they touch the same word;
-what stands between blanks, quotes and brackets is one, so that no number is put together of halves
-of two.
+Both sides keep their changes, to the byte. Two changes collide when they touch the same token, the
+text between blanks, quotes and brackets, so that no number is put together of halves of two.
 """
 
 from __future__ import annotations
@@ -20,14 +19,14 @@ if TYPE_CHECKING:
 Side: TypeAlias = Literal["mine", "theirs"]
 
 _LINES_COMPARED: Final = 4000
-"""Where more lines lie between the first and the last difference, all of them are one change."""
+"""With more lines between the first and the last difference, all of them are one change."""
 _WORD: Final = re.compile(rb"[^\s\"'<>=,\[\]{}]*")
 _WORD_BACKWARDS_LIMIT: Final = 1000
 
 
 @dataclass(frozen=True, slots=True)
 class Hunk:
-    """Bytes [start, end) of the text before give way to `new`."""
+    """Replaces bytes [start, end) of the text before by `new`."""
 
     start: int
     end: int
@@ -52,7 +51,7 @@ class Merge:
     places: tuple[Place, ...]
     collisions: tuple[Place, ...]
     kept: int
-    """How many places hold a change of mine alone."""
+    """Number of places with a change of mine alone."""
 
     def text(self, wins: Side = "mine", each: Sequence[Side] = ()) -> bytes:
         """Both sides' changes; at a collision those of the winner.
@@ -83,10 +82,10 @@ def merge(base: bytes, mine: bytes, theirs: bytes) -> Merge:
 
 
 def hunks_between(old: bytes, new: bytes) -> list[Hunk]:
-    """What leads from `old` to `new`: in order, none overlapping, as small as lines tell."""
+    """Return what leads from `old` to `new`: in order, none overlapping, split by lines."""
     if old == new:
         return []
-    # Only what lies between the first and the last difference is looked at closely.
+    # Only what is between the first and the last difference is compared closely.
     start = old.rfind(b"\n", 0, common_start(old, new)) + 1
     tail = common_start(old[start:][::-1], new[start:][::-1])
     before, after = old[start : len(old) - tail], new[start : len(new) - tail]
@@ -124,7 +123,7 @@ def _line_hunks(old: bytes, new: bytes) -> Iterator[Hunk]:
 
 
 def _trimmed(at: int, old: bytes, new: bytes) -> Iterator[Hunk]:
-    """One hunk without what both begin and end with; none when they are equal."""
+    """Return one hunk without what both begin and end with; none when they are equal."""
     if old == new:
         return
     start = common_start(old, new)
@@ -133,7 +132,7 @@ def _trimmed(at: int, old: bytes, new: bytes) -> Iterator[Hunk]:
 
 
 def _extents(base: bytes, hunks: list[Hunk]) -> Iterator[tuple[int, int]]:
-    """The stretches of the base that hunks touch, in whole words, those that meet joined."""
+    """Yield the stretches of the base that hunks touch, in whole tokens, those that meet joined."""
     begun: tuple[int, int] | None = None
     for start, end in sorted(_widened(base, hunk) for hunk in hunks):
         if begun is not None and start <= begun[1]:

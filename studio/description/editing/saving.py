@@ -1,7 +1,7 @@
-"""Writing files so that nothing a user wrote is ever lost: all are checked, then all are written.
+"""Writes files so that nothing a user wrote is ever lost: all are checked, then all are written.
 
-A file is written beside itself, flushed to the disk and renamed over the old one: whoever reads it
-sees the old text or the new one. Its mode is kept; a symlink stays and its target is written.
+A file is written beside itself, flushed to the disk and renamed over the old one: a reader gets
+the old text or the new one. Its mode is kept; a symlink stays and its target is written.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ def _refuse_read_only(file: str, target: Path, *, allowed: bool) -> None:
         (target, "the file is read-only; make it writable first"),
         (target.parent, "its folder is read-only; make it writable first"),
     ):
-        # Root may write everything, but a mode without write bits still says "leave it".
+        # Root may write everything, but a mode without write bits still means "leave it".
         if not path.stat().st_mode & _WRITE_BITS or not is_writable(path):
             raise NotSavedError(file, sentence)
     if not allowed:

@@ -57,12 +57,12 @@ class HeldText:
             self.now = bytes(text)
 
     def saved_at(self, span: Span) -> bytes | None:
-        """What the disk has where `span` is now; None when a reload changed the file around it."""
+        """Return the bytes on disk where `span` is now; None when a reload changed them."""
         base = self.regions.base_span(span)
         return None if base is None else self.disk[base.start : base.end]
 
     def saved_text(self, span: Span) -> str | None:
-        """What the disk says where `span` is now, when it says something else and can be told."""
+        """Return the text on disk where `span` is now, if it differs and can be found."""
         base = self.regions.base_span(span)
         if base is None:
             return None
@@ -133,7 +133,7 @@ class Sources:
         self._steps = UndoStack()
         self._arguments = dict(arguments or {})
         self._conflicts: dict[str, bytes] = {}
-        """By file, what the disk has where it collides with unsaved edits."""
+        """By file, the bytes on disk that collide with unsaved edits."""
         self.spans = SpanTable()
 
     @property
@@ -163,7 +163,7 @@ class Sources:
 
     @property
     def unsaved_count(self) -> int:
-        """How many places differ, in all files."""
+        """The number of places that differ, in all files."""
         return sum(len(text.regions) for text in self._texts.values())
 
     @property
@@ -257,7 +257,7 @@ class Sources:
         return edit
 
     def saved_text(self, site_id: str) -> str | None:
-        """What the disk says at a site, when it says something else than the text here.
+        """Return the text on disk at a site, if it differs from the text here.
 
         Raises:
             StaleEditError: The site is no longer where the last run saw it.
@@ -317,7 +317,7 @@ class Sources:
         return change
 
     def kept(self) -> KeptSources:
-        """What is lost with this process: edits that are not saved, and the undo list."""
+        """Return what would be lost with the process: unsaved edits, and the undo list."""
         named = self._steps.files()
         texts = (
             KeptText(file, text.disk, text.now)
@@ -328,7 +328,7 @@ class Sources:
         return KeptSources(tuple(texts), self.arguments, tuple(steps.done), tuple(steps.undone))
 
     def put(self, kept: KeptSources) -> None:
-        """Be as it was kept; `refresh` then takes what the disk changed since."""
+        """Restore what was kept; `refresh` then takes what changed on disk since."""
         for one in kept.texts:
             self._texts[one.file] = HeldText(one.file, one.now).rebased(one.disk)
         self._arguments = dict(kept.arguments)
@@ -438,7 +438,7 @@ class Sources:
         return self._read(Path(file))
 
     def _take(self, file: str, disk: bytes) -> Edit | None:
-        """Make the disk's text the base and the text; the way there is a step to take back."""
+        """Make the text on disk the base and the text; the edit between is a step to undo."""
         edit = difference(file, self._held(file).now, disk)
         if edit is not None:
             self._push((edit,), Step(f"Reload {Path(file).name}", is_value=False))

@@ -1,4 +1,4 @@
-"""Where spans of a text stand after edits: in the text as it began, and as it is now."""
+"""Positions of spans after edits: in the text as it began, and as it is now."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _QUOTES: Final = {'"': b'"', "'": b"'"}
 """What ends an attribute; it stands just outside the span."""
 _ONE_VALUE: Final = re.compile(rb"[\w.+-]+", re.ASCII)
-"""What is one value, and the whole of it, in YAML and among the parameters of a macro."""
+"""One whole value, in YAML and among the parameters of a macro."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +32,10 @@ class Region:
 
 
 class ChangedRegions:
-    """The regions of one text against its base: disjoint, in order, each really different.
+    """The regions of one text that differ from its base: disjoint, in order.
 
-    A region does not say where it stands now: an edit above thousands of them would move them all.
-    It follows from those above it, counted on from the place that was looked at last.
+    A region does not store its present place: an edit above thousands of them would move them all.
+    It follows from those above it, counted from the last place that was computed.
     """
 
     def __init__(self, base: bytes) -> None:
@@ -45,7 +45,7 @@ class ChangedRegions:
         """A place in the list, and how much the regions above it have grown together."""
 
     def __len__(self) -> int:
-        """How many there are."""
+        """The number of regions."""
         return len(self._regions)
 
     def note(self, edit: Edit, text: bytes | bytearray | None) -> None:
@@ -69,11 +69,11 @@ class ChangedRegions:
 
     @property
     def regions(self) -> tuple[Region, ...]:
-        """All of them, in order."""
+        """All regions, in order."""
         return tuple(self._regions)
 
     def base_span(self, span: Span) -> Span | None:
-        """Where a span stood in the base; None when a region cuts across an end of it."""
+        """Return a span in the base; None when a region cuts across an end of it."""
         touched = self._touched(span.start, span.end)
         growth = sum(one.growth for one in touched)
         if touched:
@@ -120,7 +120,7 @@ class _Noted:
     site: str = ""
 
     def moved(self, name: str, span: Span | None) -> Span | None:
-        """Where a site is after it; None when that is not sure."""
+        """Return the span of a site after it; None when that is not sure."""
         if span is None:
             return None
         edit = self.edit
@@ -136,7 +136,7 @@ def _moved_by_each(name: str, span: Span | None, notes: Iterable[_Noted]) -> Spa
 
 
 class _Shifts:
-    """How far edits of one file, one after the other, move what none of them touched."""
+    """How far successive edits of one file move what none of them touched."""
 
     def __init__(self, notes: Iterable[_Noted]) -> None:
         changed = ChangedRegions(b"")
@@ -147,7 +147,7 @@ class _Shifts:
         self._shifts = [0, *accumulate(one.growth for one in self._regions)]
 
     def of(self, span: Span) -> int | None:
-        """By how many bytes; None: an edit touched the span or an end of it."""
+        """Return by how many bytes; None: an edit touched the span or an end of it."""
         at = bisect_left(self._ends, span.start)
         if at < len(self._regions) and self._regions[at].base_start <= span.end:
             return None
@@ -165,7 +165,7 @@ class SpanTable:
         self.version = 0
         self._sites: dict[str, Site] = {}
         self._spans: dict[str, dict[str, Span | None]] = {}
-        """By file, where its sites were at the last good run; None: an edit cut across one."""
+        """By file, the spans of its sites at the last good run; None: an edit cut across one."""
         self._since: list[_Noted] = []
         self._shifts: dict[str, tuple[list[_Noted], _Shifts]] = {}
         """By file, the edits since, and how far they move what they did not touch."""
@@ -239,10 +239,10 @@ class SpanTable:
         return site
 
     def span(self, site_id: str) -> Span:
-        """Where a site stands now: its own edits stretch it, those before it in its file move it.
+        """Return a site's present span: its own edits stretch it, those before it move it.
 
         Raises:
-            StaleEditError: There is no such site, or only the next run can say where it is.
+            StaleEditError: There is no such site, or only the next run can find it.
         """
         file = self.site(site_id).place.file
         span = self._spans[file][site_id]

@@ -17,7 +17,7 @@ _STEPS_KEPT = 1000
 
 @dataclass(frozen=True, slots=True)
 class Splice:
-    """At byte `start` of a file, `old` gave way to `new`."""
+    """At byte `start` of a file, `new` replaced `old`."""
 
     file: str
     start: int
@@ -43,7 +43,7 @@ class Splice:
 
 @dataclass(frozen=True, slots=True)
 class ArgumentChange:
-    """An argument passed as `name:=value` gave way to another; None: not passed."""
+    """A change of an argument passed as `name:=value`; None: not passed."""
 
     name: str
     old: str | None
@@ -62,7 +62,7 @@ class Step:
 
     @cached_property
     def label(self) -> str:
-        """What the undo list shows, e.g. `wheel_radius 0.1 → 0.12`."""
+        """The line in the undo list, e.g. `wheel_radius 0.1 → 0.12`."""
         texts = self._texts()
         if texts is None or max(map(len, texts)) > _SHOWN_LENGTH:
             return self.name
@@ -111,7 +111,7 @@ def _joined(
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """What an undo or redo did: send it on. `arguments` are all of them, None when unchanged."""
+    """What an undo or redo did. `arguments` are all of them, None when unchanged."""
 
     label: str
     edits: tuple[Edit, ...] = ()
@@ -169,7 +169,7 @@ class UndoStack:
         return frozenset(splice.file for step in steps for splice in step.splices)
 
     def end_gesture(self) -> None:
-        """What comes next is a new step, also from the same gesture."""
+        """Make the next edit a new step, even of the same gesture."""
         self._gesture = ""
 
 
@@ -181,7 +181,7 @@ def _can_grow(newest: Step, step: Step) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class KeptText:
-    """One file: as the disk had it when it was read, and as it is edited."""
+    """One file: as it was read from disk, and as it is edited."""
 
     file: str
     disk: bytes

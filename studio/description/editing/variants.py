@@ -78,7 +78,7 @@ _HEAD: Final = (
 
 @dataclass(frozen=True, slots=True, order=True)
 class TextName:
-    """Which text of a description is meant."""
+    """Names a text of a description."""
 
     file: str
     """Relative to the folder of the entry file with `/` between, or `package://<name>/<path>`."""
@@ -97,7 +97,7 @@ class TextName:
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """A named set of arguments and texts, on top of what the files say."""
+    """A named set of arguments and texts, on top of those in the files."""
 
     name: str
     note: str = ""
@@ -138,7 +138,7 @@ class NamedTexts:
         self._at(now)
 
     def saved_text(self, name: TextName) -> str | None:
-        """What the disk says; None when it has no such text."""
+        """Return a text on disk; None when there is none of that name."""
         found = self._names[self.disk].get(name)
         return found.text if found else None
 
@@ -148,7 +148,7 @@ class NamedTexts:
         return found.place.line if found else 0
 
     def differing(self, now: bytes) -> dict[TextName, str]:
-        """The texts of an edited file that say something else than the disk does."""
+        """Return the texts of an edited file that differ from those on disk."""
         saved = self._names[self.disk]
         return {
             name: site.text
@@ -157,7 +157,7 @@ class NamedTexts:
         }
 
     def edits_to(self, now: bytes, texts: Mapping[TextName, str]) -> Placed:
-        """What makes an edited file say these texts, and everywhere else what the disk says."""
+        """Return edits that give an edited file these texts, and all others those on disk."""
         here, edits, left_out = self._at(now), list[Edit](), list[str]()
         saved = {name: site.text for name, site in self._names[self.disk].items()}
         wanted = {**saved, **texts}
@@ -244,25 +244,25 @@ class _Item:
 
 
 def read_variants(path: str, data: bytes) -> tuple[Variant, ...]:
-    """The variants of a file, in its order; an empty file has none.
+    """Return the variants of a file, in its order; an empty file has none.
 
     Raises:
-        VariantsFileError: It is no YAML, too large, or says something that no variant can.
+        VariantsFileError: It is no YAML, too large, or has something that no variant can have.
     """
     return tuple(item.variant for item in _Reading(path, data).items())
 
 
 def write_variants(path: str, entry: str, before: bytes, variants: Sequence[Variant]) -> bytes:
-    """The bytes of a file with these variants, as much as can be as it was.
+    """Return the bytes of a file with these variants, otherwise unchanged as far as possible.
 
     Args:
-        path: Where the file lies, for the words of errors.
-        entry: Name of the entry file, told in a new file's first line.
-        before: The file as it is; empty for none.
+        path: Path of the file, for errors.
+        entry: Name of the entry file, for a new file's first line.
+        before: The present content; empty for none.
         variants: All of them, in order.
 
     Raises:
-        VariantsFileError: The file as it is cannot be read, or what was written could not be.
+        VariantsFileError: The present file, or the new one, cannot be read.
     """
     written = _woven(path, before, variants) if before.strip() else None
     if written is None or not _says(path, written, variants):
@@ -322,7 +322,7 @@ def _indent(starts: Sequence[str]) -> str | None:
 
 
 def _with_leads(items: Sequence[_Item], lines: list[str]) -> dict[str, tuple[str, _Item | None]]:
-    """Each item by name with the comments and empty lines above it."""
+    """Return each item by name with the comments and empty lines above it."""
     found: dict[str, tuple[str, _Item | None]] = {}
     last = 0
     for item in items:
@@ -333,7 +333,7 @@ def _with_leads(items: Sequence[_Item], lines: list[str]) -> dict[str, tuple[str
 
 
 def _lead_of(start: int, last: int, lines: list[str]) -> int:
-    """Where the comments and empty lines right above a line begin."""
+    """Return where the comments and empty lines right above a line begin."""
     while start > last and (not lines[start - 1].strip() or lines[start - 1].lstrip()[0] == "#"):
         start -= 1
     return start
@@ -344,7 +344,7 @@ def _ended(text: str) -> str:
 
 
 def _spelled(variant: Variant, indent: str) -> str:
-    """One item of the list; each text is a short paragraph of its own."""
+    """Return one item of the list; each text is a short paragraph of its own."""
     lines = [f"- name: {_plain(variant.name)}"]
     if variant.note:
         lines.append(f"  note: {_quoted(variant.note)}")
@@ -378,7 +378,7 @@ def _quoted(text: str) -> str:
 
 
 class _Reading:
-    """One look at a file; every fault names its line."""
+    """Reads a file once; every fault names its line."""
 
     def __init__(self, path: str, data: bytes) -> None:
         self._list = NamedList(path, data, _KIND)

@@ -273,7 +273,7 @@ def _include_one(
     *,
     optional: bool,
 ) -> OutputElement | None:
-    """One file's content; None when it is optional and cannot be read."""
+    """Return one file's content; None when it is optional and cannot be read."""
     before = run.texts.mark()
     try:
         root = _root_of(run, node, path)

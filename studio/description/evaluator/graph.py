@@ -1,18 +1,18 @@
-"""The graph of a run: names and what they are bound to, texts and who read what to evaluate them.
+"""The graph of a run: names and what they are bound to, texts and what was read to evaluate them.
 
 A `Scope` holds the names of a file, a macro call or a `ns=` include: `Cell`s, found as dynamically
 as xacro finds them. A `Binding` is one written text that got a name: an arg, a property, the
 default of a macro parameter, an argument of a macro call. Many calls may bind it, so it collects
 what it was bound to over the whole run.
 
-A `Record` is one evaluation of one text. `reads` are the things that it asked for, in order: cells
+A `Record` is one evaluation of one text. `reads` are the things that it read, in order: cells
 (bindings of a name in a scope), arguments, YAML values and YAML files; each of these keeps its
-`readers`. So the graph can be walked both ways:
+`readers`. So the graph can be walked in both directions:
 
 - From an attribute that came out back to the source: `element.makers[name]` is the record whose
-  text made it; no entry means that it stands in the source as it came out. Each `Cell` among its
+  text made it; no entry means that it is in the source as it came out. Each `Cell` among its
   `reads` has a `binding` (where it is written: element, attribute, text), and a `record` when its
-  text was evaluated, whose `reads` lead on. `behind` walks that way.
+  text was evaluated, whose `reads` lead on. `behind` walks in this direction.
 - From a text of the source to what it shapes: `Binding.holders` are the cells (or the argument)
   that it was bound to, once per macro call; their `readers` lead to records, a record with a cell
   or an argument for `sink` to the readers of that; the records whose `sink` is a list of elements
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 
 VALUES_KEPT: Final = 16
-"""Of one binding."""
+"""Limit for one binding."""
 
 Consumer: TypeAlias = tuple[str, str]
 """An attribute that came out: (`link/visual/geometry/cylinder`, `radius`). A condition of
@@ -45,7 +45,7 @@ Consumer: TypeAlias = tuple[str, str]
 
 
 class Role(Enum):
-    """What a text is for that makes neither output nor a binding."""
+    """Purpose of a text that makes neither output nor a binding."""
 
     CONDITION = "condition"
     """Whether something comes out at all."""
@@ -62,7 +62,7 @@ class Readable:
 
     def __init__(self) -> None:
         self.readers: list[Record] = []
-        """Who read it, once per read, in the order in which their evaluations ended."""
+        """Records that read it, once per read, in the order in which their evaluations ended."""
 
 
 class Record:
@@ -99,7 +99,7 @@ class Record:
         self.forwards = False
         """`text` is a name that is passed on as it is (`:=^`)."""
         self.is_noisy = False
-        """It did more than come to a value: a warning, say."""
+        """Whether it had an effect besides its value, such as a warning."""
 
     @property
     def counts(self) -> bool:
@@ -126,11 +126,11 @@ class MadeElement(Protocol):
 
 
 Sink: TypeAlias = "Cell | Argument | SourceText | list[MadeElement] | Role"
-"""What an evaluated text is for: a binding, the text of an element, an attribute of elements."""
+"""The result of an evaluated text: a binding, the text of an element, attributes of elements."""
 
 
 def behind(start: Record) -> Iterator[Readable]:
-    """All that a record was made from, the nearest first, each once."""
+    """Yield all that a record was made from, the nearest first, each once."""
     seen: set[Readable] = set()
     front = list(start.reads)
     while front:
@@ -146,7 +146,7 @@ def _reads_behind(one: Readable) -> list[Readable]:
 
 
 class Cell(Readable):
-    """One binding of one name in one scope; `pending` is a text that nobody has read yet."""
+    """One binding of one name in one scope; `pending` is a text that was not evaluated yet."""
 
     __slots__ = ("at", "binding", "name", "pending", "record", "resolving", "scope", "value")
 
@@ -175,7 +175,7 @@ class Cell(Readable):
 
 
 class Argument(Readable):
-    """One arg: its value, and the first declaration, once the run has come by it."""
+    """One arg: its value, and the first declaration, once the run has reached it."""
 
     __slots__ = ("binding", "compared", "declarations", "is_given", "name", "record", "value")
 
@@ -188,7 +188,7 @@ class Argument(Readable):
         self.compared: dict[str, None] = {}
         """As `Binding.compared`, from before its declaration."""
         self.declarations: list[Binding] = []
-        """All of them, those without effect too."""
+        """All declarations, those without effect too."""
 
     def declared_by(self, binding: Binding) -> None:
         """Note a declaration; the first one takes over what was noted so far."""
@@ -208,12 +208,12 @@ class NameReplay(Protocol):
         ...
 
     def refuse(self, reason: str) -> None:
-        """Give up: only a full run can tell."""
+        """Raise: only a full run can evaluate it."""
         ...
 
 
 class Resolver(Protocol):
-    """Who evaluates: the run that a scope belongs to."""
+    """Evaluates texts: the run that a scope belongs to."""
 
     symbols: dict[str, Any]
     helpers: dict[str, Any]
@@ -222,7 +222,7 @@ class Resolver(Protocol):
     """Set while a text is evaluated once more: names mean what they meant the first time."""
 
     def read(self, name: str, cell: Cell, scope: Scope) -> Any:  # noqa: ANN401
-        """The value of a cell, evaluated now if nobody did; noted as read."""
+        """Return the value of a cell, evaluated now if it was not, and note the read."""
         ...
 
     def undefined(self, name: str, scope: Scope) -> Fault:

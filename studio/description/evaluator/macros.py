@@ -40,7 +40,7 @@ class MacroTable:
         return found if isinstance(found, Macro) else None
 
     def find(self, name: str) -> Macro | MacroTable | None:
-        """What a name means here."""
+        """Return what a name means here."""
         table: MacroTable | None = self
         while table is not None:
             if name in table._entries:

@@ -46,7 +46,7 @@ class OutputElement:
         self.children: list[OutputChild] = []
         """Comments only where they were asked for."""
         self.makers: Mapping[str, Record] = _AS_WRITTEN
-        """By attribute, the evaluation that made it; those that stand as written are missing."""
+        """By attribute, the evaluation that made it; literal ones are missing."""
 
     @property
     def comes_out(self) -> bool:
@@ -60,7 +60,7 @@ class OutputElement:
         cast("dict[str, Record]", self.makers)[name] = record
 
     def elements(self) -> Iterator[OutputElement]:
-        """Its child elements, in order."""
+        """Yield its child elements, in order."""
         return (child for child in self.children if isinstance(child, OutputElement))
 
     def walk(self) -> Iterator[OutputElement]:
@@ -90,7 +90,7 @@ def macro_calls(frame: CallFrame | None) -> tuple[MacroCall, ...]:
 
 
 def write_xml(element: OutputElement) -> str:
-    """One line of XML, attributes in their order.
+    """Return one line of XML, attributes in their order.
 
     Raises:
         Refusal: As `plain_element`.
@@ -114,7 +114,7 @@ class _Plain:
         self._characters = 0
 
     def element(self, element: OutputElement) -> Element:
-        """One of them."""
+        """Return one of them."""
         made = self._element(element)
         if self._characters > OUTPUT_LIMIT:
             raise Refusal("output-too-large", "The robot comes to more text than can be shown.")
@@ -137,7 +137,7 @@ class _Plain:
 
 
 def part_keys(root: OutputElement) -> list[tuple[str, OutputElement]]:
-    """A key for each top-level element, in order, as `Part.key` says."""
+    """Return a key for each top-level element, in order, as in `Part.key`."""
     keyed: list[tuple[str, OutputElement]] = []
     used: dict[str, int] = {}
     others = 0
@@ -161,7 +161,7 @@ class PlainPart(NamedTuple):
 
 
 def plain_parts(root: OutputElement) -> list[PlainPart]:
-    """Each top-level element as a value that stands alone, prefixes declared.
+    """Return each top-level element as a value that stands alone, prefixes declared.
 
     Raises:
         Refusal: All of them together are longer than OUTPUT_LIMIT.
@@ -174,7 +174,7 @@ def plain_parts(root: OutputElement) -> list[PlainPart]:
 
 
 def plain_part(root: OutputElement, key: str, output: OutputElement) -> PlainPart:
-    """One of them."""
+    """Return one of them."""
     return PlainPart(key, _declaring(plain_element(output), _prefixes(root)), output)
 
 
@@ -205,7 +205,7 @@ def _declaring(element: Element, prefixes: Mapping[str, tuple[str, str]]) -> Ele
 
 
 class OutputIndex:
-    """The tree of one run, looked up from below. Attributes and texts may change meanwhile."""
+    """The tree of one run, indexed from below. Attributes and texts may change meanwhile."""
 
     def __init__(self, root: OutputElement) -> None:
         self.root = root
@@ -221,7 +221,7 @@ class OutputIndex:
                 self.came_out.setdefault(element.origin, []).append(element)
 
     def keys_by_source(self) -> dict[SourceElement, tuple[str, ...]]:
-        """Which parts each source element came out in; one that is in no part is missing."""
+        """Return the parts that each source element came out in; one that is in none is missing."""
         found: dict[SourceElement, dict[str, None]] = {}
         for element, part in self.part_of.items():
             found.setdefault(element.origin, {})[self.keys[part]] = None

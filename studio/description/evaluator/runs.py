@@ -42,7 +42,7 @@ class RunRecord:
     """In the order in which the run met them."""
     yaml: Mapping[str, YamlReads]
     part_keys: Mapping[SourceElement, tuple[str, ...]]
-    """Which parts each source element came out in; an element that is in no part is missing."""
+    """The parts that each source element came out in; an element in no part is missing."""
     arguments: Mapping[str, str]
     """Values of all args as strings: given ones and defaults."""
     warnings: tuple[Problem, ...]
@@ -101,7 +101,7 @@ def recovered_run(
 
 
 def problems_of_text(path: str, data: bytes, chain: tuple[Place, ...]) -> tuple[Problem, ...]:
-    """What is wrong with the XML of one broken text; empty when it cannot be read at all."""
+    """Return what is wrong with the XML of a broken text; empty when it cannot be read at all."""
     try:
         return xml_problems(recover(path, data).faults, chain)
     except SourceError:

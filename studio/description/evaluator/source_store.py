@@ -1,6 +1,6 @@
-"""The texts of one open description: read through one root-checked open, edited in memory.
+"""The texts of one open description: read with a check of their roots, edited in memory.
 
-A file is known by its absolute path with symlinks resolved, whatever way led to it.
+A file is identified by its absolute path with symlinks resolved.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 _MAGIC: Final = re.compile(r"[*[?]")
 _NAMES_LOOKED_AT: Final = 2_000
-"""Of a folder, in search of the one that was meant."""
+"""Limit for a folder, in search of the name that was meant."""
 WILDCARD_LEVELS: Final = 3
 """Links that lead back to their own folder make each further one many times as slow."""
 
@@ -49,7 +49,7 @@ class Roots(Protocol):
 
 
 class SourceStore:
-    """Bytes and trees of all files read so far, kept between runs until somebody says reload."""
+    """Bytes and trees of all files read so far, kept between runs until a reload."""
 
     def __init__(self, roots: Roots, overlay: Mapping[str, bytes]) -> None:
         self._roots = roots
@@ -121,7 +121,7 @@ class SourceStore:
         return tree
 
     def yaml(self, path: str, evaluate: Callable[[str], Any]) -> tuple[str, bytes, Any]:
-        """A YAML file's resolved path, bytes and plain values, which nobody may change.
+        """Return a YAML file's resolved path, bytes and plain values, which must not be changed.
 
         Raises:
             Fault: As `read`, or it is no YAML; the place is then in that file.
@@ -248,7 +248,7 @@ class RecoveringStore(SourceStore):
         """What is wrong, by file."""
 
     def tree(self, path: str) -> SourceTree:
-        """As `SourceStore.tree`, and never a fault because the XML is broken."""
+        """As `SourceStore.tree`, but without a fault when the XML is broken."""
         try:
             return super().tree(path)
         except Fault as fault:

@@ -56,7 +56,7 @@ def export_urdf(
     overlay: Mapping[str, bytes] | None = None,
     limits: Limits = EXPORT_LIMITS,
 ) -> str:
-    """What the `xacro` command prints for a file, byte for byte; `file` appears in its banner.
+    """Return what the `xacro` command prints for a file, byte for byte; `file` is in its banner.
 
     Raises:
         ExpansionError: Xacro cannot expand it.
@@ -97,7 +97,7 @@ def _process(file: str, arguments: Mapping[str, str], guard: _Guard) -> Document
 
 
 def _fault_of(evaluation: Evaluation, file: str) -> Fault | None:
-    """Why our evaluator stops, with a line and what to do; None when it does not, or cannot say."""
+    """Return why our evaluator stops, with line and advice; None when it does not, or cannot."""
     try:
         evaluation.run(file)
     except Fault as fault:
@@ -155,13 +155,13 @@ class _Guard:
         self.environment = policy.environment
 
     def safe_eval(self, text: str, names: dict[str, Any], _locals: object = None) -> Any:  # noqa: ANN401
-        """In place of `xacro.safe_eval`."""
+        """Replace `xacro.safe_eval`."""
         code = compile_expression(text).code
         names.update(self._helpers)
         return eval(code, names)
 
     def eval_text(self, text: str, names: Any) -> Any:  # noqa: ANN401
-        """In place of `xacro.eval_text`: counts, and bounds what comes out."""
+        """Replace `xacro.eval_text`: count, and bound what comes out."""
         self._budget.evaluation()
         if xacro.macrostack:
             self._budget.depth(len(xacro.macrostack), "?")
@@ -174,12 +174,12 @@ class _Guard:
         return value
 
     def eval_all(self, node: Any, macros: Any, symbols: Any) -> None:  # noqa: ANN401
-        """In place of `xacro.eval_all`, which each element goes through: counts."""
+        """Replace `xacro.eval_all`, which each element goes through: count."""
         self._budget.element()
         self._eval_all(node, macros, symbols)
 
     def open(self, path: str) -> io.TextIOWrapper:
-        """In place of `open` inside the xacro module."""
+        """Replace `open` inside the xacro module."""
         try:
             _, data = self._store.read(path)
         except Refusal as refusal:
@@ -192,19 +192,19 @@ class _Guard:
         return io.TextIOWrapper(io.BytesIO(data), encoding="utf-8")
 
     def glob(self, pattern: str) -> list[str]:
-        """In place of `glob.glob` inside the xacro module."""
+        """Replace `glob.glob` inside the xacro module."""
         return self._store.glob(pattern)
 
     def evaluate_substitution(self, text: str, _context: object) -> str:
-        """In place of `substitution_args._eval`: the inside of `$(eval ...)`."""
+        """Replace `substitution_args._eval`: the inside of `$(eval ...)`."""
         return evaluate(text, self)
 
     def variable(self, name: str) -> str:
-        """In place of `substitution_args._eval_env`."""
+        """Replace `substitution_args._eval_env`."""
         return variable(name, self)
 
     def optional_variable(self, name: str, default: str = "") -> str:
-        """In place of `substitution_args._eval_optenv`."""
+        """Replace `substitution_args._eval_optenv`."""
         return self.environment.get(name, default)
 
     def argument(self, name: str) -> str:
@@ -260,7 +260,7 @@ def _on(guard: _Guard) -> Generator[None]:
 
 
 def _parameter(text: str) -> tuple[str, tuple[str | None, str | None] | None, str]:
-    """In place of `xacro.parse_macro_arg`, whose pattern some texts keep busy without end."""
+    """Replace `xacro.parse_macro_arg`, whose pattern some texts keep busy without end."""
     if len(text) > PARAMS_LIMIT:
         raise too_large()
     name, default, rest = parameter(text)

@@ -30,7 +30,7 @@ class Context(Protocol):
     environment: dict[str, str]
 
     def argument(self, name: str) -> str:
-        """The value of an arg; Fault when nobody gave it."""
+        """Return the value of an arg; Fault when it was not given."""
         ...
 
     def find_package(self, name: str) -> str:
@@ -174,7 +174,7 @@ def find_package(packages: Mapping[str, tuple[str, ...]], name: str, asking_file
     if not folders:
         sentence = f'The package "{name}" was not found'
         otherwise = "choose its folder or give --package-path."
-        # A word that many packages end with, as _description, makes no two of them alike.
+        # A part that many packages end with, as _description, makes no two of them alike.
         alike = [one for one in packages if is_misspelt(name, one)]
         fault = misnamed("package-not-found", sentence, name, alike, otherwise)
         fault.package = name

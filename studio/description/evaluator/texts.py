@@ -40,7 +40,7 @@ _TEXT_FOR_NUMBER: Final = re.compile(
     r"multiply sequence|(unsupported operand|not supported between|bad operand).*'str'"
     r"|must be real number, not str|can only concatenate str|must be str, not"
 )
-"""What Python says of arithmetic with a text."""
+"""Python's error about arithmetic with a text."""
 _ARG_COMPARED: Final = re.compile(r"""['"]?\$\(arg\s+(\w+)\)['"]?\s*[=!]=\s*['"]([^'"]*)['"]""")
 _STRUCTURE: Final = Role.STRUCTURE
 _PLAIN: Final = frozenset({int, float, str, bool, type(None)})
@@ -90,7 +90,7 @@ def literal_value(value: Any) -> Any:  # noqa: ANN401
 
 
 def truth_of(value: Any, condition: str | None) -> bool:  # noqa: ANN401
-    """What a condition came to, by xacro's rules.
+    """Return the value of a condition, by xacro's rules.
 
     Raises:
         Fault: A text that is neither true, false nor a whole number.
@@ -109,7 +109,7 @@ def truth_of(value: Any, condition: str | None) -> bool:  # noqa: ANN401
 
 
 def failed(text: str, error: Exception) -> Fault:
-    """What an expression's exception comes to."""
+    """Return the fault of an expression's exception."""
     reason = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
     if isinstance(error, KeyError):
         reason = f"there is no key {error}"
@@ -123,7 +123,7 @@ def failed(text: str, error: Exception) -> Fault:
 
 
 def out_of_bounds(error: BaseException) -> Refusal:
-    """What a RecursionError or MemoryError comes to."""
+    """Return the refusal of a RecursionError or MemoryError."""
     if isinstance(error, MemoryError):
         return Refusal("value-too-large", "An expression needs too much memory.")
     return Refusal("nested-too-deep", "Properties or expressions are nested too deeply.")
@@ -156,7 +156,7 @@ class Texts:
     # What the elements ask for
 
     def value(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
-        """A text's typed value; what it reads goes to whoever is noting.
+        """Return a text's typed value; its reads are noted.
 
         Raises:
             Fault: It cannot be evaluated.
@@ -196,7 +196,7 @@ class Texts:
         return text if "$" not in text else self.evaluated(text, scope, role, consumer).value
 
     def echoed(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
-        """A text's value where nobody uses it: xacro evaluates more texts than it needs."""
+        """Return a text's value where it is not used: xacro evaluates more texts than it needs."""
         if "$" not in text:
             return text
         record = Record(text, scope, self.files[-1], Role.NOTHING, None)
@@ -207,7 +207,7 @@ class Texts:
         return record.value
 
     def forwarded(self, name: str, scope: Scope, cell: Cell) -> Record:
-        """The value of a name, on its way to the parameter that it is forwarded to."""
+        """Return the value of a name, on its way to the parameter that it is forwarded to."""
         record = Record(name, scope, self.files[-1], cell, None)
         record.forwards = True
         outer, self._now = self._now, record
@@ -221,7 +221,7 @@ class Texts:
         cell.record = record
         cell.value = literal_value(record.value)
         if type(cell.value) not in _PLAIN and not is_lasting(cell.value):
-            self.is_pure = False  # whoever reads it uses it up
+            self.is_pure = False  # whatever reads it uses it up
         if not at_once:
             cell.pending = None
 
@@ -233,7 +233,7 @@ class Texts:
             one.readers.append(record)
 
     def mark(self) -> tuple[Record, SourceElement | None, int]:
-        """The state to go `back_to` when an optional include fails half-way."""
+        """Return the state to go `back_to` when an optional include fails half-way."""
         return self._now, self.at, len(self._resolving)
 
     def back_to(self, marked: tuple[Record, SourceElement | None, int]) -> None:
@@ -243,7 +243,7 @@ class Texts:
         del self._resolving[marked[2] :]
 
     def note(self, one: Input) -> None:
-        """A value of a YAML file was read by the text under way."""
+        """Note that the running text read a value of a YAML file."""
         self._now.reads.append(cast("YamlValue", one))
 
     @contextmanager
@@ -389,7 +389,7 @@ class Texts:
         return inner
 
     def _says_more(self, reason: str) -> None:
-        """Note that the text under way does more than come to a value."""
+        """Note that the running text has an effect besides its value."""
         if self.replay is not None:
             self.replay.refuse(reason)
         self._now.is_noisy = True
@@ -425,7 +425,7 @@ class Texts:
     def _substitution(self, text: str, scope: Scope) -> str:
         command = text_of(self.value(text, scope)) if "$" in text else text
         if command == "cwd":
-            return os.getcwd()  # noqa: PTH109 - as xacro says it
+            return os.getcwd()  # noqa: PTH109 - as xacro writes it
         try:
             return self._counted(substitute(command, self))
         except Fault:

@@ -1,8 +1,8 @@
 """Walk source trees and evaluate them into output: elements, attributes, texts, comments.
 
 Nothing is changed in place, so sources are parsed once and evaluated often. Where xacro evaluates
-a text twice, or evaluates an attribute that nobody sees, that is done here too: it decides errors.
-What the elements of xacro itself do is in `evaluation` and `macros`.
+a text twice, or an attribute without effect, that is done here too: it decides errors. The elements
+of xacro itself are in `evaluation` and `macros`.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def plan_of(node: Node) -> Plan:
 
 
 class Walk(ABC):
-    """The state of one run: `frame` is the macro call under way, `path` the tags around it."""
+    """The state of one run: `frame` is the current macro call, `path` the tags around it."""
 
     def __init__(
         self,
@@ -105,7 +105,7 @@ class Walk(ABC):
         return fault
 
     def chain_to(self, file: str) -> tuple[Place, ...]:
-        """Where a file was included, and the files that include it, the outermost first."""
+        """Return where a file was included, and the files that include it, the outermost first."""
         chain: list[Place] = []
         while file in self.included_at and len(chain) < 100:
             chain.append(self.included_at[file])
@@ -278,10 +278,10 @@ def import_namespaces(texts: Texts, into: OutputElement, attributes: dict[str, s
 
 
 def xml_name(node: Node, value: Any, *, written: bool = True) -> str:  # noqa: ANN401
-    """What the name of an element or attribute came to; `written` when it comes out.
+    """Return the name of an element or attribute; `written` when it comes out.
 
     Raises:
-        Fault: It is no text (where xacro fails as well), or XML does not allow it as a name.
+        Fault: It is no text (where xacro fails as well), or not allowed as a name in XML.
     """
     if value == "":
         raise Fault("empty-name", f"{node.tag} came to an empty name.")

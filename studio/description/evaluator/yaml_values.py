@@ -37,9 +37,9 @@ class Reader:
 
 
 class YamlMapping(dict[Any, Any]):
-    """A mapping of a YAML file: `m.key` and `m['key']` give a copy of what is below.
+    """A mapping of a YAML file: `m.key` and `m['key']` return a copy of what is below.
 
-    A plain one, and all below it, has no dots: what xacro's wrappers hand out by dict's own ways.
+    A plain one, and all below it, has no dots: what xacro's wrappers return through dict's methods.
     """
 
     __slots__ = ("_is_plain", "path", "reader")
@@ -77,7 +77,7 @@ class YamlMapping(dict[Any, Any]):
         return wrap(value, self.reader, path, plain=plain or self._is_plain)
 
     def _plain(self) -> dict[Any, Any]:
-        """As an ordinary dict, every value read."""
+        """Return it as an ordinary dict, every value read."""
         return {key: self._wrapped(key, value, plain=True) for key, value in super().items()}
 
     def get(self, key: Any, default: Any = None) -> Any:  # noqa: ANN401
@@ -88,11 +88,11 @@ class YamlMapping(dict[Any, Any]):
         return super().__iter__()
 
     def items(self) -> Any:  # noqa: ANN401
-        """All (key, value) pairs."""
+        """Return all (key, value) pairs."""
         return self._plain().items()
 
     def values(self) -> Any:  # noqa: ANN401
-        """All values."""
+        """Return all values."""
         return self._plain().values()
 
     def copy(self) -> Any:  # noqa: ANN401
@@ -159,7 +159,7 @@ class YamlSequence(list[Any]):
         return wrap(value, self.reader, path, plain=plain or self._is_plain)
 
     def _plain(self) -> list[Any]:
-        """As an ordinary list, every item read."""
+        """Return it as an ordinary list, every item read."""
         items = enumerate(super().__iter__())
         return [self._wrapped(index, value, plain=True) for index, value in items]
 
@@ -218,11 +218,11 @@ class YamlSequence(list[Any]):
         return reversed(self._plain())
 
     def index(self, *wanted: Any) -> int:  # noqa: ANN401
-        """Where an item stands."""
+        """Return the index of an item."""
         return self._plain().index(*wanted)
 
     def count(self, item: Any) -> int:  # noqa: ANN401
-        """How often an item occurs."""
+        """Return how often an item occurs."""
         return self._plain().count(item)
 
     def _read_whole(self) -> None:

@@ -1,7 +1,7 @@
-"""How large a value of an expression may be, and how much one run may cost.
+"""Limits on the size of a value of an expression, and on the cost of one run.
 
 Python counts a list that holds a list twice as two items; printing, comparing or hashing it goes
-through all of them, deep in C, where no clock is looked at. So nothing that large may come to be:
+through all of them, deep in C, where the clock is not checked. So nothing that large may exist:
 whatever an expression makes passes through `made`.
 """
 
@@ -40,16 +40,16 @@ _KINDS: Final[frozenset[type[object]]] = frozenset(
         *map(type, (_EMPTY.keys(), _EMPTY.values(), _EMPTY.items())),
     )
 )
-"""Those of Python; what a YAML file holds is bounded when it is read."""
+"""Those of Python; the content of a YAML file is bounded when it is read."""
 _HASHED: Final[frozenset[type[object]]] = frozenset((dict, set, frozenset))
 _USUAL_BYTES: Final = 1 << 20
 """Of all files of a robot together; they have the usual time."""
 _BYTES_A_SECOND: Final = 150_000
 _MOST_READING_S: Final = 30.0
 _CLOCK_EVERY: Final = 16
-"""Steps between two looks at the clock."""
+"""Steps between two checks of the clock."""
 _LOOK_AFTER_S: Final = 0.05
-"""Or so long after the last one: a step may be the search of a long text."""
+"""Or so long after the last check: a step may be the search of a long text."""
 
 
 def too_large() -> Refusal:
@@ -97,7 +97,7 @@ def is_lasting(value: Any) -> bool:  # noqa: ANN401
 
 
 def weight(value: Any, left: int = ITEMS_LIMIT) -> int:  # noqa: ANN401
-    """How many items a value has, itself included.
+    """Return how many items a value has, itself included.
 
     Raises:
         Refusal: More than `left`, or they are nested deeper than DEPTH_LIMIT.
@@ -106,7 +106,7 @@ def weight(value: Any, left: int = ITEMS_LIMIT) -> int:  # noqa: ANN401
 
 
 def _without(value: Any, left: int, depth: int) -> int:  # noqa: ANN401
-    """What is left of `left` items after a value and all in it."""
+    """Return what is left of `left` items after a value and all in it."""
     if isinstance(value, str):
         left -= len(value) >> 6
     elif isinstance(value, _CONTAINERS):
@@ -120,7 +120,7 @@ def _without(value: Any, left: int, depth: int) -> int:  # noqa: ANN401
 
 
 def _items(value: Any) -> Iterable[Any]:  # noqa: ANN401
-    """Raw items: looking at a YAML value must not count as reading it."""
+    """Return raw items: reading a YAML value here must not count as a read."""
     if isinstance(value, dict):
         items = cast("dict[Any, Any]", value)
         return (one for pair in cast("Any", dict).items(items) for one in pair)
@@ -136,7 +136,7 @@ class Limits:
     macro_depth: int = 350
     """Stock xacro ends at Python's 1000 frames, of which a call takes three or more."""
     element_depth: int = 450
-    """Elements inside elements: whoever writes or reads them goes as deep, within those frames."""
+    """Nested elements: writing or reading them goes as deep, within those frames."""
     elements: int = 50_000
     evaluations: int = 500_000
     text: int = 20_000_000
@@ -147,7 +147,7 @@ class Limits:
 
 
 def reading_time_s(size_bytes: int) -> float:
-    """What a run has more for so much source text: who writes at length has made no bomb."""
+    """Return the extra time of a run for so much source text, which makes it no bomb."""
     return min(max(0, size_bytes - _USUAL_BYTES) / _BYTES_A_SECOND, _MOST_READING_S)
 
 
@@ -181,16 +181,16 @@ class Budget:
 
     @property
     def elements(self) -> int:
-        """How many may come out of what has been read so far."""
+        """The number of elements that may come out of what has been read so far."""
         return self.limits.elements + sum(self._sources.values()) // self.limits.bytes_an_element
 
     @property
     def seconds(self) -> float:
-        """How long a run of what has been read so far may take."""
+        """The time that a run of what has been read so far may take."""
         return self.limits.seconds + reading_time_s(sum(self._sources.values()))
 
     def element(self) -> None:
-        """One element came out.
+        """Count an element that came out.
 
         Raises:
             Refusal: There are too many, or the time is over.
@@ -202,7 +202,7 @@ class Budget:
             self._look_at_clock()
 
     def evaluation(self) -> None:
-        """One text is evaluated; raises as `element`."""
+        """Count the evaluation of a text; raises as `element`."""
         self._evaluations += 1
         is_due = not self._evaluations % _CLOCK_EVERY
         if is_due or perf_counter() - self._looked_s > _LOOK_AFTER_S:

@@ -223,7 +223,7 @@ class _Guarding(ast.NodeTransformer):
         return _call("__made", node)
 
     def _display(self, node: ast.expr, items: list[ast.expr]) -> ast.expr:
-        """What is written out item by item; constants alone are as small as they look."""
+        """Compile a display, item by item; one of constants alone needs no check."""
         is_target = isinstance(getattr(node, "ctx", None), ast.Store)
         is_small = all(isinstance(item, ast.Constant) for item in items)
         self.generic_visit(node)
@@ -248,7 +248,7 @@ def _searches(node: ast.Compare) -> bool:
 
 
 def _cannot_grow(node: ast.BinOp) -> bool:
-    """One side is a written number with a point: the result is a float or a TypeError."""
+    """Whether one side is a written number with a point: so the result is a float or TypeError."""
     if isinstance(node.op, ast.Pow | ast.LShift):
         return False
     sides = (node.left, node.right)

@@ -1,9 +1,9 @@
 """What a compiled expression calls instead of Python's own operators and methods.
 
-The operators that can grow a value (`*`, `**`, `<<`, `+`, `%`) look at the sizes first. Attributes
-are looked up in a list of harmless methods, so no expression reaches a class, a frame or a module.
+The operators that can grow a value (`*`, `**`, `<<`, `+`, `%`) check the sizes first. Attributes
+must be in a list of harmless methods, so no expression reaches a class, a frame or a module.
 Most methods are as quick as their value is small; those that can take or make far more than they
-are given, such as `rfind` and `replace`, look at the sizes first, too.
+are given, such as `rfind` and `replace`, check the sizes first, too.
 """
 
 from __future__ import annotations
@@ -350,11 +350,11 @@ def modulo(left: Any, right: Any) -> Any:  # noqa: ANN401
 
 
 def type_of(value: object) -> type:
-    """`type` with one argument; with three it would make a class, and so would the type of one.
+    """Return `type` of one argument; with three it would make a class, and so would a metatype.
 
     Raises:
-        Refusal: The value is a function, a range or a type, say: the type of one would make others
-            that nothing bounds.
+        Refusal: The value is, for example, a function, a range or a type, whose type would make
+            others without bounds.
     """
     kind = type(value)
     if kind is range or not (kind in METHODS or isinstance(value, dict | list | None)):

@@ -2,7 +2,7 @@
 
 Builtins stand alone and in `python`, mathematics alone and in `math`, xacro's own in `xacro`.
 Functions that Python lets go on or grow without end are bounded, and those that call another
-function for each item count each call: a loop inside C looks at no clock.
+function for each item count each call: a loop inside C does not check the clock.
 """
 
 from __future__ import annotations
@@ -142,7 +142,7 @@ def counted_functions(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[s
 
 
 def guarded_functions(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any]:
-    """All that stands in place of a function of Python or xacro, by its name."""
+    """Return replacements for functions of Python or xacro, by name."""
     return {
         **{name: MATH[name] for name in ("factorial", "comb", "perm", "prod", "lcm")},
         **counted_functions(steps),
@@ -249,7 +249,7 @@ class Services(Protocol):
 
 
 def make_symbols(services: Services) -> dict[str, Any]:
-    """All global names of one run; fresh namespaces, so that no run can change another's."""
+    """Return all global names of one run; fresh namespaces, so that no run can change another's."""
     own = {
         "load_yaml": services.load_yaml,
         "abs_filename": services.absolute,
@@ -301,7 +301,7 @@ def _fatal(*words: Any) -> None:  # noqa: ANN401
 
 
 def pure_names(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any]:
-    """What an expression of a YAML file knows; `steps` counts the turns of its loops."""
+    """Return the names in an expression of a YAML file; `steps` counts the turns of its loops."""
     counted = counted_functions(steps)
     known = {name: counted.get(name, one) for name, one in PURE_SYMBOLS.items()}
     return {**helpers_of(steps), **known}

@@ -1,1 +1,1 @@
-"""What an editor asks of a text: what a word means, where it is defined, how it goes on."""
+"""Editor support: what a name in a text means, where it is defined, how it can be completed."""

@@ -63,7 +63,7 @@ def completions_at(cursor: Cursor) -> Completions:
 
 
 def _in_text(cursor: Cursor) -> Completions:
-    """In a value, or between tags."""
+    """Complete in a value, or between tags."""
     token = cursor.token
     if cursor.segment is not None:
         return _in_segment(cursor, cursor.segment)
@@ -245,7 +245,7 @@ def value_offers(cursor: Cursor, tag: Tag, attribute: Attribute) -> tuple[list[O
 
 
 def _openings(cursor: Cursor) -> Iterator[Offer]:
-    """What a `$` may begin."""
+    """Yield what a `$` may begin."""
     following = cursor.text[cursor.index : cursor.index + 1]
     if following in {"{", "("}:
         return
@@ -328,7 +328,7 @@ def _files(
 
 
 def _names(cursor: Cursor, folder: str, endings: tuple[str, ...]) -> Iterator[Offer]:
-    """What a folder holds that may be named here; it must lie below the served roots."""
+    """Yield files of a folder that may be named here; it must be below the served roots."""
     path = path_named(cursor.reading, folder or "./", cursor.file)
     for name, is_folder in names_in(cursor.reading, path) if path else ():
         if is_folder:
@@ -338,7 +338,7 @@ def _names(cursor: Cursor, folder: str, endings: tuple[str, ...]) -> Iterator[Of
 
 
 def _beginnings(cursor: Cursor) -> list[Offer]:
-    """The ways to name a package; the file's own first."""
+    """Return the beginnings of a package's name; the file's own first."""
     offers: list[Offer] = []
     for name, folders in cursor.reading.policy.packages.items():
         group = 2 if any(cursor.file.startswith(f"{one}/") for one in folders) else 3

@@ -107,7 +107,7 @@ class Cursor:
         return self.editor.offset_of(start), self.editor.offset_of(end)
 
     def evaluated(self, segment: Segment) -> list[Evaluated]:
-        """What a segment of this element came to in the run, once per call."""
+        """Return the values of a segment of this element in the run, once per call."""
         if self.trace is None or self.element is None:
             return []
         cut = Cut.EXPRESSION if segment.is_expression else Cut.SUBSTITUTION
@@ -148,7 +148,7 @@ class Cursor:
         return tuple(sorted(found, key=lambda one: one.tree.path != self.file))
 
     def declared(self, kind: SubjectKind, name: str) -> tuple[TextPlace, ...]:
-        """Where this text itself declares a name; for texts that no run has seen."""
+        """Return where this text itself declares a name; for texts that no run has seen."""
         found = (one for tag in self._declaring(kind, name) for one in tag.attributes)
         return tuple(self.place(one.start, one.end) for one in found if one.name == "name")
 
@@ -164,7 +164,7 @@ class Cursor:
         return (one for one in named if self.written(one, "name") == name)
 
     def parameter_of(self, macro: Tag, name: str) -> TextPlace:
-        """Where a macro of this text names a parameter."""
+        """Return where a macro of this text names a parameter."""
         params = next((one for one in macro.attributes if one.name == "params"), None)
         at = -1 if params is None else name_in_params(self.text[params.start : params.end], name)
         if params is None or at < 0:

@@ -1,4 +1,4 @@
-"""What the files of a watched run define, by name, and what comments say of it."""
+"""The definitions in the files of a watched run, by name, with their comments."""
 
 from __future__ import annotations
 
@@ -90,14 +90,14 @@ class Definitions:
 
     @cached_property
     def outputs(self) -> dict[SourceElement, list[OutputElement]]:
-        """What came out of each element of a source."""
+        """Return what came out of each element of a source."""
         found: dict[SourceElement, list[OutputElement]] = {}
         for one in self.trace.root.walk():
             found.setdefault(one.origin, []).append(one)
         return found
 
     def written_out(self, element: SourceElement, attribute: str) -> tuple[str, ...]:
-        """What an attribute came out as, each text once."""
+        """Return what an attribute came out as, each text once."""
         outputs = self.outputs.get(element, ())
         texts = (one.attributes.get(attribute) for one in outputs)
         return tuple(dict.fromkeys(text for text in texts if text is not None))
@@ -198,7 +198,7 @@ def _plain(comment: str) -> str:
 
 
 def parameter_documentation(documentation: str, name: str) -> str:
-    """What the documentation of a macro says of one parameter, where a line begins with it."""
+    """Return the documentation of one parameter: the line of the macro's that begins with it."""
     for line in re.split(r"\n|;", documentation):
         words = _LIST_MARK.sub("", line)
         rest = words.removeprefix(name)

@@ -1,4 +1,4 @@
-"""What stands under a cursor, and what is told of it: text, values, unit, documentation, places."""
+"""The meaning of a name at a cursor: text, values, unit, documentation, places."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def yaml_subject_at(cursor: Cursor) -> Subject | None:
 
 
 def meaning_of(subject: Subject, cursor: Cursor) -> Meaning:
-    """What is told of a subject at a cursor."""
+    """Return the meaning of a subject at a cursor."""
     reading, first = cursor.reading, subject.elements[0] if subject.elements else None
     start, end = cursor.offsets(subject.start, subject.end)
     widget = _widget(subject, first, reading)
@@ -147,7 +147,7 @@ def _documentation(subject: Subject, first: SourceElement | None, widget: Widget
 
 
 def places_of(subject: Subject, reading: Reading) -> tuple[TextPlace, ...]:
-    """Where a subject is defined, in the texts of now."""
+    """Return where a subject is defined, in the present texts."""
     if subject.yaml:
         return _yaml_places(subject, reading)
     if not subject.elements:
@@ -226,7 +226,7 @@ def _argument(cursor: Cursor, attribute: Attribute) -> Subject:
 
 
 def _given(cursor: Cursor, name: str) -> tuple[str, ...]:
-    """What a parameter is in the calls that this element makes."""
+    """Return the values of a parameter in the calls that this element makes."""
     if cursor.trace is None or cursor.element is None:
         return ()
     calls = (call for those in cursor.trace.seen.calls.values() for call in those)
@@ -286,7 +286,7 @@ def _string(cursor: Cursor, segment: Segment, text: str) -> Subject | None:
 
 
 def chain_subject(cursor: Cursor, chain: Chain) -> Subject | None:
-    """What a chain of names in an expression means: exactly, if the run came by."""
+    """Return what a chain of names in an expression means: exactly, if the run evaluated it."""
     if chain.is_local:
         return Subject(Kind.VARIABLE, chain.base)
     exact = cursor.evaluated(cursor.segment) if cursor.segment else []
@@ -393,7 +393,7 @@ def _value(cursor: Cursor, tag: Tag, attribute: Attribute) -> Subject | None:
 
 
 def _named_here(cursor: Cursor, kind: Kind, name: str) -> Subject:
-    """What the element under the cursor itself defines."""
+    """Return what the element under the cursor itself defines."""
     element = cursor.element
     own = (element,) if element else ()
     if kind is Kind.MACRO:
@@ -408,7 +408,7 @@ def _named_here(cursor: Cursor, kind: Kind, name: str) -> Subject:
 def property_values(
     cursor: Cursor, elements: tuple[SourceElement, ...], name: str
 ) -> tuple[str, ...]:
-    """What the bindings of property elements came to."""
+    """Return the values of the bindings of property elements."""
     if cursor.trace is None:
         return ()
     keys = [(one, which, name) for one in elements for which in ("value", "default")]

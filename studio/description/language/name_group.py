@@ -1,7 +1,7 @@
-"""Which definitions and readers of a name belong together: they are renamed together or not at all.
+"""Definitions and readers of a name that belong together: all are renamed, or none.
 
-Names of xacro are found as the run goes: a macro reads what its caller has. Where the run came by,
-what a reader meant is known; elsewhere it is told from the text, and said when that may err.
+Names of xacro are looked up at run time: a macro reads what its caller has. Where the run evaluated
+a reader its meaning is known; elsewhere it is found from the text, and marked as uncertain.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Read:
 
 
 class NameGroup:
-    """What a property, block or parameter of one name is: `members` define it."""
+    """A property, block or parameter of one name: `members` define it."""
 
     def __init__(
         self,
@@ -116,7 +116,7 @@ class NameGroup:
         return frozenset(macro for those in called if those & members for macro in those)
 
     def home_of(self, one: SourceElement) -> object:
-        """Where a property counts: a macro, or files of the same namespaces; None: not known."""
+        """Return a property's scope: a macro, or files of the same namespaces; None: unknown."""
         macro = macro_around(one)
         if macro is None:
             return self._definitions.namespaces_of(one.tree.path)
@@ -147,7 +147,7 @@ class NameGroup:
                 yield from (one for one in called if one in self.macros)
 
     def _inserts(self) -> Iterator[Read]:
-        """Where a block of the name is inserted."""
+        """Yield where a block of the name is inserted."""
         for tree in self._definitions.trace.trees.values():
             for element in tree.elements:
                 if element.tag != "xacro:insert_block":
@@ -161,7 +161,7 @@ class NameGroup:
     def _candidates(
         self, element: SourceElement, chain: Chain, step: int
     ) -> Iterable[SourceElement]:
-        """What a reader may mean that the run did not come by."""
+        """Return what a reader may mean that the run did not evaluate."""
         if step == 1:
             return self._visible(element)
         before = str(chain.steps[step - 2].key)
@@ -173,7 +173,7 @@ class NameGroup:
         return any(namespace in space.split(".") for space in spaces)
 
     def _visible(self, element: SourceElement) -> set[SourceElement]:
-        """What a name may mean at an element: its macro's own, else the files' and its callers'."""
+        """Return what a name may mean at an element: its macro's own, else files' and callers'."""
         macro = macro_around(element)
         if macro is not None and (own := self._own(macro)):
             return own
@@ -211,7 +211,7 @@ class NameGroup:
 
     @cached_property
     def _callers(self) -> dict[SourceElement, set[SourceElement]]:
-        """By macro, those whose bodies name it."""
+        """Return, by macro, those whose bodies name it."""
         by_name = self._definitions.macros_by_name
         found: dict[SourceElement, set[SourceElement]] = {}
         for tree in self._definitions.trace.trees.values():

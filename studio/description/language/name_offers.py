@@ -123,7 +123,7 @@ def _exposed(cursor: Cursor, name: str, value: Any, group: int) -> Offer:  # noq
 
 
 def substitution_offers(cursor: Cursor, segment: Segment) -> tuple[list[Offer], int, int]:
-    """What may be typed inside `$(...)`, and the word that it takes the place of."""
+    """Return what may be typed inside `$(...)`, and the range that it replaces."""
     typed = cursor.text[segment.start : cursor.index]
     operand = _OPERAND.match(typed)
     if operand is None:

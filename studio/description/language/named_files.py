@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from studio.description.language.reading import Reading
 
 NAMES_LISTED: Final = 1_000
-"""Of one folder; more nobody reads."""
+"""Limit for one folder; nobody reads more."""
 _TEXT_ENDINGS: Final = frozenset(
     (".xacro", ".urdf", ".xml", ".yaml", ".yml", ".gazebo", ".srdf", ".sdf", ".trans", ".txt")
 )
@@ -33,7 +33,7 @@ def package_folder(reading: Reading, name: str, asking_file: str) -> str:
 
 
 def path_named(reading: Reading, text: str, asking_file: str) -> str | None:
-    """The path that a text means in a file, existing or not; None when it cannot be told.
+    """Return the path that a text means in a file, existing or not; None when it is not known.
 
     `$(find)`, `$(arg)`, `package://`, `file://` and paths beside the asking file.
     """
@@ -65,7 +65,7 @@ def is_text(path: str) -> bool:
 
 
 def names_in(reading: Reading, folder: str) -> list[tuple[str, bool]]:
-    """What a folder holds, as (name, is a folder); nothing when it may not be read."""
+    """Return the names in a folder, as (name, is a folder); none when it may not be read."""
     real = reading.resolve(folder)
     if real is None:
         return []

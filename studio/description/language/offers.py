@@ -69,12 +69,12 @@ def written(
 
 
 def chosen(offers: Iterable[Offer], cursor: Cursor, start: int, end: int) -> Completions:
-    """The offers that fit what is typed between `start` and the cursor, the likeliest first.
+    """Return the offers that fit what is typed between `start` and the cursor, the likeliest first.
 
     Args:
         offers: In any order; of several with one label the likeliest stays.
         cursor: Where they may be typed.
-        start: Where the typed word begins, in characters of the text.
+        start: Where the typed name begins, in characters of the text.
         end: Where it ends, at or behind the cursor.
     """
     typed = cursor.text[start : cursor.index].lower()

@@ -1,4 +1,4 @@
-"""What the files of a run hold: who includes whom, macros, properties and args."""
+"""Outline of the files of a run: includes, macros, properties and args."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _files(definitions: Definitions, reading: Reading) -> list[OutlineFile]:
 def _yaml_files(
     files: list[OutlineFile], definitions: Definitions, reading: Reading
 ) -> list[OutlineFile]:
-    """Each YAML file below the first mention of the file that loads it."""
+    """Yield each YAML file below the first mention of the file that loads it."""
     numbers = {one.file: number for number, one in reversed(list(enumerate(files)))}
     return [
         OutlineFile(path, numbers.get(one.tree.path, 0), _start(one, reading), "", is_yaml=True)
@@ -88,7 +88,7 @@ def _start(element: SourceElement, reading: Reading) -> TextPlace:
 
 
 def _value(element: SourceElement, reading: Reading) -> OutlineValue:
-    """A property or arg with what it came to, told by its site where it has one."""
+    """Return a property or arg with its value, and its site where it has one."""
     name = element.attributes["name"]
     which = next((one for one in ("value", "default") if one in element.attributes), "")
     bindings = reading.trace.bindings if reading.trace else None

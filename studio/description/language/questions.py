@@ -1,7 +1,7 @@
-"""What an editor asks about a text, and the answers: outline, meanings, references, completions.
+"""An editor's questions about a text, and the answers: outline, meanings, references, completions.
 
-A text is asked about as it stands in the editor, broken or not; what it came to is told from the
-last run that worked. `offset`, `start` and `end` count UTF-16 code units of the editor's text (no
+The text is as it is in the editor, broken or not; values are those of the last run that worked.
+`offset`, `start` and `end` count UTF-16 code units of the editor's text (no
 byte order mark, every line break one LF), from 0; so do the columns of places, from 1.
 """
 
@@ -13,7 +13,7 @@ from typing import Final, TypeAlias
 
 
 class SubjectKind(StrEnum):
-    """What a word in a text stands for."""
+    """Kind of the thing at a place in a text."""
 
     PROPERTY = "property"
     ARG = "arg"
@@ -43,7 +43,7 @@ class SubjectKind(StrEnum):
     ELEMENT = "element"
     ATTRIBUTE = "attribute"
     VALUE = "value"
-    """A word that an attribute may have, such as `revolute`."""
+    """A value that an attribute may have, such as `revolute`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ class OutlineValue:
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """What the files of a run hold; `is_current`: the texts have not changed since."""
+    """Outline of the files of a run; `is_current`: the texts have not changed since."""
 
     files: tuple[OutlineFile, ...]
     macros: tuple[OutlineMacro, ...]
@@ -126,7 +126,7 @@ class Outline:
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """What a word stands for; [start, end) is the word."""
+    """The meaning of a name; [start, end) is the name."""
 
     kind: SubjectKind
     name: str
@@ -146,13 +146,13 @@ class Meaning:
     calls: int = 0
     """How often a macro was called."""
     expression: str = ""
-    """The `${...}` that the word stands in, and what that came to here."""
+    """The `${...}` around the name, and its value here."""
     expression_values: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class LookedUp:
-    """Answer to a look-up; None: nothing that is known stands there."""
+    """Answer to a look-up; None: nothing known is there."""
 
     meaning: Meaning | None
 
@@ -165,7 +165,7 @@ class Reference:
     line: str
     is_definition: bool
     in_run: bool
-    """The run came by; else it is told from the text alone and may mean another of that name."""
+    """Whether the run evaluated it; else found by text, and may mean another of that name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,7 +198,7 @@ class Completions:
     end: int
     items: tuple[Completion, ...] = ()
     is_whole: bool = True
-    """Nothing was left out: what is typed on only narrows it."""
+    """Whether nothing was left out: further typing only narrows it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +217,7 @@ class LookUpQuery:
 
 @dataclass(frozen=True, slots=True)
 class ReferencesQuery:
-    """Which places name what stands at this place?"""
+    """Asks for the places that use the name at a place."""
 
     file: str
     text: bytes
@@ -235,7 +235,7 @@ class CompletionQuery:
 
 @dataclass(frozen=True, slots=True)
 class RenamingQuery:
-    """What has to change for what stands at this place to be called `name`?"""
+    """Asks for what has to change for the name at a place to become `name`."""
 
     file: str
     text: bytes
@@ -245,12 +245,12 @@ class RenamingQuery:
 
 @dataclass(frozen=True, slots=True)
 class RenamedPlace:
-    """One place of a renaming; the bytes [start, end) of its file say the old name."""
+    """One place of a renaming; the bytes [start, end) of its file are the old name."""
 
     place: TextPlace
     line: str
     in_run: bool
-    """The run came by; else it is told from the text alone."""
+    """Whether the run evaluated it; else it was found in the text alone."""
     start: int
     end: int
 

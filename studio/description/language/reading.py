@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _LINE_BREAK: Final = re.compile(rb"\r\n|\r|\n")
 _REST_S: Final = 1.0
-"""Between two runs that are watched while somebody types."""
+"""Between two watched runs while a user types."""
 
 
 class TextPlaces:
@@ -66,7 +66,7 @@ class TextPlaces:
 
 
 class Drift:
-    """Where the bytes of an old text are in a new one, when one stretch of it was changed."""
+    """Maps bytes of an old text to a new one, when one stretch of it was changed."""
 
     def __init__(self, old: bytes, new: bytes) -> None:
         self._old, self._new = len(old), len(new)
@@ -237,7 +237,7 @@ class Reading:
 
     @property
     def definitions(self) -> Definitions | None:
-        """What the files of the watched run define."""
+        """The definitions in the files of the watched run."""
         if self.trace is None:
             return None
         if self._definitions is None or self._definitions.trace is not self.trace:
@@ -292,7 +292,7 @@ class Reading:
         return found if found is not None and found.tag == tag else None
 
     def place(self, file: str, start: int, end: int | None = None) -> TextPlace:
-        """Where bytes of the watched run's text are in the text of now."""
+        """Return where bytes of the watched run's text are in the present text."""
         trace = self.trace
         tree, yaml = (trace.trees.get(file), trace.yaml.get(file)) if trace else (None, None)
         old = tree.data if tree else yaml.data if yaml else None
@@ -303,7 +303,7 @@ class Reading:
         return self.places(file).place(moved, None if end is None else moved + end - start)
 
     def element_place(self, element: SourceElement, attribute: str = "name") -> TextPlace:
-        """Where the text of an attribute stands; without one, where its element begins."""
+        """Return the place of an attribute's text; without one, of its element's begin."""
         tree = element.tree
         try:
             span = attribute_spans(tree.data, element.offset).get(attribute)
@@ -314,7 +314,7 @@ class Reading:
         return self.place(tree.path, span.start, span.end)
 
     def parameter_place(self, macro: SourceElement, name: str) -> TextPlace:
-        """Where a macro names its parameter."""
+        """Return where a macro names its parameter."""
         named = parameter_bytes(macro, name)
         return self.place(macro.tree.path, *named) if named else self.element_place(macro)
 

@@ -1,4 +1,4 @@
-"""All places of the files of a run that name a thing: its definitions, its readers, its calls."""
+"""All places in the files of a run that name a thing: its definitions, its readers, its calls."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Spot:
 
 
 class UsesBook:
-    """The uses of each file, looked for once per text."""
+    """The uses of each file, searched once per text."""
 
     def __init__(self) -> None:
         self._known: dict[str, tuple[SourceTree, tuple[Use, ...]]] = {}
@@ -54,7 +54,7 @@ class UsesBook:
 
 
 def references_to(subject: Subject, reading: Reading, book: UsesBook) -> References:
-    """Where a subject is named; definitions count too."""
+    """Return where a subject is named; definitions count too."""
     definitions = reading.definitions
     spots = list(spots_of(subject, definitions, reading, book)) if definitions else []
     defined = places_of(subject, reading)
@@ -139,7 +139,7 @@ def _is_read(subject: Subject, use: Use, chain: Chain, definitions: Definitions)
 
 
 def meant_by(use: Use, chain: Chain, definitions: Definitions) -> list[Found]:
-    """What the chain meant, each time that its text was evaluated."""
+    """Return what the chain meant, each time that its text was evaluated."""
     seen = definitions.trace.seen
     places = [use.element]
     if use.element.tag == "xacro:macro":  # defaults are evaluated where the macro is called
@@ -206,7 +206,7 @@ def _is_block_property(subject: Subject) -> bool:
 
 
 def _calls(subject: Subject, definitions: Definitions) -> Iterator[Spot]:
-    """Calls of a macro: the names of their tags, or what `xacro:call` says."""
+    """Yield calls of a macro: the names of their tags, or the values of `xacro:call`."""
     for element in callers_of(subject, definitions):
         if element.tag == "xacro:call":
             yield from attribute_value(element, "macro")

@@ -1,7 +1,6 @@
-"""What has to change for a property, arg, macro, parameter or block to have another name.
+"""Renames a property, arg, macro, parameter or block.
 
-Nothing is promised that was not tried: the robot is run once more with the new name, and what comes
-out has to be the same.
+Every renaming is tried first: the robot is run with the new name, and has to come out the same.
 """
 
 from __future__ import annotations
@@ -53,7 +52,7 @@ _RENAMED: Final = frozenset(
 
 
 def renaming_of(subject: Subject | None, new: str, reading: Reading, book: UsesBook) -> Renaming:
-    """The places that a renaming changes.
+    """Return the places that a renaming changes.
 
     Raises:
         EditError: It cannot be renamed, or not to this name; the sentence says why.
@@ -116,10 +115,10 @@ def _group_spots(group: NameGroup, definitions: Definitions) -> Iterator[Spot]:
 
 
 def _place(spot: Spot, old: str, reading: Reading) -> RenamedPlace:
-    """A spot as a place; of `xacro:ns.name` only the name.
+    """Return a spot as a place; of `xacro:ns.name` only the name.
 
     Raises:
-        EditError: The name is written there in another way, by an expression or a reference.
+        EditError: The name is written differently there, by an expression or a reference.
     """
     data = reading.text(spot.file) or b""
     place = reading.place(spot.file, spot.start, spot.end)
@@ -309,7 +308,7 @@ def macro_spots(
 def same_macros(
     name: str, elements: Iterable[SourceElement], definitions: Definitions
 ) -> frozenset[SourceElement]:
-    """All macros that are told apart by nothing: of one name, in files of the same namespaces."""
+    """Return all macros of one name in files of the same namespaces: nothing distinguishes them."""
     alike = {e for _, e in definitions.macros if own_name(e) == name}
     homes = {definitions.namespaces_of(one.tree.path) for one in set(elements) & alike}
     return frozenset(one for one in alike if definitions.namespaces_of(one.tree.path) in homes)

@@ -33,7 +33,7 @@ _KINDS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """A thing named at a place; [start, end) is its word there, in characters of the text."""
+    """A thing named at a place; [start, end) is its name there, in characters of the text."""
 
     kind: SubjectKind
     name: str
@@ -43,7 +43,7 @@ class Subject:
     """Elements of the run that define it; of a parameter its macro's, or calls of that."""
     values: tuple[str, ...] = ()
     places: tuple[TextPlace, ...] = ()
-    """Where it is defined, if `elements` do not say."""
+    """Where it is defined, unless it has `elements`."""
     yaml: tuple[str, KeyPath] | None = None
     """File and key path of a YAML value."""
     target: str = ""
@@ -95,7 +95,7 @@ def found_in(scope: Scope, chain: Chain) -> Found | None:
 
 
 def found_of(name: str, cell: Cell) -> Found:
-    """What a cell is."""
+    """Return what a cell is."""
     value = cell.value if cell.pending is None else MISSING
     if isinstance(value, ScopeView):
         return Found(SubjectKind.NAMESPACE, name, value, _bringing(value))
@@ -118,7 +118,7 @@ def _symbol(name: str, scope: Scope) -> Found | None:
 
 
 def _exposed(name: str, value: Any) -> Found:  # noqa: ANN401
-    """One of the names that every expression has."""
+    """Return one of the names that every expression has."""
     kind = SubjectKind.FUNCTION if callable(value) else SubjectKind.CONSTANT
     return Found(kind, name, value)
 
@@ -142,7 +142,7 @@ def _below(found: Found, key: Key) -> Found | None:
 
 
 def _item(value: Any, key: Key) -> Any:  # noqa: ANN401
-    """An item of a container, looked at and not read: a read would be noted."""
+    """Return an item of a container, without noting it as a read."""
     if isinstance(value, dict):
         return _raw_items(cast("dict[Any, Any]", value)).get(key, MISSING)
     if isinstance(value, list) and isinstance(key, int):
@@ -156,7 +156,7 @@ def _raw_items(value: dict[Any, Any]) -> dict[Any, Any]:
 
 
 def subject_of(founds: Iterable[Found | None]) -> Subject | None:
-    """What was found in several scopes as one subject; the first one says of what kind it is."""
+    """Return what was found in several scopes as one subject, of the kind of the first."""
     there = [found for found in founds if found is not None]
     if not there:
         return None

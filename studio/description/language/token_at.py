@@ -1,8 +1,8 @@
-"""What stands around a cursor in the text of a XML file, however broken the rest of it is.
+"""The token at a cursor in the text of an XML file, however broken the rest of it is.
 
 Indices are characters of the text. An attribute's value never holds `<`, so the last `<` before the
-cursor is where its tag begins: a missing quote or `>` further up misleads nobody for long. Nothing
-here takes longer than a walk over the text before the cursor.
+cursor is where its tag begins: a missing quote or `>` further up does little harm. Nothing here
+takes longer than one pass over the text before the cursor.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 WALK_LIMIT: Final = 400_000
-"""Characters before the cursor that are looked at for the tags that are open there."""
+"""Characters before the cursor that are searched for the tags open there."""
 _TAG_LIMIT: Final = 20_000
-"""Characters of one tag; longer ones are not looked into."""
+"""Characters of one tag; longer ones are not read."""
 _NAME: Final = re.compile(r"[^\s<>/=\"']*")
 _ATTRIBUTE: Final = re.compile(r"\s*([^\s=<>\"'/]+)(\s*=\s*)?")
 _TAG: Final = re.compile(
@@ -31,7 +31,7 @@ _OPENING: Final = re.compile(r"\$\$+[{(]|\$([{(])")
 
 
 class Where(StrEnum):
-    """In what part of the markup a cursor is."""
+    """The part of the markup that a cursor is in."""
 
     SILENT = "silent"
     """In a comment, a CDATA section or a processing instruction."""
@@ -78,7 +78,7 @@ class Tag:
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """What a cursor is in. [start, end) is the word under it: a name, or a value whole."""
+    """What a cursor is in. [start, end) is the text under it: a name, or a whole value."""
 
     where: Where
     start: int
@@ -89,7 +89,7 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One `${...}` or `$(...)`; `start` and `end` are those of what is inside, maybe unclosed."""
+    """One `${...}` or `$(...)`; `start` and `end` are those of its inside, perhaps unclosed."""
 
     is_expression: bool
     start: int
@@ -102,7 +102,7 @@ class Segment:
 
 
 def token_at(text: str, index: int) -> Token:
-    """What the cursor before the character `index` is in."""
+    """Return what the cursor before the character `index` is in."""
     index = max(0, min(index, len(text)))
     if _is_silent(text, index):
         return Token(Where.SILENT, index, index)
@@ -222,7 +222,7 @@ def declarations_in(text: str) -> Iterator[Tag]:
 
 
 def tags_before(text: str, index: int) -> Iterator[tuple[Tag, bool, bool]]:
-    """Each whole tag before the cursor: (tag, it closes, it is empty)."""
+    """Yield each whole tag before the cursor: (tag, it closes, it is empty)."""
     position = max(0, index - WALK_LIMIT)
     while (position := text.find("<", position, index)) >= 0:
         silent = next((one for one in _SILENT if text.startswith(one[0], position)), None)

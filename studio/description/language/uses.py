@@ -39,7 +39,7 @@ _PACKAGE: Final = re.compile(r"(?:package|model)://([^/\s\"']+)")
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One name or key of a chain, and where it stands: a key without its quotes."""
+    """One name or key of a chain, and where it is: a key without its quotes."""
 
     key: Key
     start: int
@@ -61,7 +61,7 @@ class Chain:
 
     @property
     def keys(self) -> tuple[Key, ...]:
-        """What is read below the name."""
+        """The keys read below the name."""
         return tuple(step.key for step in self.steps[1:])
 
     def up_to(self, index: int) -> Chain | None:
@@ -74,7 +74,7 @@ class Chain:
 
 @lru_cache(maxsize=8192)
 def chains_of(text: str) -> tuple[Chain, ...]:
-    """All chains of an expression, in order."""
+    """Return all chains of an expression, in order."""
     local = {name for loop in _LOOP.findall(text) for name in _WORD.findall(loop)}
     return tuple(
         Chain(steps, is_local=str(steps[0].key) in local) for steps in _chains(_tokens(text))
@@ -168,7 +168,7 @@ class Use:
 
 
 def uses_in(tree: SourceTree) -> tuple[Use, ...]:
-    """All uses of a file: in attributes, in the order of their elements, then between tags."""
+    """Return all uses of a file: in attributes, in the order of elements, then between tags."""
     in_attributes = (use for element in tree.elements for use in _of_element(tree, element))
     return (*in_attributes, *_of_contents(tree))
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from studio.description.values import ReadPolicy
 
 VALUES_KEPT: Final = 16
-"""Of one text at one element: a macro that is called more often is not looked at longer."""
+"""Values kept of one text at one element; further calls of a macro are not watched."""
 CALLS_KEPT: Final = 200
 INCLUDES_KEPT: Final = 2_000
 
@@ -39,7 +39,7 @@ class Evaluated(NamedTuple):
 
 
 class Called(NamedTuple):
-    """One call of a macro: where it stands, and the scope that its parameters are in."""
+    """One call of a macro: its place, and the scope of its parameters."""
 
     element: SourceElement
     scope: Scope
@@ -59,7 +59,7 @@ Segment: TypeAlias = tuple[SourceElement, Cut, str]
 
 @dataclass(slots=True)
 class Seen:
-    """What was seen of a run."""
+    """What was watched of a run."""
 
     evaluated: dict[Segment, list[Evaluated]] = field(
         default_factory=dict["Segment", "list[Evaluated]"]
@@ -117,7 +117,7 @@ class WatchedRun(Evaluation):
         self._watched.arguments = given
         self.texts = self._watched
         self._around: list[SourceElement] = []
-        """Include elements under way."""
+        """Include elements being evaluated."""
         self._include_numbers: list[int] = [-1]
         self._top: tuple[MacroTable, Scope] | None = None
 

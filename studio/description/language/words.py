@@ -1,6 +1,6 @@
-"""The words of xacro and URDF: elements, what stands in them, attributes and what those may be.
+"""The names in xacro and URDF: elements and their content, attributes and their values.
 
-The tables are for offering and recognising words; what a file may hold the evaluator decides.
+The tables are for offering and recognising names; the evaluator decides what a file may contain.
 """
 
 from __future__ import annotations

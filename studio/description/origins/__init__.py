@@ -1,1 +1,1 @@
-"""Where each number of a part comes from, and what each text shapes."""
+"""Where each number of a part comes from, and what each text affects."""

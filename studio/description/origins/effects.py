@@ -1,4 +1,4 @@
-"""What a text shapes: every attribute that came out otherwise if the text were another."""
+"""Effects of a text: every attribute that would come out otherwise if the text were another."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class _Shaped(NamedTuple):
 
 
 class Readers:
-    """Who reads what in one traced run, from the texts to what came out."""
+    """Readers of each value in one traced run, from the texts to what came out."""
 
     def __init__(self, trace: Trace) -> None:
         self._inputs = inputs_by_site(trace)
@@ -82,7 +82,7 @@ class Readers:
             self._note_governed(trace, part, top)
 
     def effects_of(self, site: str) -> SiteEffects:
-        """All that one text shapes, in the order of the robot, and who reads it directly."""
+        """Return all effects of one text, in the order of the robot, and its direct readers."""
         starts = self._inputs.get(site, [])
         reached = self._reached(starts)
         shaped = [one for read in reached for one in self._shaped.get(read, ())]
@@ -172,7 +172,7 @@ def _all_governors(trace: Trace) -> list[Governor]:
 
 
 def aspect_of(part: str, path: str, attribute: str) -> Aspect:
-    """What an attribute means for its part; `part` is its key, `path` as of `walk_named`."""
+    """Return what an attribute means for its part; `part` is its key, `path` as of `walk_named`."""
     tags = tags_of(path)
     match part.partition(":")[0]:
         case "link":

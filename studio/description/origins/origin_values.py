@@ -1,4 +1,4 @@
-"""What is told about where a part comes from, and about what a text shapes: plain values."""
+"""Answers about where a part comes from, and about what a text affects: plain values."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ class InputKind(StrEnum):
     PROPERTY = "property"
     ARG = "arg"
     PARAMETER = "parameter"
-    """What a macro call gives to a parameter."""
+    """Passed to a parameter by a macro call."""
     PARAM_DEFAULT = "param_default"
     YAML = "yaml"
 
 
 @dataclass(frozen=True, slots=True)
 class OriginInput:
-    """One value behind a number. `inputs` are what it was made of itself, as indices."""
+    """One value behind a number. `inputs` are those that it was made of itself, as indices."""
 
     kind: InputKind
     name: str
@@ -30,7 +30,7 @@ class OriginInput:
     value: str
     """What it came to, as xacro prints it; `{...}` and `[...]` for mappings and lists."""
     place: Place
-    """Where the text stands; of an arg that no file declares, nowhere: the file is empty."""
+    """Place of the text; of an arg that no file declares, one with an empty file."""
     site: str
     """Id when it can be edited, else empty."""
     given: bool
@@ -54,7 +54,7 @@ class OriginAttribute:
     site: str
     """Id when the text itself can be edited."""
     inputs: tuple[int, ...]
-    """What the expression read, as indices."""
+    """The inputs of the expression, as indices."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ class PartOrigin:
     attributes: tuple[OriginAttribute, ...]
     inputs: tuple[OriginInput, ...]
     is_cut: bool
-    """There is more than is told."""
+    """Whether some were left out."""
 
 
 class Aspect(StrEnum):
@@ -106,13 +106,13 @@ class Aspect(StrEnum):
     """Another mesh file."""
     COLOR = "color"
     POSE = "pose"
-    """Of a link: where its visible geometry sits in it. Of a joint: where its child sits."""
+    """Of a link: where its visible geometry is in it. Of a joint: where its child is."""
     COLLISION = "collision"
     INERTIA = "inertia"
     MOTION = "motion"
     """A joint's axis, limits, dynamics, mimicry, type."""
     NAME = "name"
-    """Its name, or the names by which it knows others."""
+    """Its name, or the names by which it refers to others."""
     OTHER = "other"
     PRESENCE = "presence"
     """Whether it is there at all, or which of several files or macros it comes from."""
@@ -120,7 +120,7 @@ class Aspect(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Effect:
-    """One attribute that a text shapes; for `PRESENCE` the whole element."""
+    """One attribute that a text affects; for `PRESENCE` the whole element."""
 
     part: str
     element: str
@@ -130,7 +130,7 @@ class Effect:
 
 @dataclass(frozen=True, slots=True)
 class SiteEffects:
-    """What a text shapes in the robot as it is; no effects: nothing in this configuration."""
+    """Effects of a text on the robot as it is; none: it has none in this configuration."""
 
     site: str
     effects: tuple[Effect, ...]
@@ -139,12 +139,12 @@ class SiteEffects:
     readers: tuple[Place, ...]
     """Where it is read directly, each place once, in the order of the run."""
     is_cut: bool
-    """There is more than is told."""
+    """Whether some were left out."""
 
 
 @dataclass(frozen=True, slots=True)
 class PartOriginQuery:
-    """Where does this part come from? `part` is a `Part.key`."""
+    """Asks where a part comes from; `part` is a `Part.key`."""
 
     part: str
 

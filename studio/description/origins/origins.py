@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
 
 class Origins:
-    """Questions about one good run. The first one runs its texts once more, traced.
+    """Answers questions about one good run. The first one runs its texts once more, traced.
 
-    The run's own graph will not do: it goes on to the next edit, and tells a block that came out
-    twice as one. Both questions raise a Fault when the texts cannot be run once more: only stock
-    xacro could expand them, or a file beside them changed.
+    The run's own graph is no use: it continues with the next edit, and reports a block that came
+    out twice as one. Both questions raise a Fault when the texts cannot be run once more: only
+    stock xacro could expand them, or a file beside them changed.
     """
 
     def __init__(self, run: GoodRun) -> None:
         self._run = run
 
     def part(self, part: str) -> PartOrigin | NoReply:
-        """Where a part comes from, by its key."""
+        """Return where a part comes from, by its key."""
         if self._run.evaluator != "studio":
             return NoReply(
                 "xacro itself expanded this robot: it does not tell where parts come from."
@@ -39,7 +39,7 @@ class Origins:
         return part_origin(part, element, self._trace, self._run.sites)
 
     def effects(self, site: str) -> SiteEffects | NoReply:
-        """What a text shapes, by its site id."""
+        """Return the effects of a text, by its site id."""
         if self._run.evaluator != "studio":
             return NoReply("xacro itself expanded this robot: it does not tell what a text shapes.")
         if site not in self._run.sites:

@@ -1,4 +1,4 @@
-"""Where a part comes from: its place, the calls that led there, and what each number is made of."""
+"""Where a part comes from: its place, the calls that led there, and the inputs of each number."""
 
 from __future__ import annotations
 
@@ -55,11 +55,11 @@ _GOVERNING_ATTRIBUTES: Final = ("value", "filename", "macro", "xacro:name", "nam
 
 
 def part_origin(part: str, element: OutputElement, trace: Trace, sites: Set[str]) -> PartOrigin:
-    """Where a part of a traced run comes from.
+    """Return where a part of a traced run comes from.
 
     Args:
         part: Its key.
-        element: It, as it came out.
+        element: Its element that came out.
         trace: The run.
         sites: Ids of the texts that can be edited.
     """
@@ -175,7 +175,7 @@ class _Collector:
         return self._numbers.setdefault(one, len(self._numbers))
 
     def _all_inputs(self) -> tuple[OriginInput, ...]:
-        """All that was numbered, and what is behind it, which gets its number on the way."""
+        """Return all inputs, and those behind them, which get their numbers on the way."""
         found: list[OriginInput] = []
         while len(found) < len(self._numbers):
             waiting = list(self._numbers)[len(found) :]
@@ -237,7 +237,7 @@ def _frames(frame: CallFrame | None) -> list[CallFrame]:
 
 
 def _governors(innermost: Governor | None) -> list[Governor]:
-    """Those that read something of their own, the outermost first."""
+    """Return those that read inputs of their own, the outermost first."""
     found: dict[Governor, None] = {}
     front = [innermost] if innermost else []
     while front:
@@ -253,9 +253,9 @@ def _cut(text: str) -> str:
 
 
 def attribute_place(element: SourceElement, attribute: str, param: str = "") -> Place:
-    """Where an attribute's text begins; with `param`, the default of that macro parameter.
+    """Return where an attribute's text begins; with `param`, the default of that macro parameter.
 
-    An element that has no such attribute is answered by its own place.
+    For an element without such an attribute it is the element's place.
     """
     data = element.tree.data
     try:

@@ -42,13 +42,13 @@ Inputs: TypeAlias = "tuple[Input, ...]"
 _GOVERNING: Final = frozenset(
     {"xacro:if", "xacro:unless", "xacro:include", "xacro:call", "xacro:element", "xacro:property"}
 )
-"""What is inside these is there, or is what it is, because of what they read."""
+"""What these read decides whether their content exists, or what it is."""
 _LIMITS: Final = Limits(seconds=6.0)
 """Noting takes time, too: what ran within its time must not end here for that."""
 
 
 class TracedBinding(Binding):
-    """One name bound once, by one macro call, say. `inputs` is what its text read."""
+    """One name bound once, for example by one macro call. `inputs` are those its text read."""
 
     __slots__ = ("inputs",)
 
@@ -132,10 +132,10 @@ class _TracedTexts(Texts):
         self.governor: Governor | None = None
         self.given: dict[Argument, Given] = {}
         self.was_read: dict[str, Inputs] = {}
-        """What the attributes evaluated last read, by name."""
+        """Inputs of the attributes evaluated last, by name."""
 
     def ended(self, record: Record) -> None:
-        """As a run does it; what was read is kept for whoever is made of it."""
+        """As in any run; the inputs are kept for the element made of them."""
         super().ended(record)
         inputs = tuple(dict.fromkeys(self._inputs(record)))
         made = record.made
@@ -149,7 +149,7 @@ class _TracedTexts(Texts):
         self.was_read[name] = inputs
 
     def _inputs(self, record: Record) -> Iterator[Input]:
-        """What a text read, as inputs; a file that it opened is none."""
+        """Yield what a text read, as inputs; a file that it opened is none."""
         for one in record.reads:
             if isinstance(one, YamlValue):
                 yield one
@@ -159,7 +159,7 @@ class _TracedTexts(Texts):
                 yield one.binding
 
     def load_yaml(self, path: str) -> Any:  # noqa: ANN401
-        """As a run does it, but what is read whole is noted as read."""
+        """As in any run, but a value that is read whole is noted as read."""
         super().load_yaml(path)
         real, _, values = self.store.yaml(self.absolute(path), str)  # is known by now
         return wrap(values, _Reader(self.yaml[real], self.note), ())
@@ -180,7 +180,7 @@ class TracedEvaluation(Evaluation):
         self.made: list[TracedBinding] = []
         self.calls: dict[CallFrame, Called] = {}
         self.governors: dict[OutputElement, Governor] = {}
-        """What an element owes its being there to, where it owes it to anything."""
+        """What decides whether an element exists, for those that depend on anything."""
         self.text_inputs: dict[SourceText, Inputs] = {}
         self.decisions: list[Governor] = []
         self._defined_under: dict[SourceElement, Governor] = {}
@@ -295,9 +295,9 @@ class Trace:
     bindings: tuple[TracedBinding, ...]
     calls: Mapping[CallFrame, Called]
     governors: Mapping[OutputElement, Governor]
-    """What an element owes its being there to, where it owes it to anything."""
+    """What decides whether an element exists, for those that depend on anything."""
     decisions: tuple[Governor, ...]
-    """All governors that read anything, those too under which nothing came to be."""
+    """All governors that read anything, also those without output."""
     text_inputs: Mapping[SourceText, Inputs]
     yaml: Mapping[str, YamlReads]
     included_at: Mapping[str, Place]
@@ -334,7 +334,7 @@ def inputs_of(one: Input) -> Inputs:
 
 
 def written_at(element: OutputElement, attribute: str) -> Written | None:
-    """The text that an attribute was made of; None when no text of the sources says it."""
+    """Return the text that an attribute was made of; None when it is in no source."""
     attributes = element.attributes
     if isinstance(attributes, TracedAttributes) and attribute in attributes.written:
         return attributes.written[attribute]
@@ -363,7 +363,7 @@ class YamlSites:
         self._files: dict[str, _YamlFile] = {}
 
     def site_of(self, scalar: YamlValue) -> FileSite | None:
-        """Where a value that was read is written; None for a mapping or a list."""
+        """Return where a value that was read is written; None for a mapping or a list."""
         file = self._file(scalar.document)
         return file.sites.get(path_as_written(scalar.path, file.written, file.aliases))
 
@@ -405,7 +405,7 @@ def _yaml_file(path: str, data: bytes) -> _YamlFile:
 
 
 def inputs_by_site(trace: Trace) -> dict[str, list[Input]]:
-    """What was read of each text that has a name or a key path, by the text's site id."""
+    """Return what was read of each text that has a name or a key path, by the text's site id."""
     found: dict[str, list[Input]] = {}
     for binding in trace.bindings:
         if site := site_of_binding(binding):

@@ -1,10 +1,10 @@
 """The last good run, kept so that an edit changes only what depends on it.
 
-What a patch gives is what a full run would have given; where that is not certain it is refused,
-and the full run is made. After a refusal this run is spent: the texts have gone on without it.
+A patch gives the result of a full run; where that is not certain it is refused, and the full run is
+made. After a refusal this run cannot be used any more: the texts have changed without it.
 
-A text is edited in the parsed files as well as in their bytes where nothing else can follow: one
-plain text gives way to another on the same line, so every element stays what it is and where it is,
+A text is edited in the parsed files as well as in their bytes where nothing else can depend on it:
+plain text replaces another on the same line, so every element stays what it is and where it is,
 except for the bytes and columns behind the edit.
 """
 
@@ -58,7 +58,7 @@ _WORD: Final = re.compile(rb"[\w.+-]*[a-zA-Z0-9][\w.+-]*", re.ASCII)
 
 
 class Patch(NamedTuple):
-    """What came to be otherwise."""
+    """What changed."""
 
     parts: tuple[OutputElement, ...]
     """Parts, by their element, that are to be written anew."""
@@ -94,9 +94,9 @@ class LiveRun:
         return self.evaluation.texts.is_pure
 
     def edit(self, edits: Iterable[Edit]) -> Patch | None:
-        """Carry out edits in the texts and in the run; None when only a full run can tell.
+        """Make edits in the texts and in the run; None when only a full run can evaluate them.
 
-        `has_edited` says then whether the store holds all of them, or none.
+        `has_edited` is then whether the store holds all of them, or none.
         """
         self.has_edited = False
         self.texts.begin()
@@ -122,7 +122,7 @@ class LiveRun:
             return None
 
     def set_arguments(self, old: Mapping[str, str], new: Mapping[str, str]) -> Patch | None:
-        """Give arguments other values; None when only a full run can tell what that does."""
+        """Give arguments other values; None when only a full run can evaluate them."""
         if old.keys() != new.keys():
             return None
         work = _Work(self)
@@ -187,7 +187,7 @@ class _Work:
         self._propagation.put(argument, value)
 
     def finish(self, texts: TextEdits) -> Patch:
-        """Evaluate what depends on all that, and say what came to be otherwise."""
+        """Evaluate what depends on all that, and return what changed."""
         self._propagation.run()
         for holder in self._propagation.changed:
             self._touch_bindings(holder)
@@ -287,7 +287,7 @@ class TextEdits:
         """Files edited since the last good state, as they were then."""
 
     def begin(self) -> None:
-        """What was done so far is good."""
+        """Accept what was done so far."""
         self._before.clear()
 
     def take_back(self) -> None:
@@ -393,10 +393,10 @@ class _XmlEdit:
         return self._live.move_elements(places) if places else []
 
     def _parameters(self, element: SourceElement, data: bytes) -> str:
-        """What `params` says then; nothing but the one default may be read otherwise.
+        """Return the new `params`; only the one default may be read differently.
 
         Raises:
-            PatchRefused: Something may.
+            PatchRefused: Something else may.
         """
         name, old, new = self._site.name, self._old.decode("ascii"), self._new.decode("ascii")
         if not _WORD.fullmatch(self._new):

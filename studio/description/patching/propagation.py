@@ -1,13 +1,13 @@
-"""How a change runs through the graph of a run: what depends on it is evaluated once more.
+"""Propagates a change through the graph of a run: what depends on it is evaluated once more.
 
 Texts are evaluated in the order of the run, and no further than values change. Names mean what they
-meant when the run came by, whatever was defined since. What is decided by more than values (whether
+meant in the run, whatever was defined since. What is decided by more than values (whether
 something comes out, under which name, from which file), and a text that would read anything else
 than it did, is refused: only a full run knows what else would follow.
 
-When a text is no expression any more it reads nothing, and a property that it was the first to read
+When a text becomes a literal it reads nothing, and a property that it was the first to read
 is evaluated by its next reader: a moment later, so its names must still mean the same then. If
-nobody else reads the property, it is not evaluated at all.
+nothing else reads the property, it is not evaluated at all.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _NAME: Final = re.compile(r"[A-Za-z_]\w*")
 
 
 class PatchRefused(Exception):  # noqa: N818 - no error: the full run does it
-    """Only a full run can tell what an edit does; the argument says why."""
+    """Only a full run can evaluate an edit; the argument says why."""
 
 
 class Replay:
@@ -47,7 +47,7 @@ class Replay:
     def __init__(self, texts: Texts) -> None:
         self._texts = texts
         self._scratch = Record("", cast("Scope", texts), "", Role.NOTHING, None)
-        """What is read now."""
+        """What is being read."""
         self._record = self._scratch
 
     def going_on(self) -> AbstractContextManager[None]:
@@ -79,7 +79,7 @@ class Replay:
         return self._texts.value(record.text, record.scope)
 
     def value_of(self, name: str, scope: Scope) -> Any:  # noqa: ANN401
-        """What a name meant at this point of the text, as it is now.
+        """Return what a name meant at this point of the text, with its present value.
 
         Raises:
             PatchRefused: The text did not read it the first time.
@@ -107,7 +107,7 @@ def _differ(one: object, other: object) -> bool:
 
 
 def is_same(old: Any, new: Any) -> bool:  # noqa: ANN401
-    """Whether two values cannot be told apart: by type, as they print, in any expression."""
+    """Whether two values are indistinguishable: by type, as they print, in any expression."""
     kind = cast("type[object]", type(old))
     if kind is not type(new):
         return False
@@ -124,7 +124,7 @@ def is_same(old: Any, new: Any) -> bool:  # noqa: ANN401
 
 
 class Propagation:
-    """One request's way through the graph."""
+    """Carries one request through the graph."""
 
     def __init__(self, replay: Replay, index: OutputIndex) -> None:
         self._replay, self._index = replay, index
@@ -133,10 +133,10 @@ class Propagation:
         self.parts: dict[OutputElement, None] = {}
         """Parts that came to be other ones."""
         self.changed: dict[Cell | Argument, None] = {}
-        """Whose value is another one."""
+        """Those whose value changed."""
 
     def put(self, holder: Cell | Argument, value: Any) -> None:  # noqa: ANN401
-        """Give something named another value, and have its readers look again."""
+        """Give something named another value, and have its readers evaluated again."""
         if isinstance(holder, Cell):
             value = literal_value(value)
             if not is_lasting(value):
@@ -147,7 +147,7 @@ class Propagation:
             self.touch(holder)
 
     def touch(self, read: Readable) -> None:
-        """Have those who read something look again."""
+        """Have the readers of something evaluated again."""
         for record in read.readers:
             if record not in self._queued:
                 self._queued.add(record)
@@ -163,7 +163,7 @@ class Propagation:
         """Evaluate all that depends on what was touched.
 
         Raises:
-            PatchRefused: Only a full run can tell.
+            PatchRefused: Only a full run can evaluate it.
         """
         with self._replay.going_on():
             while self._heap:
@@ -238,10 +238,10 @@ class Detaching:
         self.unlinked: dict[Readable, None] = {}
 
     def detach(self, record: Record) -> None:
-        """Undo that a text was evaluated.
+        """Undo the evaluation of a text.
 
         Raises:
-            PatchRefused: Only a full run can tell what follows.
+            PatchRefused: Only a full run knows what follows.
         """
         if record.is_noisy or _COMPARES.search(record.text):
             raise PatchRefused(f"{record.text!r} says more than its value")

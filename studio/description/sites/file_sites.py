@@ -1,4 +1,4 @@
-"""The sites of one file, as far as its bytes alone tell, and while edits change them.
+"""The sites of one file, as far as its bytes alone show them, and while edits change them.
 
 What a run adds is in `sites`. Ids count elements, not bytes, so that they outlast every edit of a
 text.
@@ -94,7 +94,7 @@ class FileSite:
 
 @dataclass(frozen=True, slots=True)
 class FileSites:
-    """All sites of one file in file order, and the bytes that they are true for."""
+    """All sites of one file in file order, and the bytes that they belong to."""
 
     data: bytes
     sites: tuple[FileSite, ...]
@@ -207,7 +207,7 @@ def _yaml_annotation(comments: tuple[str, ...], text: str, tag: str) -> Annotati
 
 
 def _yaml_remarks(document: YamlDocument) -> list[Remark]:
-    """One remark per scalar; a key that opens a nested level ends the group above it."""
+    """Return one remark per scalar; a key that opens a nested level ends the group above it."""
     marked = [(Entry(line, line, is_value=False), -1) for line in document.headings]
     marked += [
         (Entry(one.line, one.line, is_grouped=len(one.path) > 1), index)
@@ -321,9 +321,9 @@ def _is_numbers(text: str) -> bool:
 
 
 def _ancestry(element: SourceElement) -> tuple[SourceElement, ...]:
-    """From the link, joint, material or xacro element around it down to an element of URDF.
+    """Return the elements from the link, joint, material or xacro element down to one of URDF.
 
-    Nothing below a foreign element (gazebo, a sensor): what its numbers mean is not known.
+    Nothing below a foreign element (gazebo, a sensor): the meaning of its numbers is not known.
     """
     line = [element]
     above = element.parent
@@ -357,7 +357,7 @@ def _shown_parts(tree: SourceTree) -> dict[SourceElement, str]:
 
 
 def _xml_remarks(tree: SourceTree) -> dict[int, Remark]:
-    """What comments say about each arg and property, by ordinal."""
+    """Return the comments about each arg and property, by ordinal."""
     parents = {
         element.parent.ordinal: element.parent
         for element in tree.elements

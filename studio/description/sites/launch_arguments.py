@@ -1,4 +1,4 @@
-"""What a robot can be launched with, read from its files alone: also when no run succeeds.
+"""The arguments that a robot can be launched with, read from its files, even if no run succeeds.
 
 A name is followed from `$(arg name)` into properties and macro parameters that hold nothing else,
 by name. The values that an argument may have come from comparisons with literals, and from the
@@ -58,7 +58,7 @@ class Folders(Protocol):
     """The file system as far as it may be seen; what lies outside is not there."""
 
     def names(self, folder: str) -> tuple[str, ...]:
-        """What a folder holds; nothing when it is none."""
+        """Return the names in a folder; none if it is no folder."""
         ...
 
     def exists(self, path: str) -> bool:
@@ -79,7 +79,7 @@ class Named:
 
 
 def compared(text: str) -> Iterator[tuple[Named, str]]:
-    """Each name that a text compares with a literal, and the literal."""
+    """Yield each name that a text compares with a literal, and the literal."""
     for inside in _INSIDE.finditer(text):
         body = inside[1] or inside[2] or ""
         for pattern in _COMPARISONS:
@@ -144,7 +144,7 @@ def folder_choices(
 
 
 def common(found: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
-    """What all say that say something; what the first says when they agree on nothing."""
+    """Return the values in all that have any; those of the first if they have none in common."""
     said = [one for one in found if one]
     if not said:
         return ()
@@ -195,10 +195,10 @@ class LaunchArgument:
     place: Place
     default: str | None
     shown: str
-    """What it comes to now, where the texts alone tell."""
+    """Its present value, where the texts alone show it."""
     widget: Widget
     is_file: bool
-    """Its value names a file."""
+    """Whether its value names a file."""
     in_macro: bool
     """It is read in macros only, which need not be called."""
     is_early: bool
@@ -237,7 +237,7 @@ def launch_arguments(
 
 
 class _Scan:
-    """All that the files say of arguments."""
+    """All that the files have about arguments."""
 
     def __init__(self, arguments: Mapping[str, str], world: World) -> None:
         self._arguments, self._world = arguments, world
@@ -249,7 +249,7 @@ class _Scan:
         self.declared: dict[str, _Declared] = {}
 
     def follow(self, files: Iterable[str]) -> None:
-        """Read files and, as far as their names can be told, what they include."""
+        """Read files and, as far as their names are known, what they include."""
         pending = list(files)
         for _ in range(_ROUNDS):
             for path in pending:
@@ -270,7 +270,7 @@ class _Scan:
         return [name for text in texts for name in _ARG.findall(text)]
 
     def argument(self, name: str) -> LaunchArgument:
-        """All about one of them."""
+        """Return all about one of them."""
         declared = self.declared.get(name)
         default = declared.text if declared else None
         shown = self._value_of(name) or ""

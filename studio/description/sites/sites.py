@@ -1,7 +1,7 @@
-"""The editable texts of a finished run, each with its place, what it came to, and its widget.
+"""The editable texts of a finished run, each with its place, its value, and its widget.
 
-What the bytes alone tell is kept per file and read anew only when they change. A site that came out
-the same as in the run before is the same object.
+What the bytes alone show is kept per file and read again only when they change. A site that came
+out the same as in the run before is the same object.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Links(NamedTuple):
 
 
 class Reach:
-    """The links of one state of a graph, each looked up once."""
+    """The links of one state of a graph, each found once."""
 
     def __init__(self) -> None:
         self._links: dict[Input, Links] = {}
@@ -104,7 +104,7 @@ def _links_of(one: Input) -> Links:
 
 
 class Seen(NamedTuple):
-    """What a run saw of one text; `values` are distinct, as xacro prints them."""
+    """What a run made of one text; `values` are distinct, as xacro prints them."""
 
     values: tuple[str, ...] = ()
     reads: int = 0
@@ -117,7 +117,7 @@ NOT_READ = Seen()
 
 
 class RunReads:
-    """One run record, asked by sites."""
+    """Finds in one run record what belongs to a site."""
 
     def __init__(self, record: RunRecord) -> None:
         self._record = record
@@ -133,7 +133,7 @@ class RunReads:
         self._reach.forget(one)
 
     def bindings(self, path: str, site: FileSite) -> list[Binding]:
-        """What the run bound the text of a site to."""
+        """Return what the run bound the text of a site to."""
         name = site.name if site.kind is SiteKind.PARAM_DEFAULT else ""
         return self._bindings.get((path, site.ordinal, site.attribute, name), [])
 
@@ -148,11 +148,11 @@ class RunReads:
         return path, f"{path}#{ordinal}@{attribute}" + (f":{name}" if name else "")
 
     def of_file(self, path: str, file: FileSites) -> Iterator[tuple[FileSite, Seen]]:
-        """Each site of a file with what the run saw of it."""
+        """Yield each site of a file with what the run made of it."""
         return ((site, self.seen(path, file, site)) for site in file.sites)
 
     def seen(self, path: str, file: FileSites, site: FileSite) -> Seen:
-        """What the run saw of a site of a file."""
+        """Return what the run made of a site of a file."""
         if site.kind is SiteKind.YAML:
             return self._of_yaml(path, file, site)
         if site.kind is SiteKind.LITERAL:
@@ -233,7 +233,7 @@ class _YamlInputs:
         return self._ids.get(self._written.get(path, path))
 
     def reads_of_whole(self, path: KeyPath) -> int:
-        """How many containers around a path were read at once."""
+        """Return how many containers around a path were read as a whole."""
         if not self._whole:
             return 0
         return sum(path[:size] in self._whole for size in range(len(path) + 1))
@@ -270,13 +270,13 @@ def _followed(
 
 @dataclass(frozen=True, slots=True)
 class _Built:
-    """A site and what it was built from, to tell whether it must be built again."""
+    """A site and what it was built from, to know whether it must be built again."""
 
     in_file: FileSite
     seen: Seen
     site: Site
     first: Widget
-    """As it was inferred for the first time: a value that comes back gets its range back."""
+    """As it was first inferred: a value that comes back gets its range back."""
 
 
 class SiteBuilder:
@@ -291,7 +291,7 @@ class SiteBuilder:
         self._files: dict[str, FileSites] = {}
         self._built: dict[str, _Built] = {}
         self.reads: RunReads
-        """What the last run says of the texts."""
+        """What the last run read of the texts."""
 
     @property
     def files(self) -> Mapping[str, FileSites]:
@@ -299,9 +299,9 @@ class SiteBuilder:
         return self._files
 
     def build(self, record: RunRecord) -> list[Site]:
-        """All sites, file by file in the order in which the run read them, then top to bottom.
+        """Return all sites, file by file in the order in which the run read them, from top to end.
 
-        Every arg and property of the files is one, also where the run did not come by, and every
+        Every arg and property of the files is one, even if the run did not reach it, and every
         scalar of the YAML files that were read.
         """
         self.reads = reads = RunReads(record)
@@ -314,13 +314,13 @@ class SiteBuilder:
         return [one.site for one in self._built.values()]
 
     def patch(self, sites: Mapping[str, str], live: Callable[[str], LiveSites]) -> tuple[Site, ...]:
-        """Those of some sites that are other ones now.
+        """Return those of some sites that changed.
 
-        One that has only moved with an edit before it is none.
+        One that has only moved with an edit before it has not.
 
         Args:
             sites: Their files by their ids.
-            live: Gives the sites of a file as edits have left them.
+            live: Returns the sites of a file as edits have left them.
         """
         changed: list[Site] = []
         for name, path in sites.items():

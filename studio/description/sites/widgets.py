@@ -1,6 +1,6 @@
-"""How a value is best turned: what it measures, its unit, its widget and range.
+"""Widgets of values: quantity, unit, kind of widget and range.
 
-Comments say it first, else name, text, value and use.
+Comments decide first, else name, text, value and use.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ _BY_ATTRIBUTE: dict[tuple[str, str], Quantity] = {
     ("inertia", "ixz"): PRODUCT_OF_INERTIA,
     ("inertia", "iyz"): PRODUCT_OF_INERTIA,
 }
-"""The numbers of URDF, those that say most about their input first (an inertia says least)."""
+"""The numbers of URDF, the most specific about their input first (an inertia is last)."""
 
 
 NUMBERED_TAGS = frozenset(tag for tag, _ in _BY_ATTRIBUTE)
@@ -170,7 +170,7 @@ _BY_WORD = {word: quantity for quantity, words in _WORDS.items() for word in wor
 
 
 def in_unit(quantity: Quantity, unit: str) -> Quantity:
-    """The same quantity where the file is said to give it in `unit`."""
+    """Return the same quantity in the `unit` of the file."""
     if not unit or unit == quantity.unit:
         return quantity
     if unit in {"deg", "rad"}:
@@ -184,7 +184,7 @@ def in_unit(quantity: Quantity, unit: str) -> Quantity:
 
 
 def quantity_of_attribute(path: str, attribute: str) -> Quantity | None:
-    """What an attribute of URDF measures; `path` ends in its element's tag.
+    """Return the quantity of an attribute of URDF; `path` ends in its element's tag.
 
     A joint that slides is written `joint:prismatic` in the path; others turn.
     """
@@ -195,9 +195,9 @@ def quantity_of_attribute(path: str, attribute: str) -> Quantity | None:
 
 
 def quantity_of_name(name: str) -> Quantity | None:
-    """What a value of that name measures: its last telling word decides.
+    """Return the quantity of a value by its name: the last known word decides.
 
-    Dots separate keys of YAML; the last key decides, those above it only when it says nothing,
+    Dots separate keys of YAML; the last key decides, those above it only when it has no such word,
     except that a position among limits is an angle (`joint_limits.elbow.max_position`).
     """
     last, *above = reversed(name.split("."))
@@ -218,7 +218,7 @@ def _words_of(key: str) -> list[str]:
 
 
 def _quantity_of_words(words: list[str]) -> Quantity | None:
-    """The last word that names a quantity: `max_velocity` and `velocity_limit` are both speeds.
+    """Return the last word's quantity: `max_velocity` and `velocity_limit` are both speeds.
 
     Bounds and axes only count when no other word does: `size_y` is a length.
     """
@@ -232,7 +232,7 @@ def _quantity_of_words(words: list[str]) -> Quantity | None:
 
 
 def _specified(quantity: Quantity, words: list[str]) -> Quantity:
-    """A velocity is a joint's unless it is said to be linear; `k_position` is a gain."""
+    """Refine a quantity: a velocity is a joint's unless called linear; `k_position` is a gain."""
     if "k" in words:
         return POSITIVE
     return LINEAR_SPEED if quantity is ANGULAR_SPEED and "linear" in words else quantity
@@ -240,7 +240,7 @@ def _specified(quantity: Quantity, words: list[str]) -> Quantity:
 
 @lru_cache(maxsize=1024)
 def quantity_of(name: str, consumers: tuple[tuple[str, str], ...]) -> Quantity:
-    """What a value measures: its name says it, else the most telling attribute that it shapes."""
+    """Return the quantity of a value: by its name, else by the most specific attribute it sets."""
     named = quantity_of_name(name)
     used = {key: found for key in consumers if (found := quantity_of_attribute(*key)) is not None}
     if named is not None and not (named is UNKNOWN and used):
@@ -251,7 +251,7 @@ def quantity_of(name: str, consumers: tuple[tuple[str, str], ...]) -> Quantity:
 
 
 def _refined(named: Quantity, used: set[Quantity]) -> Quantity:
-    """What a name leaves open, its use decides: an offset that only turns is an angle."""
+    """Let its use decide what a name leaves open: an offset that only turns is an angle."""
     if not used or named in used:
         return named
     loose = {POSITION: ANGLE, ANGLE: POSITION, ANGULAR_SPEED: LINEAR_SPEED, EFFORT: FORCE}
@@ -300,11 +300,11 @@ def infer_widget(
     """Choose the widget of a value.
 
     Args:
-        name: As it is called; keys of YAML joined by dots.
-        text: As written. An expression keeps the range of what it came to.
-        value: What it came to in the last run; empty when it was not read.
-        annotation: What its comments say; a range or choices there win.
-        consumers: (element path, attribute) pairs of URDF that it shapes.
+        name: The name; keys of YAML joined by dots.
+        text: As written. An expression keeps the range of its value.
+        value: Value in the last run; empty when it was not read.
+        annotation: Of its comments; a range or choices there win.
+        consumers: (element path, attribute) pairs of URDF that it affects.
         compared: Texts that conditions compare it with.
     """
     quantity = in_unit(quantity_of(name, consumers), annotation.unit)
@@ -342,7 +342,7 @@ def keep_range(widget: Widget, before: Iterable[Widget], shown: str) -> Widget:
 
 
 def _annotated(annotation: Annotation, unit: str, shown: str) -> Widget | None:
-    """What the comment gives: choices, else a range, of a vector where the value is one."""
+    """Return the comment's widget: choices, else a range, of a vector where the value is one."""
     if annotation.choices:
         given, unit = annotation.choices, annotation.unit
         return Widget(
@@ -369,7 +369,7 @@ def _numbers(shown: str) -> list[float]:
 
 
 def _choices(shown: str, compared: Iterable[str]) -> tuple[str, ...]:
-    """The value and what it is compared with; a comparison with nothing or numbers says nothing."""
+    """Return the value and the texts compared with it, unless those are empty or numbers."""
     words = [word for word in compared if word and parse_number(word) is None]
     words = [word for word in words if word.lower() not in _BOOLEANS]
     if not words:
@@ -399,7 +399,7 @@ def _range(
 
 
 def _reach_about_zero(largest: float, quantity: Quantity) -> float | None:
-    """How far a slider about 0 goes to both sides; None for those that are not about 0."""
+    """Return how far a slider goes to both sides of 0; None for those that are not about 0."""
     match quantity.sweep:
         case Sweep.ANGLE:
             half_turn = 180.0 if quantity.unit == "deg" else math.pi

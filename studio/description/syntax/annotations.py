@@ -1,4 +1,4 @@
-"""What comments say about the values beside them: slider ranges, choices, units, help, headings.
+"""Comments about the values beside them: slider ranges, choices, units, help, headings.
 
 The grammar is that of OpenSCAD's Customizer, in XML and YAML comments alike:
 
@@ -16,7 +16,7 @@ Which comment belongs to what:
   framed by rules (`==== Wheels ====`). It groups the values below it, until the next heading or
   until anything that is no value (a link, a macro, an include, a nested YAML key). Values below a
   nested YAML key have that for a heading, and all comments above them are help.
-- Commented-out XML and long texts such as licences say nothing.
+- Commented-out XML and long texts such as licences are skipped.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ if TYPE_CHECKING:
 _HEADING_LENGTH = 60
 _HELP_LENGTH = 400
 _READ_LENGTH = 4000
-"""Longer comments are not looked into."""
+"""Longer comments are not read."""
 _BLOCK_LENGTH = 50
-"""Of a longer row of comments only the last ones are looked at."""
+"""Of a longer row of comments only the last ones are read."""
 _RULE = re.compile(r"^[\s=*#~_+/|-]+|[\s=*#~_+/|-]+$", re.MULTILINE)
 _FRAME = re.compile(r"[=*#~_+/|-]{3,}")
 _MARKUP = re.compile(r"<\s*/?[A-Za-z][^>]*>")
@@ -99,7 +99,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Annotation:
-    """What the comments of one value say; bounds in `unit`. Nothing said: all empty."""
+    """The comments of one value; bounds in `unit`. Without any, all is empty."""
 
     minimum: float | None = None
     maximum: float | None = None
@@ -110,7 +110,7 @@ class Annotation:
 
     @property
     def gives_range(self) -> bool:
-        """Whether it says more than a unit and help."""
+        """Whether it has more than a unit and help."""
         return self.minimum is not None or bool(self.choices)
 
 
@@ -226,7 +226,7 @@ def _joined(before: str, behind: str) -> str:
 
 
 def _plain(comment: str) -> str:
-    """A comment's words on one line; nothing for commented-out XML, licences and long texts."""
+    """Return a comment's text on one line; empty for commented-out XML, licences and long texts."""
     if len(comment) > _READ_LENGTH or _MARKUP.search(comment) or _LICENCE.search(comment):
         return ""
     words = " ".join(_without_rules(comment).split())
@@ -246,7 +246,7 @@ def _trim_rule(line: str) -> str:
 
 
 def attach_comments(entries: Sequence[Entry], comments: Sequence[Comment]) -> tuple[Remark, ...]:
-    """Give each entry its comments and its heading; both in file order, the module says how."""
+    """Give each entry its comments and its heading, as above; both in file order."""
     own = [comment for comment in comments if comment.own_line]
     above = _blocks_above(entries, own)
     behind: dict[int, list[str]] = {}
@@ -268,7 +268,7 @@ def attach_comments(entries: Sequence[Entry], comments: Sequence[Comment]) -> tu
 
 
 def _blocks_above(entries: Sequence[Entry], own: Sequence[Comment]) -> list[list[Comment]]:
-    """For each entry the own-line comments between the entry before it and itself."""
+    """Return for each entry the own-line comments between the entry before it and itself."""
     blocks: list[list[Comment]] = []
     position = 0
     for entry in entries:

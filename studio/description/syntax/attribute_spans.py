@@ -1,7 +1,7 @@
-"""Where the attributes of an XML start tag stand in the bytes, and how their text is written.
+"""Spans of the attributes of an XML start tag in the bytes, and how their text is written.
 
 Bytes are ASCII compatible here (UTF-8, Latin-1 ...): the source tree refuses the others. The tag is
-well-formed: expat has read it, and says where its `<` is.
+well-formed: expat has read it, and knows where its `<` is.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _QUOTES = {'"': "&quot;", "'": "&apos;"}
 # Asked for every site of a file, of which there may be tens of thousands: each time the same bytes.
 @lru_cache(maxsize=4)
 def text_encoding(data: bytes) -> str:
-    """How the bytes are read: UTF-8 wherever they are, as xacro does; else as they declare."""
+    """Return the encoding to read with: UTF-8 if the bytes are, as xacro does; else as declared."""
     try:
         data.decode("utf-8")
     except UnicodeDecodeError:
@@ -38,7 +38,7 @@ def text_encoding(data: bytes) -> str:
 
 
 def writing_encoding(data: bytes) -> str:
-    """How new text is written: a file that declares another encoding gets references only."""
+    """Return the encoding of new text: ASCII, with references, in files not declared as UTF-8."""
     return "utf-8" if _declared_encoding(data) == text_encoding(data) == "utf-8" else "ascii"
 
 
@@ -97,7 +97,7 @@ def character_offsets(raw: bytes, encoding: str = "utf-8") -> tuple[str, list[in
 
 
 def _pieces(raw: bytes, encoding: str) -> list[tuple[str, int]]:
-    """Each character of a value with the number of raw bytes that spell it."""
+    """Return each character of a value with the number of raw bytes that spell it."""
     try:
         written = raw.decode(encoding)
     except UnicodeDecodeError as error:

@@ -29,9 +29,9 @@ _UNCLOSED_VALUE: Final = re.compile(rb"[^<>\r\n\"']*")
 _VALUE_LIMIT: Final = 1 << 20
 _ATTRIBUTES_LIMIT: Final = 4096
 _LOOKED_AT: Final = 200
-"""Bytes at the end of a value in which the name of another attribute is looked for."""
+"""Bytes at the end of a value that are searched for the name of another attribute."""
 _PLACES_LIMIT: Final = 1000
-"""Of one fault that a fix mends."""
+"""Limit of the places of one fault that a fix mends."""
 
 LEAVES: Final = frozenset(
     {
@@ -53,7 +53,7 @@ class BrokenTag(NamedTuple):
 
 
 class TagReader:
-    """Reads start tags; tells `found` what is wrong: code, sentence, place, fix."""
+    """Reads start tags; calls `found` with what is wrong: code, sentence, place, fix."""
 
     def __init__(
         self,
@@ -116,7 +116,7 @@ class TagReader:
         named = _ATTRIBUTE_NAME.match(data, at)
         if named is None:
             if data[at : at + 1] == b"/" and data[at + 1 : at + 2] in {b"<", b""}:
-                return at + 1  # its > is told as missing
+                return at + 1  # its > is reported as missing
             return self._leave_out(at, at + 1)
         name = named[0].decode(self._encoding, "replace")
         if at == self._last_end:

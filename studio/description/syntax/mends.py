@@ -83,12 +83,12 @@ class ElementMends:
         return self._mends.fix(label, *made) if made and len(made) == len(edits) else None
 
     def written(self, name: str) -> str | None:
-        """An attribute that says the same wherever it is used; None: it is worked out, or none."""
+        """Return an attribute if it is the same at every use; None: it is computed, or missing."""
         text = self._element.attributes.get(name)
         return None if text is None or "$" in text else text
 
     def value(self, name: str, text: str) -> Replacement | None:
-        """Another literal value of an attribute."""
+        """Return an edit that changes the literal value of an attribute."""
         try:
             span = attribute_spans(self._tree.data, self._element.offset).get(name)
         except EditError:
@@ -98,14 +98,14 @@ class ElementMends:
         return self._mends.replaced(span.start, span.end, quoteattr(text)[1:-1])
 
     def attribute(self, name: str, text: str) -> Replacement | None:
-        """One more attribute, right behind the element's name."""
+        """Return an edit that adds an attribute, right behind the element's name."""
         start, tag = self._element.offset + 1, self._element.tag.encode()
         if not self._tree.data.startswith(tag, start):
             return None
         return self._mends.put_in(start + len(tag), f" {name}={quoteattr(text)}")
 
     def attribute_name(self, name: str, other: str) -> Replacement | None:
-        """Another name of an attribute."""
+        """Return an edit that renames an attribute."""
         try:
             span = attribute_spans(self._tree.data, self._element.offset).get(name)
         except EditError:
@@ -114,7 +114,7 @@ class ElementMends:
         return self._mends.replaced(at, at + len(name.encode()), other) if at > 0 else None
 
     def tag(self, other: str) -> tuple[Replacement, ...]:
-        """Another name of the element, at its start and at its end; empty when that is not sure."""
+        """Return edits that rename the element at its start and end; empty when in doubt."""
         data, name = self._tree.data, self._element.tag.encode()
         start = self._element.offset + 1
         try:

@@ -30,7 +30,7 @@ _LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(frozen=True, slots=True)
 class ListKind:
-    """What a list holds, and how much of it."""
+    """What a list contains, and how much of it."""
 
     noun: str
     """Of one item; the list's key is its plural."""
@@ -44,7 +44,7 @@ class ListKind:
 
 
 class NamedList:
-    """One look at a file."""
+    """Reads the list of a file."""
 
     def __init__(self, path: str, data: bytes, kind: ListKind) -> None:
         self._path, self._data, self._kind = path, data, kind
@@ -72,7 +72,7 @@ class NamedList:
         return listed.value
 
     def name(self, item: yaml.Node) -> str:
-        """What an item is called; errors as for `items`."""
+        """Return the name of an item; errors as for `items`."""
         keys = self.mapping(item, None)
         if "name" not in keys:
             raise self.fault(item, f"is a {self._kind.noun} without a name")
@@ -93,7 +93,7 @@ class NamedList:
         return dict(pairs)
 
     def text(self, node: yaml.Node, limit: int = _KEY_LIMIT) -> str:
-        """One text of up to so many letters, as it was written; errors as for `items`."""
+        """Return one text of up to `limit` letters, as it was written; errors as for `items`."""
         if not isinstance(node, yaml.ScalarNode):
             raise self.fault(node, "must be one text")
         text = str(node.value)
@@ -110,7 +110,7 @@ class NamedList:
             seen.add(name)
 
     def fault(self, where: yaml.Node | yaml.Event | None, reason: str) -> DescriptionError:
-        """The error that says so of a place; None: of the file."""
+        """Return the error of a place; None: of the file."""
         line = where.start_mark.line + 1 if where is not None and where.start_mark else 1
         return self._error(f"line {line} {reason}")
 

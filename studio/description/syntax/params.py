@@ -1,8 +1,8 @@
-"""The `params` of a macro: read as xacro reads it, and where each parameter stands in the file.
+"""The `params` of a macro: read as xacro reads it, with the place of each parameter in the file.
 
 Source: xacro 2.1.1's grammar: `name`, `*block`, `**blocks`, `name:=default`, `name=default`,
 `name:=^` (the caller's value) and `name:=^|default`. A default is one `${...}`, one `$(...)`, or
-words without blanks, in which quoted parts may hold blanks.
+text without blanks, in which quoted parts may have blanks.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from studio.description.values import Span
 from studio.errors import EditError
 
 DEFAULT: Final = r"""\$\{.*?\}|\$\(.*?\)|(?:(?>'.*?')|(?>".*?")|[^\s'"]++)+|"""
-"""As xacro's, but what was found is not given back: looking for it again takes forever."""
+"""As xacro's, but without backtracking, which could take forever."""
 _PARAMETER: Final = re.compile(r"^\s*([^\s:=]+?)\s*:?=\s*(\^\|?)?(" + DEFAULT + r")(?:\s+|$)(.*)")
 _AS_XACRO: Final = re.compile(re.sub(r"\(\?>([^)]*)\)", r"\1", _PARAMETER.pattern))
 """Xacro's own, where few quotes leave few ways to pair them; with many all must have their pair."""
@@ -37,7 +37,7 @@ _QUOTED = re.compile(r"""'[^']*'|"[^"]*\"""")
 
 @dataclass(frozen=True, slots=True)
 class Default:
-    """What a parameter is when a call does not give it.
+    """The value of a parameter that a call does not give.
 
     `forward`: the value of the same name where the macro is called (`:=^`); `text`: evaluated
     there, after `^|` only if that name is not defined.
@@ -78,7 +78,7 @@ def parameter(text: str) -> tuple[str, Default | None, str]:
 
 @dataclass(frozen=True, slots=True)
 class ParamDefault:
-    """One default: the parameter's name, where its text stands, and the text without quotes."""
+    """One default: the parameter's name, the place of its text, and the text without quotes."""
 
     name: str
     span: Span
@@ -151,7 +151,7 @@ def _is_one_default(default: str, quoted_text: str | None) -> bool:
 
 
 def name_in_params(text: str, name: str) -> int:
-    """Where `params` names a parameter, its stars left out; -1 when it does not."""
+    """Return where `params` names a parameter, without its stars; -1 when it does not."""
     if len(text) > PARAMS_LIMIT:
         return -1
     at = 0

@@ -1,7 +1,7 @@
-"""Read XML that is broken: the elements that were meant, and each fault with what mends it.
+"""Reads broken XML: the elements that were meant, and each fault with its fix.
 
-Well-formed text is read as `parse_source` reads it. In other texts tags are taken as they come:
-those that nobody closes are closed where URDF cannot go on inside them, those that close nothing
+Well-formed text is read as `parse_source` reads it. In other texts tags are taken one by one:
+unclosed ones are closed where URDF cannot continue inside them, those that close nothing
 are left out.
 """
 
@@ -57,9 +57,9 @@ class OpenElements:
         self._mends, self._book = mends, book
         self._open: list[SourceElement] = []
         self._start_ends: dict[int, int] = {}
-        """By the ordinal of an element that was open, where its start tag ends."""
+        """End of the start tag, by the ordinal of an element that was open."""
         self._faults_before: dict[int, int] = {}
-        """By the ordinal of an element that was open, how many faults stand before it."""
+        """Number of faults before it, by the ordinal of an element that was open."""
         self._unclosed = _unclosed_tags(tree.data)
         self._root_end: tuple[int, int] | None = None
         self._root_is_moved = False
@@ -68,7 +68,7 @@ class OpenElements:
 
     @property
     def innermost(self) -> SourceElement | None:
-        """What is open now."""
+        """The innermost open element."""
         return self._open[-1] if self._open else None
 
     def start(self, tag: BrokenTag, at: int, faults_before: int) -> None:
@@ -228,7 +228,7 @@ class OpenElements:
         for name in (element.tag, *element.attributes):
             prefix, colon, _ = name.partition(":")
             if colon and prefix not in self._prefixes and not self._misspelt(element, prefix, at):
-                self._prefixes[prefix] = None  # told once
+                self._prefixes[prefix] = None  # reported once
                 self._unbound(prefix, at)
 
     def _misspelt(self, element: SourceElement, prefix: str, at: int) -> bool:
@@ -267,7 +267,7 @@ def _unclosed_tags(data: bytes) -> set[str]:
 
 @dataclass(frozen=True, slots=True)
 class Recovered:
-    """What a text holds as far as it can be read; without faults it is well-formed."""
+    """What can be read of a text; without faults it is well-formed."""
 
     tree: SourceTree
     faults: tuple[XmlFault, ...]
@@ -324,7 +324,7 @@ class _Recovery:
         if not self._tree.elements:
             raise strict
         faults = self._book.faults
-        if not faults:  # it is broken in a way that nothing here looks for
+        if not faults:  # broken in a way that is not handled here
             faults = (XmlFault(strict.code, strict.sentence, strict.place, None),)
         return Recovered(self._tree, faults)
 
@@ -348,7 +348,7 @@ class _Recovery:
         return tag.end
 
     def _name_of(self, at: int) -> int:
-        """Right before the name of a tag; blanks between it and the < are told."""
+        """Return the begin of a tag's name; blanks between it and the < are a fault."""
         apart = _NAME_APART.match(self._data, at)
         if apart is None:
             return at
@@ -374,7 +374,7 @@ class _Recovery:
             self._tags.check_ampersands(start, end)
 
     def _text_outside(self, start: int, end: int, raw: bytes) -> None:
-        """Text before or behind the robot: what a paste brought along, a fence of Markdown say."""
+        """Handle text before or behind the robot, such as the Markdown fence of a paste."""
         declares = self._data.startswith(b"<?xml", end) and not self._elements.content_end
         if raw.isspace() and not declares:
             return

@@ -35,7 +35,7 @@ _IMPLIED_PREFIXES = frozenset({"xml", "xmlns"})
 
 
 class SourceError(Exception):
-    """A text is no XML that may be read; `sentence` says why and what to do. 1-based place."""
+    """A text is no XML that may be read; `sentence` has the reason and advice. 1-based place."""
 
     def __init__(self, code: str, sentence: str, place: Place) -> None:
         super().__init__(f"{place}: {sentence}")
@@ -137,7 +137,7 @@ class SourceElement:
         return EditError(f"{self.place}: the end of this element was not found: reload the file.")
 
     def elements(self) -> Iterator[SourceElement]:
-        """Its child elements, in order."""
+        """Yield its child elements, in order."""
         return (child for child in self.children if isinstance(child, SourceElement))
 
     def __repr__(self) -> str:
@@ -178,7 +178,7 @@ def parse_source(path: str, data: bytes) -> SourceTree:
 
 
 def blank_tree(path: str, data: bytes) -> SourceTree:
-    """A tree without elements, for whoever reads the bytes in a way of its own.
+    """Return a tree without elements, for another reader of the bytes.
 
     Raises:
         SourceError: They are not of the encoding that they declare.
@@ -210,7 +210,7 @@ def _refuse_what_is_no_text(path: str, data: bytes) -> None:
 
 
 def _encoding_of(path: str, data: bytes) -> str:
-    """UTF-8 wherever the bytes are, as xacro does; else what the XML declaration says."""
+    """Return UTF-8 if the bytes are, as xacro does; else the encoding of the XML declaration."""
     try:
         data.decode("utf-8")
     except UnicodeDecodeError:
@@ -256,18 +256,18 @@ class _Builder:
             SourceError: See `parse_source`.
         """
         try:
-            self._parser.Parse(self._tree.data, True)  # noqa: FBT003 - expat's own way
+            self._parser.Parse(self._tree.data, True)  # noqa: FBT003 - expat's own API
         except expat.ExpatError as error:
             at = self._parser.ErrorByteIndex
             sentence = sentence_of(error, self._tree.data, at, self._open)
             raise SourceError("xml-malformed", sentence, self._place(error, at)) from None
-        except ValueError:  # expat's word for encodings of more than one byte per character
+        except ValueError:  # expat's error for encodings of more than one byte per character
             sentence = f"The encoding {self._tree.encoding} is not read: save the file as UTF-8."
             place = Place(self._tree.path, 1, 1)
             raise SourceError("file-encoding", sentence, place) from None
 
     def _place(self, error: expat.ExpatError, at: int) -> Place:
-        """Where what is wrong begins; `at` is the byte where expat stopped."""
+        """Return where the fault begins; `at` is the byte where expat stopped."""
         data, begin = self._tree.data, cause_of(error, self._tree.data, at)
         if begin == at:
             return Place(self._tree.path, error.lineno, error.offset + 1)
@@ -338,7 +338,7 @@ class _Builder:
 
 
 def unbound_sentence(prefix: str) -> str:
-    """What to do about a prefix that nobody declares."""
+    """Return what to do about a prefix that is not declared."""
     if prefix == "xacro":
         declaration = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
         return f"xacro: is used but not declared: add {declaration} to the root element."

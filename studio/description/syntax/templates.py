@@ -20,7 +20,7 @@ _SEGMENT: Final = re.compile(
 
 
 class Cut(Enum):
-    """What a segment is."""
+    """Kind of a segment."""
 
     TEXT = 0
     EXPRESSION = 1

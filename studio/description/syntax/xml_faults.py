@@ -1,4 +1,4 @@
-"""What is wrong with a text that is no XML: sentences for people who write it by hand, places."""
+"""Faults of a text that is no XML: places, and sentences for people who write it by hand."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _SENTENCES: Final = {
     ),
 }
 _LOOKED_BACK: Final = 400
-"""Bytes before a fault in which its cause is looked for."""
+"""Bytes before a fault that are searched for its cause."""
 _UNQUOTED: Final = re.compile(rb"[\s\"']([\w:.-]+)\s*=\s*$")
 _VALUELESS: Final = re.compile(rb"\s([\w:.-]+)\s*$")
 _QUOTED: Final = re.compile(rb"\"[^\"]*\"|'[^']*'")
 _IN_COMMENT: Final = re.compile(rb"<!--(?!.*-->)", re.DOTALL)
 _IN_TAG: Final = re.compile(rb"<([\w:.-]+)([^<]*)$")
 FAULTS_LIMIT: Final = 200
-"""Of one text; behind that many nothing more is read."""
+"""Limit for one text; behind that many nothing more is read."""
 
 
 class Element(Protocol):
@@ -50,10 +50,10 @@ class Element(Protocol):
 
 
 def sentence_of(error: ExpatError, data: bytes, byte: int, still_open: Sequence[Element]) -> str:
-    """One sentence on what is wrong and what to do.
+    """Return one sentence on what is wrong and what to do.
 
     Args:
-        error: What expat says.
+        error: Raised by expat.
         data: The whole file.
         byte: Where expat stopped.
         still_open: The elements that are open there, the root first.
@@ -69,10 +69,10 @@ def sentence_of(error: ExpatError, data: bytes, byte: int, still_open: Sequence[
 
 
 def cause_of(error: ExpatError, data: bytes, byte: int) -> int:
-    """Where what is wrong begins: a tag that lacks its > or a quote ends lines above the fault.
+    """Return where the fault begins: a tag without its > or a quote ends lines above the error.
 
     Args:
-        error: What expat says.
+        error: Raised by expat.
         data: The whole file.
         byte: Where expat stopped.
     """
@@ -136,7 +136,7 @@ def _open_value(before: bytes, here: bytes) -> str:
 
 
 def _attribute(before: bytes, here: bytes) -> str:
-    """What is wrong with an attribute or with how its value is quoted."""
+    """Return what is wrong with an attribute or with how its value is quoted."""
     tag = _OpenTag.around(before)
     if not tag or tag.within_quotes:
         return ""
@@ -183,7 +183,7 @@ _CAUSES: Final[tuple[Callable[[bytes, bytes], str], ...]] = (
 
 @dataclass(frozen=True, slots=True)
 class XmlFault:
-    """One thing that is wrong with a text; `fix` mends it when that is safe."""
+    """One fault of a text; `fix` mends it when that is safe."""
 
     code: str
     sentence: str
@@ -192,7 +192,7 @@ class XmlFault:
 
 
 class EnoughFaultsError(Exception):
-    """So much is wrong that the rest is not looked at."""
+    """There are so many faults that the rest is not read."""
 
 
 class FaultBook:
@@ -215,12 +215,12 @@ class FaultBook:
 
     @property
     def malformed(self) -> int:
-        """How many there are so far that make a text no XML: a prefix may well be undeclared."""
+        """The number of faults so far that break the XML: an undeclared prefix does not."""
         return sum(one.code != "xml-unbound-prefix" for one in self._found)
 
     @property
     def faults(self) -> tuple[XmlFault, ...]:
-        """All of them, in the order in which they were met: what closes first is mended first."""
+        """All faults, in the order in which they were met: what closes first is mended first."""
         return tuple(self._found)
 
     def pass_by(self, at: int) -> Place:

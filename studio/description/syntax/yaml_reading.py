@@ -38,11 +38,11 @@ UNITS: Final = {
 
 
 def scalar_of(text: str, tag: str, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401
-    """The value of one plain scalar, a word without blanks, as in a file.
+    """Return the value of one plain scalar without blanks, as in a file.
 
     Raises:
         Fault: Its tag asks for a number, and it is none.
-        Refusal: It is a whole number that no file may hold.
+        Refusal: It is a whole number that no file may have.
         LookupError: The tag is none of xacro's.
     """
     if tag:
@@ -93,7 +93,7 @@ def check_aliases(data: bytes) -> None:
 
 
 def is_bulky(data: bytes) -> bool:
-    """Whether a file holds more values than are looked at."""
+    """Whether a file has more values than are read."""
     return sum(map(data.count, (b",", b":", b"\n"))) > _SEPARATORS_LIMIT
 
 

@@ -1,5 +1,5 @@
 # pyright: reportUnknownMemberType=false
-r"""Where the scalars of a YAML document stand in the bytes of a file, and how a scalar is written.
+r"""Spans of the scalars of a YAML document in the bytes of a file, and how a scalar is written.
 
 The parser's events are read one by one, never composed or constructed: aliases are not followed,
 so a text of nested aliases costs no more than its own length. The parser's marks count characters;
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 KeyPath: TypeAlias = tuple[str | int, ...]
-"""Where a YAML value stands: mapping keys as text and list indices, outermost first."""
+"""Path of a YAML value: mapping keys as text and list indices, outermost first."""
 _ESCAPE = re.compile(r"\\(?:x([0-9A-Fa-f]{2})|u([0-9A-Fa-f]{4})|U([0-9A-Fa-f]{8})|(.))")
 _MEANING = {
     "0": "\0", "a": "\a", "b": "\b", "t": "\t", "n": "\n", "v": "\v", "f": "\f", "r": "\r",
@@ -215,7 +215,7 @@ class _Reader:
             self._take(event)
 
     def document(self) -> YamlDocument:
-        """What was found."""
+        """Return what was found."""
         scalars = tuple(one for at, one in self.scalars if not self._is_overruled(one, at))
         return YamlDocument(
             scalars, tuple(self._comments()), tuple(self.aliases), tuple(self.headings)
@@ -331,7 +331,7 @@ class _Reader:
             position = position or found.end()
 
     def _end_of_scalar_at(self, index: int) -> int | None:
-        """Where the scalar ends that holds a character; None when none does."""
+        """Return the end of the scalar that has a character; None when none has."""
         near = bisect.bisect_right(self.covered, (index, len(self.text))) - 1
         if near < 0 or index >= self.covered[near][1]:
             return None
