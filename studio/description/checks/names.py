@@ -170,7 +170,7 @@ WHY: Final = {
         "en": "A material of one name is defined twice and differently; which of the two counts "
         "depends on the reader.",
         "de": "Ein Material gleichen Namens ist zweimal verschieden definiert; welches zählt, "
-        "hängt vom Leser ab.",
+        "hängt vom Programm ab, das die Datei liest.",
     },
     "duplicate-joint": {
         "en": "Names of joints are unique in a robot; messages such as JointState tell joints by "
@@ -181,18 +181,18 @@ WHY: Final = {
     "duplicate-link": {
         "en": "Names of links are unique in a robot. Two of one name often come from a macro that "
         "is called twice without a prefix.",
-        "de": "Namen von Gliedern sind in einem Roboter eindeutig. Zwei gleiche kommen oft von "
+        "de": "Namen von Links sind in einem Roboter eindeutig. Zwei gleiche kommen oft von "
         "einem Makro, das zweimal ohne Präfix aufgerufen wird.",
     },
     "unused-arg": {
         "en": "Nothing reads this argument: whoever passes it changes nothing.",
-        "de": "Niemand liest dieses Argument: Wer es übergibt, ändert nichts.",
+        "de": "Nichts verwendet dieses Argument: Wer es übergibt, ändert nichts.",
     },
     "unused-property": {
         "en": "Nothing reads this property: it can go, or the name is misspelt where it should be "
         "read.",
-        "de": "Niemand liest diese Property: Sie kann weg, oder der Name ist dort verschrieben, wo "
-        "sie gelesen werden soll.",
+        "de": "Nichts verwendet diese Property: Sie kann weg, oder ihr Name hat dort einen "
+        "Tippfehler, wo sie verwendet werden soll.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

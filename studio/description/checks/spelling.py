@@ -192,12 +192,12 @@ WHY: Final = {
     "unknown-element": {
         "en": "URDF does not know this element here and ignores it without a word: what stands in "
         "it has no effect.",
-        "de": "URDF kennt dieses Element hier nicht und übergeht es stillschweigend: Was darin "
+        "de": "URDF kennt dieses Element hier nicht und ignoriert es stillschweigend: Was darin "
         "steht, hat keine Wirkung.",
     },
     "unknown-attribute": {
         "en": "URDF does not know this attribute here and ignores it without a word.",
-        "de": "URDF kennt dieses Attribut hier nicht und übergeht es stillschweigend.",
+        "de": "URDF kennt dieses Attribut hier nicht und ignoriert es stillschweigend.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

@@ -352,8 +352,8 @@ WHY: Final = {
     "second-parent": {
         "en": "A link hangs on one joint only; URDF has no closed chains. Close a loop in the "
         "simulator's own format instead.",
-        "de": "Ein Glied hängt an genau einem Gelenk; URDF kennt keine geschlossenen Ketten. "
-        "Schleifen gehören ins Format des Simulators.",
+        "de": "Ein Link hängt an genau einem Gelenk; URDF kennt keine geschlossenen Ketten. "
+        "Schließen Sie eine Schleife stattdessen im Format des Simulators.",
     },
     "bad-element": {
         "en": "Something that the element needs is missing or is no number, so it could not be "
@@ -364,20 +364,20 @@ WHY: Final = {
     "dangling-child": {
         "en": "The joint names a child link that does not exist: a typo, or a link that is made "
         "only with other arguments.",
-        "de": "Das Gelenk nennt ein child-Glied, das es nicht gibt: ein Tippfehler, oder es "
-        "entsteht nur mit anderen Argumenten.",
+        "de": "Das Gelenk nennt ein Kind (child), das es nicht gibt: ein Tippfehler, oder der "
+        "Link entsteht nur mit anderen Argumenten.",
     },
     "dangling-parent": {
         "en": "The joint names a parent link that does not exist: a typo, or a link that is made "
         "only with other arguments.",
-        "de": "Das Gelenk nennt ein parent-Glied, das es nicht gibt: ein Tippfehler, oder es "
-        "entsteht nur mit anderen Argumenten.",
+        "de": "Das Gelenk nennt ein Elternteil (parent), das es nicht gibt: ein Tippfehler, "
+        "oder der Link entsteht nur mit anderen Argumenten.",
     },
     "several-roots": {
         "en": "A robot is one tree: exactly one link has no joint above it. Every other root is a "
         "part that hangs on nothing.",
-        "de": "Ein Roboter ist ein Baum: Genau ein Glied hat kein Gelenk über sich. Jede weitere "
-        "Wurzel hängt an nichts.",
+        "de": "Ein Roboter ist ein Baum: Genau ein Link hat kein Gelenk über sich. Jede weitere "
+        "Wurzel ist ein Teil, das an nichts hängt.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

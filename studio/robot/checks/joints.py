@@ -166,14 +166,14 @@ WHY: Final = {
     "missing-limit": {
         "en": "Revolute and prismatic joints need a limit with lower, upper, effort and velocity; "
         "readers of URDF refuse the robot without it.",
-        "de": "Dreh- und Schubgelenke brauchen ein limit mit lower, upper, effort und velocity; "
-        "URDF-Leser lehnen den Roboter sonst ab.",
+        "de": "Gelenke vom Typ revolute und prismatic brauchen ein limit mit lower, upper, effort "
+        "und velocity; URDF-Parser lehnen den Roboter sonst ab.",
     },
     "reversed-limits": {
         "en": "With lower above upper no position is allowed: controllers clamp to one end or "
         "refuse to move.",
-        "de": "Liegt lower über upper, ist keine Stellung erlaubt: Regler bleiben an einem Ende "
-        "oder bewegen sich nicht.",
+        "de": "Liegt lower über upper, ist keine Stellung erlaubt: Controller bleiben an einem "
+        "Ende oder weigern sich, das Gelenk zu bewegen.",
     },
     "equal-limits": {
         "en": 'With lower and upper alike the joint cannot move. If that is meant, type="fixed" '
@@ -184,14 +184,14 @@ WHY: Final = {
     "zero-axis": {
         "en": "An axis of no length has no direction: the joint would not know around or along "
         "what it moves.",
-        "de": "Eine Achse ohne Länge hat keine Richtung: Das Gelenk weiß nicht, worum oder wohin "
-        "es sich bewegt.",
+        "de": "Eine Achse ohne Länge hat keine Richtung: Das Gelenk wüsste nicht, um was oder "
+        "entlang was es sich bewegt.",
     },
     "joint-type": {
         "en": "URDF knows revolute, continuous, prismatic, fixed, floating and planar; any other "
         "word is refused by its readers.",
         "de": "URDF kennt revolute, continuous, prismatic, fixed, floating und planar; jedes "
-        "andere Wort lehnen seine Leser ab.",
+        "andere Wort lehnen Parser ab.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

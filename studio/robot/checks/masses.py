@@ -242,26 +242,26 @@ WHY: Final = {
         "direction needs some resistance to turning. Simulators blow up or refuse such a link.",
         "de": "Ein Trägheitstensor gehört nur dann zu einem Körper, wenn er positiv definit ist: "
         "Jede Richtung setzt dem Drehen etwas entgegen. Simulatoren werden damit instabil oder "
-        "lehnen das Glied ab.",
+        "lehnen den Link ab.",
     },
     "inertia-triangle": {
         "en": "Of the three principal moments none can be larger than the two others together; no "
         "distribution of mass does that. Physics engines reject or distort such a link.",
         "de": "Von den drei Hauptträgheitsmomenten kann keines größer sein als die beiden anderen "
-        "zusammen; keine Massenverteilung ergibt das. Physik-Engines lehnen ein solches Glied ab "
-        "oder verfälschen es.",
+        "zusammen; keine Massenverteilung ergibt das. Physik-Engines lehnen einen solchen "
+        "Link ab oder verfälschen ihn.",
     },
     "bad-mass": {
         "en": "A link that moves needs a positive mass, of a density that things can have; forces "
         "divide by it.",
-        "de": "Ein bewegtes Glied braucht eine positive Masse mit einer Dichte, die es gibt; "
+        "de": "Ein bewegter Link braucht eine positive Masse mit einer Dichte, die es gibt; "
         "Kräfte werden durch sie geteilt.",
     },
     "inertia-size": {
         "en": "The moments of inertia do not fit a body of this size and mass. The link will turn "
         "far too easily or far too sluggishly.",
-        "de": "Die Trägheitsmomente passen nicht zu einem Körper dieser Größe und Masse. Das "
-        "Glied dreht sich viel zu leicht oder viel zu träge.",
+        "de": "Die Trägheitsmomente passen nicht zu einem Körper dieser Größe und Masse. Der "
+        "Link dreht sich viel zu leicht oder viel zu träge.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

@@ -130,20 +130,20 @@ WHY: Final = {
     "missing-inertial": {
         "en": "A link that a joint moves needs mass and inertia: simulators drop a link without "
         "them, or weld it to its parent.",
-        "de": "Ein Glied, das ein Gelenk bewegt, braucht Masse und Trägheit: Simulatoren lassen "
-        "es sonst weg oder verschweißen es mit dem vorigen.",
+        "de": "Ein Link, den ein Gelenk bewegt, braucht Masse und Trägheit: Simulatoren lassen "
+        "ihn sonst weg oder verschweißen ihn mit seinem Elternteil.",
     },
     "missing-collision": {
         "en": "What has only a visual is seen, but nothing can touch it: planners and simulators "
         "go through it.",
-        "de": "Was nur ein Visual hat, wird gesehen, aber nichts stößt daran: Planer und "
+        "de": "Was nur ein Visual hat, ist zu sehen, aber nichts stößt daran an: Planer und "
         "Simulatoren gehen hindurch.",
     },
     "root-inertial": {
         "en": "KDL, which robot_state_publisher uses, ignores the inertia of the root link and "
         "warns. An empty root link with a fixed joint to this one avoids that.",
-        "de": "KDL, das robot_state_publisher benutzt, lässt die Trägheit der Wurzel außer Acht "
-        "und warnt. Ein leeres Wurzelglied mit festem Gelenk zu diesem vermeidet das.",
+        "de": "KDL, das robot_state_publisher verwendet, ignoriert die Trägheit des Wurzel-Links "
+        "und warnt. Ein leerer Wurzel-Link mit einem festen Gelenk zu diesem vermeidet das.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

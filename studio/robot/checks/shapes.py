@@ -141,13 +141,13 @@ WHY: Final = {
         "en": "The collision shape lies beside what is seen, so contacts happen where nothing is. "
         "Often an origin was forgotten in one of the two.",
         "de": "Die Kollisionsform liegt neben dem Sichtbaren; Berührungen geschehen dann, wo "
-        "nichts ist. Oft fehlt in einem von beiden der Ursprung.",
+        "nichts ist. Oft wurde in einem von beiden das origin vergessen.",
     },
     "collision-size": {
         "en": "Collision and visual differ much in size. Often one mesh is in millimetres or one "
         "scale was forgotten.",
-        "de": "Kollision und Visual sind sehr verschieden groß. Oft ist ein Netz in Millimetern "
-        "oder eine Skalierung vergessen.",
+        "de": "Kollision und Visual sind sehr verschieden groß. Oft ist ein Mesh in Millimetern, "
+        "oder ein scale wurde vergessen.",
     },
     "shape-scale": {
         "en": "URDF counts in metres: a shape of this size is likely meant in millimetres or "
@@ -158,7 +158,7 @@ WHY: Final = {
     "mesh-scale": {
         "en": "URDF counts in metres. A mesh drawn in millimetres comes out a thousand times too "
         'large without scale="0.001 0.001 0.001".',
-        "de": 'URDF rechnet in Metern. Ein Netz in Millimetern wird ohne scale="0.001 0.001 '
+        "de": 'URDF rechnet in Metern. Ein Mesh in Millimetern wird ohne scale="0.001 0.001 '
         '0.001" tausendmal zu groß.',
     },
 }
