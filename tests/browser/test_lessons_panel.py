@@ -94,8 +94,7 @@ def moved_m(tab: StudioPage) -> float:
 
 
 def a_viewer_reads_and_starts_nothing(browser: Browser, studio: RunningStudio) -> None:
-    assert studio.process.stdout is not None
-    address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
+    address = studio.viewer_url
     context = studio_context(browser)
     try:
         viewer = StudioPage(context.new_page())

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qs, urlsplit
@@ -49,6 +50,14 @@ class RunningStudio:
     def pid(self) -> int:
         """Process id of the studio itself."""
         return self.process.pid
+
+    @cached_property
+    def viewer_url(self) -> str:
+        """The address for those who only look, which it prints next if it was asked to."""
+        assert self.process.stdout is not None
+        line = self.process.stdout.readline()
+        assert line.startswith("Viewer: "), line
+        return line.removeprefix("Viewer: ").strip()
 
     @property
     def stderr(self) -> str:

@@ -268,13 +268,20 @@ def studio_context(browser: Browser) -> BrowserContext:
 
 @contextmanager
 def studio_page(
-    browser: Browser, studio: RunningStudio, *, view: bool = True
+    browser: Browser, studio: RunningStudio, *, view: bool = True, viewer: bool = False
 ) -> Generator[StudioPage]:
-    """A tab that has opened the studio's printed address, with or without the 3D view."""
+    """A tab that has opened the studio's printed address, with or without the 3D view.
+
+    Args:
+        browser: Gets a session for it.
+        studio: Which one.
+        view: Whether with the 3D view, as `StudioPage.open`.
+        viewer: Whether by the address for those who only look.
+    """
     context = studio_context(browser)
     page = StudioPage(context.new_page())
     try:
-        page.open(studio.url, view=view)
+        page.open(studio.viewer_url if viewer else studio.url, view=view)
         yield page
     finally:
         context.close()
