@@ -1,82 +1,40 @@
 """Worker processes over pipes: one request, one answer, a time limit, a fresh process after a fall.
 
 A worker is `python -m studio.<room>.worker`, never a fork (unsafe beside uvloop, viser and zenoh
-threads) and never multiprocessing's spawn (it imports the command again). Messages are frozen
-dataclasses as msgpack; nothing is unpickled. A frame is the length of what follows (4 bytes), the
-length of the message's class name (1 byte), that name, and the message. A worker first sends an
-empty frame: it is up. It ends when its pipe closes.
+threads) and never multiprocessing's spawn (it imports the command again). What goes over the pipe
+is in `worker_process`.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-import gc
-import os
-import struct
 import sys
 from collections import Counter
-from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
-
-import msgspec
+from typing import TYPE_CHECKING, TypeVar
 
 from studio.errors import WorkerDiedError, WorkerTimeoutError
-from studio.system import ignore_interrupt, limit_memory
+from studio.worker_process import FRAME_LENGTH
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable, Hashable
 
-_LENGTH = struct.Struct("<I")
-_HEAD = struct.Struct("<IB")
-_UP = _LENGTH.pack(0)
-"""The frame that a new process sends when it can answer."""
+    from studio.worker_process import Codec
+
 START_TIMEOUT_S = 20.0
-"""Limit for a process to start, on a busy machine."""
-_OBJECTS_WITHIN_REQUEST = 500_000
-"""New objects of one request that garbage collection waits for: about 50 MB."""
-_OBJECTS_KEPT = 50_000
-"""New objects since the last collection that are left to the next request."""
+"""Of a process, on a busy machine."""
 _PATIENCE = 5
-"""On a busy machine, a process may wait so many times its time limit in addition."""
+"""So many times its time a process on a busy machine may be kept waiting in addition."""
 
 Answer = TypeVar("Answer")
-
-
-class Codec:
-    """Packs the messages of one worker as frames."""
-
-    def __init__(self, *types: type) -> None:
-        self._encoder = msgspec.msgpack.Encoder()
-        self._decoders: dict[bytes, msgspec.msgpack.Decoder[Any]] = {
-            one.__name__.encode(): msgspec.msgpack.Decoder(one) for one in types
-        }
-
-    def pack(self, message: object) -> bytearray:
-        """A message as a frame."""
-        name = type(message).__name__.encode()
-        frame = bytearray(_HEAD.size + len(name))
-        self._encoder.encode_into(message, frame, len(frame))
-        _HEAD.pack_into(frame, 0, len(frame) - _LENGTH.size, len(name))
-        frame[_HEAD.size : _HEAD.size + len(name)] = name
-        return frame
-
-    def unpack(self, body: bytes | bytearray) -> Any:  # noqa: ANN401 - one of the codec's types
-        """The message of a frame, which is given without its length.
-
-        Raises:
-            KeyError: The class is none of this codec's.
-            msgspec.ValidationError: The fields do not fit the class.
-        """
-        end = 1 + body[0]
-        return self._decoders[bytes(body[1:end])].decode(memoryview(body)[end:])
 
 
 class Worker:
     """The parent's end of one worker process; started at the first `ask` or by `warm`.
 
-    Requests queue up; one runs at a time. A late or dead worker is ended, the asker gets the error,
-    and the next `ask` starts a fresh one: `generation` counts them. A caller that depends on the
-    result of the request before takes the `turn` and asks by `ask_now`.
+    Requests queue up; one is under way at a time. A late or dead worker is ended, the asker gets
+    the error, and the next `ask` starts a fresh one: `generation` counts them. Who decides by what
+    the request before came to takes the `turn` and asks by `ask_now`.
     """
 
     def __init__(self, name: str, module: str, codec: Codec, *arguments: str) -> None:
@@ -86,9 +44,9 @@ class Worker:
         self._codec = codec
         self._process: asyncio.subprocess.Process | None = None
         self._is_up = False
-        """Whether the process has reported that it is up."""
+        """Whether the process has said that it is up."""
         self._closes = 0
-        """How often it was closed: a request from before does not start it again."""
+        """How often it was closed: who waited since before does not start it anew."""
         self._lock = asyncio.Lock()
         self._starting: asyncio.Future[asyncio.subprocess.Process] | None = None
         self._ending: asyncio.Future[int] | None = None
@@ -140,7 +98,7 @@ class Worker:
     async def ask_now(
         self, request: object, answer: type[Answer], timeout_s: float, *, starts: bool = True
     ) -> Answer:
-        """As `ask`, for the holder of the `turn`."""
+        """As `ask`, for who holds the `turn`."""
         if not starts and not self._is_running:
             raise WorkerDiedError(self.name, await self._end())
         process = await self._ensure_process()
@@ -167,7 +125,7 @@ class Worker:
         return message
 
     async def close(self) -> None:
-        """End the process; safe to call twice. Running and waiting requests fail."""
+        """End the process; safe to call twice. Requests under way fail, and those that wait."""
         self._closes += 1
         if starting := self._starting:
             await asyncio.wait((starting,))
@@ -192,7 +150,7 @@ class Worker:
         try:
             process = await asyncio.shield(starting)
         except asyncio.CancelledError:
-            process = await starting  # else nothing would know of it and end it
+            process = await starting  # else nobody would know of it and end it
             if closes == self._closes:
                 self._process = process
             raise
@@ -220,11 +178,11 @@ class Worker:
         assert process.stdin is not None
         assert process.stdout is not None
         await process.stdin.drain()
-        (length,) = _LENGTH.unpack(await process.stdout.readexactly(_LENGTH.size))
+        (length,) = FRAME_LENGTH.unpack(await process.stdout.readexactly(FRAME_LENGTH.size))
         return await process.stdout.readexactly(length)
 
     async def _end(self) -> int | None:
-        """End the process, or wait for its end: the task that began to end it may be cancelled."""
+        """End the process, or wait until it has ended: whoever began to end it may be cancelled."""
         process, self._process = self._process, None
         if process is not None:
             self._ending = asyncio.ensure_future(_killed(process))
@@ -238,7 +196,7 @@ async def _killed(process: asyncio.subprocess.Process) -> int:
     with contextlib.suppress(ProcessLookupError):
         process.kill()
     assert process.stdout is not None
-    with contextlib.suppress(RuntimeError):  # the asker reads it already
+    with contextlib.suppress(RuntimeError):  # whoever asks reads it already
         await process.stdout.read()  # to its end, or asyncio holds the pipe for open
     return await process.wait()
 
@@ -270,7 +228,7 @@ async def _time_to_run(pid: int, timeout_s: float) -> AsyncGenerator[None]:
 
 
 def kept_waiting_s(pid: int) -> float:
-    """Return how long a process was ready to run but did not run, s; 0 where it is not counted.
+    """How long a process was ready to run while the machine ran others, s; 0 where nobody counts.
 
     Source: Linux, Documentation/scheduler/sched-stats (ns, of its first thread).
     """
@@ -284,15 +242,15 @@ def kept_waiting_s(pid: int) -> float:
 class WorkerPool:
     """Several workers of one kind for independent requests, each asked for one answer at a time.
 
-    Waiting requests are taken in turn by their owners. While some are slow the pool has one more
-    worker for each of them, which is ended when nobody waits.
+    Requests that wait are taken in turn by their owners. While some are slow the pool has a
+    worker more for each of them; it is ended when nobody waits.
 
     Args:
         size: Workers that stay.
         make: Makes the worker of that number.
-        most: Workers with those for slow requests; the last of them is only for owners without a
-            running request. No more than `size` when it is not given.
-        slow_s: A request that runs for longer is slow.
+        most: Workers with those for slow requests; the last of them is only for owners of whom
+            no request is under way. No more than `size` when it is not given.
+        slow_s: A request that is under way for longer is slow.
     """
 
     def __init__(
@@ -306,15 +264,15 @@ class WorkerPool:
         self._size, self._most, self._slow_s = size, max(size, most or size), slow_s
         self._free = [make(number) for number in range(size)]
         self._busy: dict[Worker, tuple[Hashable, float]] = {}
-        """The owner of the request that each works on, and since when, by the loop's clock."""
+        """Whose request each works on, and since when, by the loop's clock."""
         self._waiting: list[tuple[Hashable, asyncio.Future[Worker]]] = []
         self._turns: dict[Hashable, int] = {}
-        """Each owner's last turn, counted in turns of all."""
+        """When each owner's last turn was, counted in turns of all."""
         self._timer: asyncio.TimerHandle | None = None
 
     @property
     def workers(self) -> tuple[Worker, ...]:
-        """The present workers."""
+        """Those that are there now."""
         return (*self._busy, *self._free)
 
     async def warm(self) -> None:
@@ -342,7 +300,7 @@ class WorkerPool:
             await self._give_back(worker)
 
     async def close(self) -> None:
-        """End all processes. Running and waiting requests fail."""
+        """End all processes. Requests that wait fail, as those under way."""
         for _, turn in self._waiting:
             if not turn.done():
                 turn.set_exception(WorkerDiedError("pool", None))
@@ -396,7 +354,7 @@ class WorkerPool:
         return left < 1 or (left == 1 and self._most > self._size and owner in owners)
 
     def _may_grow(self) -> bool:
-        """Whether slow requests call for one more worker; if they may later, check again then."""
+        """Whether slow requests call for one more worker; if they may later, look again then."""
         loop = asyncio.get_running_loop()
         since = sorted(began_s for _, began_s in self._busy.values())
         slow_from_s = since[len(self._busy) - self._size] + self._slow_s
@@ -418,46 +376,3 @@ class WorkerPool:
         if worker in self._free and len(self._free) > self._size:
             self._free.remove(worker)
             await worker.close()
-
-
-def serve(codec: Codec, handle: Callable[[Any], object], memory_limit_bytes: int) -> None:
-    """Answer requests from stdin until it closes: all that a worker does.
-
-    What libraries print goes to stderr; only answers go to the pipe. An error that `handle` does
-    not turn into an answer ends the process, and the parent reports it.
-    """
-    ignore_interrupt()
-    requests, answers = _take_over_pipes()
-    limit_memory(memory_limit_bytes)
-    gc.set_threshold(_OBJECTS_WITHIN_REQUEST)
-    try:
-        answers.write(_UP)
-        answers.flush()
-        while (body := _read_message(requests)) is not None:
-            answers.write(codec.pack(handle(codec.unpack(body))))
-            answers.flush()
-            _clean_up()
-    except BrokenPipeError:  # the parent is gone; what is left to write would fail again at exit
-        os._exit(0)
-
-
-def _clean_up() -> None:
-    """Collect garbage while nobody waits: within a request it took 20 ms, seen as a stutter."""
-    if gc.get_count()[0] > _OBJECTS_KEPT:
-        gc.collect()
-
-
-def _take_over_pipes() -> tuple[BinaryIO, BinaryIO]:
-    """Keep the real stdout for answers, and point fd 1 at stderr for everyone else."""
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    return sys.stdin.buffer, answers
-
-
-def _read_message(stream: BinaryIO) -> bytes | None:
-    head = stream.read(_LENGTH.size)
-    if len(head) < _LENGTH.size:
-        return None
-    (length,) = _LENGTH.unpack(head)
-    body = stream.read(length)
-    return body if len(body) == length else None

@@ -33,7 +33,7 @@ from studio.description.values import (
     ReloadRequest,
     VerifyRequest,
 )
-from studio.workers import Codec
+from studio.worker_process import Codec
 
 Query: TypeAlias = PartOriginQuery | SiteEffectsQuery | CheckQuery | LanguageQuery
 Reply: TypeAlias = PartOrigin | SiteEffects | Checked | NoReply | LanguageReply

@@ -5,7 +5,7 @@ from __future__ import annotations
 from studio.description.requests import CODEC
 from studio.description.session import OpenSession
 from studio.settings import XACRO_MEMORY_BYTES
-from studio.workers import serve
+from studio.worker_process import serve
 
 
 def main() -> None:

@@ -44,10 +44,13 @@ class Services:
         self.validator = UrdfValidator()
         self.wire = RosConnection(settings.wire)
         self._spare = DescriptionWorker()
+        self._keeps_warm = False
+        """Whether processes are started before they are needed."""
         self._warming: set[asyncio.Task[None]] = set()
 
     async def start(self) -> None:
-        """Warm the workers in the background."""
+        """Warm the workers in the background, and a spare one after each that is taken."""
+        self._keeps_warm = True
         self._warm(self._spare.warm())
         self._warm(self._pool.warm())
 
@@ -61,13 +64,14 @@ class Services:
         await asyncio.to_thread(_import_rest)
 
     def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
-        """A worker of one document's own, warm where one was spare; the next spare is started.
+        """A worker of one document's own, warm where one was spare; the next spare is made.
 
         Args:
             opened: Waits for an opening, for so many seconds at most; the next spare starts then.
         """
         taken, self._spare = self._spare, DescriptionWorker()
-        self._warm(self._warm_spare(self._spare, opened))
+        if self._keeps_warm:
+            self._warm(self._warm_spare(self._spare, opened))
         return taken
 
     async def _warm_spare(self, spare: DescriptionWorker, opened: Opened | None) -> None:

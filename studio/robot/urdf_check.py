@@ -14,7 +14,7 @@ import yourdfpy
 
 from studio.errors import RobotError
 from studio.problems import Problem, Severity
-from studio.robot.worker_client import CheckAnswer
+from studio.robot.requests import CheckAnswer
 from studio.robot.xml_tree import parse_tree
 
 if TYPE_CHECKING:

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 import os
+import sys
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers run side by side, small arrays each
 
 from pathlib import Path
-from typing import assert_never
+from typing import Final, assert_never
 
 from studio.errors import MeshError, PackageError, UnreadableFileError
 from studio.robot.meshes.files import MeshFiles
 from studio.robot.meshes.loaded_mesh import MeshCache, pack_mesh
 from studio.robot.meshes.reading import read_mesh, read_textured
-from studio.robot.worker_client import (
+from studio.robot.requests import (
+    CODEC,
     CheckAnswer,
     CheckRequest,
     MeshAnswer,
     MeshFault,
     MeshRequest,
-    robot_codec,
 )
 from studio.settings import ROBOT_MEMORY_BYTES
-from studio.workers import serve
+from studio.worker_process import serve
 
+_LEFT_OUT: Final = ("networkx", "scipy", "shapely")
+"""What trimesh imports where it is there, for geometry that no request asks for. Without it
+yourdfpy is imported in less than half of the time."""
 _INLINE_BYTES = 64 << 10
 """Up to this size the pipe is as quick as the file."""
 
@@ -34,7 +38,7 @@ def handle(request: MeshRequest | CheckRequest) -> MeshAnswer | MeshFault | Chec
         case MeshRequest():
             return _read(request)
         case CheckRequest():
-            from studio.robot.urdf_check import check_urdf  # noqa: PLC0415 - takes half a second
+            from studio.robot.urdf_check import check_urdf  # noqa: PLC0415 - takes long
 
             return check_urdf(request.urdf)
         case _:
@@ -59,4 +63,6 @@ def _read(request: MeshRequest) -> MeshAnswer | MeshFault:
 
 
 if __name__ == "__main__":
-    serve(robot_codec(), handle, ROBOT_MEMORY_BYTES)
+    for package in _LEFT_OUT:
+        sys.modules[package] = None  # pyright: ignore[reportArgumentType] - as if not installed
+    serve(CODEC, handle, ROBOT_MEMORY_BYTES)

@@ -1,71 +1,20 @@
-"""The studio's side of the robot worker: its requests and answers, its processes, validation."""
+"""The studio's side of the robot worker: its processes, validation."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from studio.errors import WorkerError
 from studio.problems import Problem, Severity
+from studio.robot.requests import CODEC, CheckAnswer, CheckRequest
 from studio.settings import mesh_worker_count
-from studio.workers import Codec, Worker, WorkerPool
+from studio.workers import Worker, WorkerPool
 
 _MODULE = "studio.robot.worker"
 _TIMEOUT_S = 20.0
 
 
-@dataclass(frozen=True, slots=True)
-class MeshRequest:
-    """Read a mesh and put it into the cache."""
-
-    path: str
-    roots: tuple[str, ...]
-    cache_folder: str
-    shape: str = ""
-    """For an image: the primitive that it is put on; empty for a mesh file."""
-
-
-@dataclass(frozen=True, slots=True)
-class MeshAnswer:
-    """The mesh as `pack_mesh` packs it; empty when it is in the cache under `name`."""
-
-    name: str
-    blob: bytes
-
-
-@dataclass(frozen=True, slots=True)
-class MeshFault:
-    """Why a mesh cannot be shown; `kind` is the class name of the error."""
-
-    kind: str
-    subject: str
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
-class CheckRequest:
-    """Parse and validate an expanded URDF."""
-
-    urdf: str
-
-
-@dataclass(frozen=True, slots=True)
-class CheckAnswer:
-    """What yourdfpy makes of a URDF; the names are empty when it cannot read it at all."""
-
-    links: tuple[str, ...]
-    actuated_joints: tuple[str, ...]
-    base_link: str
-    problems: tuple[Problem, ...]
-
-
-def robot_codec() -> Codec:
-    """The codec of both ends of the robot worker's pipe."""
-    return Codec(MeshRequest, MeshAnswer, MeshFault, CheckRequest, CheckAnswer)
-
-
 def robot_worker(name: str) -> Worker:
     """Return a worker process that starts at its first request."""
-    return Worker(name, _MODULE, robot_codec())
+    return Worker(name, _MODULE, CODEC)
 
 
 def mesh_pool(size: int | None = None) -> WorkerPool:

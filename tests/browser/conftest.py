@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.shared_tab import SharedTab, shared_tab
+from tests.support.shared_tab import SharedDemo, SharedTab, shared_demo, shared_tab
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -16,10 +16,17 @@ if TYPE_CHECKING:
     from tests.support.studio_page import StudioPage
 
 
+@pytest.fixture(scope="session")
+def demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SharedDemo]:
+    """One running studio for all files that need no other."""
+    with shared_demo(tmp_path_factory.mktemp("studio") / "data") as made:
+        yield made
+
+
 @pytest.fixture(scope="module")
-def shared(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[SharedTab]:
-    """One studio and one tab for a file of tests."""
-    with shared_tab(browser, tmp_path_factory.mktemp("studio") / "data") as made:
+def shared(browser: Browser, demo: SharedDemo) -> Iterator[SharedTab]:
+    """One tab for a file of tests."""
+    with shared_tab(browser, demo) as made:
         yield made
 
 

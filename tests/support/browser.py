@@ -10,6 +10,7 @@ import os
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -57,12 +58,13 @@ def find_chromium() -> Path | None:
             return Path(named)
         message = f"STUDIO_CHROMIUM={named} is no Chromium that runs: name another or unset it."
         raise NoChromiumError(message)
-    found = [Path(path) for name in NAMES if (path := shutil.which(name))]
-    return next((path for path in (*found, _playwright_chromium()) if _answers(path)), None)
+    found = (Path(path) for name in NAMES if (path := shutil.which(name)))
+    return next((path for path in found if _answers(path)), None) or _playwright_chromium()
 
 
+@cache
 def ensure_chromium() -> Path:
-    """Find Chromium, or install it.
+    """Find Chromium, or install it; a process does so once.
 
     Raises:
         NoChromiumError: Neither could be done.
@@ -88,10 +90,11 @@ def open_browser() -> Iterator[Browser]:
         browser.close()
 
 
-def _playwright_chromium() -> Path:
-    """Where `playwright install chromium` would put it, there or not."""
+def _playwright_chromium() -> Path | None:
+    """The one of `playwright install chromium`."""
     with sync_playwright() as playwright:
-        return Path(playwright.chromium.executable_path)
+        path = Path(playwright.chromium.executable_path)
+    return path if _answers(path) else None
 
 
 def _answers(path: Path) -> bool:

@@ -51,10 +51,9 @@ class Ear:
 
 @asynccontextmanager
 async def engine(data_folder: Path, *package_paths: Path) -> AsyncGenerator[Engine]:
-    """An engine that is closed with the block."""
+    """An engine that is closed with the block; no worker process is started before it is needed."""
     data_folder.mkdir(parents=True, exist_ok=True)
     made = Engine(Settings(data_folder=data_folder, package_paths=package_paths))
-    await made.start()
     try:
         yield made
     finally:

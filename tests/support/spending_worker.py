@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-from studio.workers import Codec, serve
+from studio.worker_process import Codec, serve
 
 
 @dataclass(frozen=True)

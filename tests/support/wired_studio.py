@@ -54,7 +54,6 @@ async def studio(endpoint: str, folder: Path) -> AsyncGenerator[Studio]:
     settings = Settings(data_folder=folder / "data", wire=WireChoice("off", (endpoint,)))
     settings.data_folder.mkdir(exist_ok=True)
     made = Engine(settings)
-    await made.start()
     try:
         document, ear = await opened(made, file)
         made.attach(ear)

@@ -7,10 +7,10 @@ from collections import Counter
 from itertools import count
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Final
-from xml.sax.saxutils import quoteattr
 
 from studio.description.evaluator.output_tree import write_xml
 from studio.description.faults import shorten
+from studio.description.syntax.attribute_spans import quoted
 from studio.description.syntax.mends import ElementMends
 from studio.description.syntax.source_tree import SourceElement, SourceText
 from studio.description.values import SiteKind
@@ -62,7 +62,7 @@ def _differing_materials(run: CheckedRun) -> Iterator[Problem]:
         if known is not element and _look(known) != _look(element):
             reported.add(name)
             sentence = (
-                f"The material {quoteattr(name)} is defined in line {known.origin.line} with "
+                f"The material {quoted(name)} is defined in line {known.origin.line} with "
                 "another look, which counts for both: give one of them a name of its own."
             )
             short = shorten(sentence, 480)

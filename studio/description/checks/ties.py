@@ -6,12 +6,13 @@ import re
 from collections import Counter
 from difflib import get_close_matches
 from functools import cached_property
+from html import escape
 from itertools import islice
 from typing import TYPE_CHECKING, Final, NamedTuple
-from xml.sax.saxutils import escape, quoteattr
 
 from studio.description.evaluator.output_tree import write_xml
 from studio.description.faults import shorten
+from studio.description.syntax.attribute_spans import quoted
 from studio.description.syntax.mends import ElementMends
 from studio.problems import Severity
 
@@ -137,7 +138,7 @@ class Holding:
         if not self._is_alone(joint) or _said(joint) != _said(first):
             return None
         named = re.findall(
-            rf"(?<!\w){re.escape(escape(joint.name))}(?!\w)", write_xml(self._run.root)
+            rf"(?<!\w){re.escape(escape(joint.name, quote=False))}(?!\w)", write_xml(self._run.root)
         )
         if len(named) != 1:
             return None
@@ -155,7 +156,7 @@ class Holding:
         if not meant or not is_inside or not self._is_alone(joint):
             return
         mends = ElementMends(there.origin)
-        xml = f"<{role} link={quoteattr(meant)}/>"
+        xml = f"<{role} link={quoted(meant)}/>"
         edit = mends.before(xml) if role == "parent" else mends.after(xml)
         sentence = f'joint "{joint.name}" has no <{role}>: write one.'
         fix = mends.fix(f'Write {role} "{meant}"', edit)
@@ -277,9 +278,7 @@ def _link_fix(tie: _Tie) -> Fix | None:
         return None
     written = tie.end.origin.attributes["link"]
     mends = ElementMends(tie.joint.origin)
-    return mends.fix(
-        f'Add the link "{tie.link}"', mends.before(f"<link name={quoteattr(written)}/>")
-    )
+    return mends.fix(f'Add the link "{tie.link}"', mends.before(f"<link name={quoted(written)}/>"))
 
 
 def _several_roots(
@@ -342,8 +341,8 @@ def _held(link: SourceElement, base: str) -> Replacement | None:
     if name is None:
         return None
     xml = (
-        f'<joint name={quoteattr(f"{name}_joint")} type="fixed"><parent link={quoteattr(base)}/>'
-        f"<child link={quoteattr(name)}/></joint>"
+        f'<joint name={quoted(f"{name}_joint")} type="fixed"><parent link={quoted(base)}/>'
+        f"<child link={quoted(name)}/></joint>"
     )
     return ElementMends(link).after(xml)
 

@@ -130,6 +130,15 @@ def attribute_bytes(text: str, quote: str, encoding: str = "utf-8") -> bytes:
     forbidden = _NOT_XML.search(text)
     if forbidden is not None:
         raise EditError(f"The character {forbidden[0]!r} cannot stand in XML: leave it out.")
+    return _escaped(text, quote).encode(encoding, "xmlcharrefreplace")
+
+
+def quoted(text: str) -> str:
+    """`text` as the value of an attribute, in double quotes."""
+    quote = '"'
+    return f"{quote}{_escaped(text, quote)}{quote}"
+
+
+def _escaped(text: str, quote: str) -> str:
     escapes = {**_ESCAPES, quote: _QUOTES[quote]}
-    escaped = "".join(escapes.get(character, character) for character in text)
-    return escaped.encode(encoding, "xmlcharrefreplace")
+    return "".join(escapes.get(character, character) for character in text)

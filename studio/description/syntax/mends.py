@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import re
 from typing import TYPE_CHECKING, Final
-from xml.sax.saxutils import quoteattr
 
-from studio.description.syntax.attribute_spans import attribute_spans
+from studio.description.syntax.attribute_spans import attribute_bytes, attribute_spans, quoted
 from studio.errors import EditError
 from studio.problems import Fix, Replacement
 
@@ -91,18 +90,19 @@ class ElementMends:
         """Return an edit that changes the literal value of an attribute."""
         try:
             span = attribute_spans(self._tree.data, self._element.offset).get(name)
+            if span is None or self.written(name) is None or span.start == span.end:
+                return None
+            written = attribute_bytes(text, span.syntax).decode()
         except EditError:
             return None
-        if span is None or self.written(name) is None or span.start == span.end:
-            return None
-        return self._mends.replaced(span.start, span.end, quoteattr(text)[1:-1])
+        return self._mends.replaced(span.start, span.end, written)
 
     def attribute(self, name: str, text: str) -> Replacement | None:
         """Return an edit that adds an attribute, right behind the element's name."""
         start, tag = self._element.offset + 1, self._element.tag.encode()
         if not self._tree.data.startswith(tag, start):
             return None
-        return self._mends.put_in(start + len(tag), f" {name}={quoteattr(text)}")
+        return self._mends.put_in(start + len(tag), f" {name}={quoted(text)}")
 
     def attribute_name(self, name: str, other: str) -> Replacement | None:
         """Return an edit that renames an attribute."""

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from typing import TYPE_CHECKING, Final
-from xml.sax.saxutils import quoteattr
 
-from studio.description.syntax.attribute_spans import attribute_spans
+from studio.description.syntax.attribute_spans import attribute_bytes, attribute_spans, quoted
 from studio.description.syntax.source_tree import SourceElement, SourceError, parse_source
 from studio.errors import EditError
 from studio.problems import Fix, Replacement
@@ -137,13 +136,15 @@ def _set(element: SourceElement, texts: tuple[tuple[str, str], ...]) -> Iterator
     missing = [(name, text) for name, text in texts if name not in spans]
     for name, text in texts:
         if name in spans:
-            yield _replaced(element, spans[name], quoteattr(text)[1:-1])
+            yield _replaced(
+                element, spans[name], attribute_bytes(text, spans[name].syntax).decode()
+            )
     if missing:
         tag = _TAG_NAME.match(element.tree.data, element.offset)
         if tag is None:
             raise EditError(f"{element.place}: no tag starts here: reload the file.")
         written = tag[0].decode(element.tree.encoding)
-        added = "".join(f" {name}={quoteattr(text)}" for name, text in missing)
+        added = "".join(f" {name}={quoted(text)}" for name, text in missing)
         yield Replacement(element.tree.path, *tag.span(), written, written + added)
 
 

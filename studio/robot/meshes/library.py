@@ -17,7 +17,7 @@ from studio.errors import (
 from studio.packages.roots import ServedRoots
 from studio.robot.meshes.files import content_digest
 from studio.robot.meshes.loaded_mesh import MeshCache, unpack_mesh
-from studio.robot.worker_client import MeshAnswer, MeshFault, MeshRequest
+from studio.robot.requests import MeshAnswer, MeshFault, MeshRequest
 from studio.settings import MESH_SIZE_LIMIT_BYTES, MESH_TIMEOUT_S
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ from studio.robot.meshes.files import MeshFiles
 from studio.robot.meshes.library import MeshLibrary
 from studio.robot.meshes.loaded_mesh import MeshCache, pack_mesh, unpack_mesh
 from studio.robot.meshes.reading import read_mesh
-from studio.robot.worker_client import MeshAnswer, MeshFault, MeshRequest, mesh_pool
+from studio.robot.requests import MeshAnswer, MeshFault, MeshRequest
+from studio.robot.worker_client import mesh_pool
 from tests.support.meshes import TETRAHEDRON, dae, diffuse, png, stl, texture_effect
 from tests.support.open_documents import until
 
