@@ -11,12 +11,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from studio.packages.recent import RecentFiles
 from tests.support.server import running_studio
 from tests.support.studio_page import VIEWPORT, StudioPage, studio_context
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from httpx2 import Client
     from playwright.sync_api import Browser
 
     from tests.support.server import RunningStudio
@@ -39,41 +41,52 @@ class SharedTab:
     def __init__(self, browser: Browser, demo: SharedDemo) -> None:
         self._studio, self.data = demo
         self._context = studio_context(browser)
-        self._page = self._context.new_page()
+        self.page = self._context.new_page()
 
     def anew(self) -> RunningStudio:
         """The studio, in which nobody has done anything yet."""
-        self._leave()
-        with self._studio.client() as client:
-
-            def do(**command: str | bool) -> None:
-                client.post("/api/commands", json=command).raise_for_status()
-
-            for document in client.get("/api/documents").json()["documents"]:
-                do(type="close_document", document=document["id"], discard=True)
+        with self._emptied() as client:
             self._restore()
-            do(type="open_path", path=str(self.data / "models" / PACKAGE / ENTRY))
+            _do(client, type="open_path", path=str(self.data / "models" / PACKAGE / ENTRY))
         return self._studio
 
-    def opened(self, *, view: bool = True) -> StudioPage:
+    def instead(self, path: Path, **arguments: str) -> str:
+        """Open another file instead of the demo, wherever it lies; its address."""
+        # What was opened before may be opened again.
+        RecentFiles(self.data).note(str(path), path.name, arguments, 0.0)
+        with self._emptied() as client:
+            events = _do(client, type="open_path", path=str(path), arguments=arguments)
+        (name,) = (one["document"] for one in events if one["type"] == "opened")
+        return f"{self._studio.origin}/d/{name}?token={self._studio.token}"
+
+    def opened(self, url: str = "", *, view: bool = True) -> StudioPage:
         """The tab, in which the robot is drawn; without the 3D view, it is listed."""
-        tab = StudioPage(self._page)
-        tab.open(self._studio.url, view=view)
+        tab = StudioPage(self.page)
+        tab.open(url or self._studio.url, view=view)
         return tab
 
     def close(self) -> None:
         self._context.close()
 
+    @contextmanager
+    def _emptied(self) -> Generator[Client]:
+        """A client of the studio, in which nothing is open any more."""
+        self._leave()
+        with self._studio.client() as client:
+            for document in client.get("/api/documents").json()["documents"]:
+                _do(client, type="close_document", document=document["id"], discard=True)
+            yield client
+
     def _leave(self) -> None:
         """The browser forgets everything but what programs and pictures of the page it has."""
         for other in self._context.pages:
-            if other is not self._page:
+            if other is not self.page:
                 other.close()
-        self._page.goto("about:blank")
-        self._page.set_viewport_size(VIEWPORT)
+        self.page.goto("about:blank")
+        self.page.set_viewport_size(VIEWPORT)
         self._context.clear_cookies()
         kept = {"origin": self._studio.origin, "storageTypes": "all"}
-        session: Any = self._context.new_cdp_session(self._page)
+        session: Any = self._context.new_cdp_session(self.page)
         session.send("Storage.clearDataForOrigin", kept)
         session.detach()
 
@@ -84,6 +97,11 @@ class SharedTab:
             there = copy / path.relative_to(shipped)
             if path.is_file() and there.read_bytes() != path.read_bytes():
                 shutil.copyfile(path, there)
+
+
+def _do(client: Client, **command: Any) -> list[dict[str, Any]]:  # noqa: ANN401
+    """What the studio answers to a command."""
+    return client.post("/api/commands", json=command).raise_for_status().json()["events"]
 
 
 @contextmanager
