@@ -5,18 +5,19 @@ from __future__ import annotations
 import base64
 import io
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 from PIL import Image, ImageStat
 
-from tests.support.studio_page import VIEWPORT, StudioPage, wait_until
+from tests.support.studio_page import VIEWPORT, StudioPage, studio_context, wait_until
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, FloatRect, Locator
+    from collections.abc import Iterator
 
-    from tests.support.server import RunningStudio
+    from playwright.sync_api import Browser, FloatRect, Locator, ViewportSize
 
+    from tests.support.shared_tab import SharedDemo, SharedTab
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
@@ -39,15 +40,36 @@ _SAY_SLOW = """async () => {
   state.graphicsChoice.value = "automatic";
   state.graphics.value = { ...state.graphics.value, light: true };
 }"""
+_FIRST_LAYOUT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  (await import(new URL("../lib/commands.js", script))).commandById("layout.0").run();
+}"""
 _DARK_BY_CHOICE = """try { localStorage.setItem("studio.theme", '"dark"'); } catch {}"""
+_LOGGED_OUT = "Open the address that the studio prints"
 _DARK = 100
 """Brightness that the 3D view stays below, with a robot in it."""
+_WINDOW: Final[ViewportSize] = {"width": 1000, "height": 600}
+_RECORDED_WIDTH: Final = 250
+
+
+@pytest.fixture(scope="module")
+def opened(shared: SharedTab) -> StudioPage:
+    """One tab, with an empty 3D view."""
+    shared.anew()
+    return shared.opened(view=False)
 
 
 @pytest.fixture
-def tab(tab: StudioPage) -> StudioPage:
-    wait_until("the source", lambda: tab.page.locator(".cm-line").count() > 0)
-    return tab
+def tab(shared: SharedTab, opened: StudioPage) -> Iterator[StudioPage]:
+    """That tab, with its panels where they were at first."""
+    if opened.page.get_by_text(_LOGGED_OUT).count():
+        shared.opened(view=False)
+        opened.errors.clear()
+    opened.page.set_viewport_size(VIEWPORT)
+    opened.page.evaluate(_FIRST_LAYOUT)
+    opened.page.locator(".cm-line").first.wait_for()
+    yield opened
+    assert opened.errors == []
 
 
 def panel_tab(tab: StudioPage, name: str) -> Locator:
@@ -72,7 +94,6 @@ def first_line(tab: StudioPage) -> str:
     return tab.page.locator(".cm-line").first.inner_text()
 
 
-@pytest.mark.without_view
 def test_tab_walks_through_the_source_until_one_has_begun_to_edit(tab: StudioPage):
     wait_until("the text", lambda: first_line(tab) != "")
     before = first_line(tab)
@@ -90,6 +111,8 @@ def test_tab_walks_through_the_source_until_one_has_begun_to_edit(tab: StudioPag
     tab.page.keyboard.press("Escape")
     tab.page.keyboard.press("Tab")
     assert not focus_is_in_editor(tab)
+    tab.page.get_by_role("button", name="Undo", exact=True).click()
+    wait_until("the text of before", lambda: first_line(tab) == before)
 
 
 def scroll_down(tab: StudioPage, scroller: Locator) -> float:
@@ -107,7 +130,6 @@ def scroll_down(tab: StudioPage, scroller: Locator) -> float:
         ("Properties", "Joints", '[aria-label="Properties"] > .scroll'),
     ],
 )
-@pytest.mark.without_view
 def test_a_panel_comes_back_where_it_was_scrolled_to(
     tab: StudioPage, panel: str, other: str, scroller: str
 ):
@@ -121,7 +143,6 @@ def test_a_panel_comes_back_where_it_was_scrolled_to(
     wait_until("where it was", lambda: place.evaluate("one => one.scrollTop") == where)
 
 
-@pytest.mark.without_view
 def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
     tab.page.get_by_role("button", name="Settings").click()
     tab.page.get_by_role("menuitemradio", name="Deutsch").click()
@@ -129,9 +150,11 @@ def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
     for width in (1600, 1280, 1024, 760):
         tab.page.set_viewport_size({"width": width, "height": 720})
         wait_until(f"whole tabs at {width} px", lambda: tab.page.evaluate(_CUT_TABS) == [])
+    tab.page.get_by_role("button", name="Einstellungen").click()
+    tab.page.get_by_role("menuitemradio", name="English").click()
+    tab.page.locator("html[lang=en]").wait_for()
 
 
-@pytest.mark.without_view
 def test_tabs_that_do_not_fit_are_in_a_menu_at_their_end(tab: StudioPage):
     tab.page.get_by_role("button", name="Live", exact=True).click()
     more = tab.page.get_by_role("button", name="More tabs").locator("visible=true").first
@@ -146,13 +169,13 @@ def in_front(tab: StudioPage, name: str) -> bool:
     return panel_tab(tab, name).get_attribute("aria-selected") == "true"
 
 
-@pytest.mark.without_view
 def test_the_menu_of_panels_begins_with_the_layouts_and_groups_the_panels(tab: StudioPage):
     tab.page.get_by_role("button", name="Panels and layouts").click()
     lines = tab.page.get_by_role("menu").inner_text().split("\n")
     assert lines[:3] == ["Layouts", "Model", "Live"]
     headings = ["Robot", "Files and problems", "ROS 2: look", "ROS 2: act", "Learn"]
     assert [one for one in lines if one in headings] == headings
+    tab.page.keyboard.press("Escape")
 
 
 def test_no_notice_covers_an_error_of_the_3d_view(tab: StudioPage):
@@ -171,14 +194,18 @@ def test_no_notice_covers_an_error_of_the_3d_view(tab: StudioPage):
     assert above["y"] + above["height"] <= below["y"]
     error.get_by_role("button", name="Undo edit").click()
     error.wait_for(state="detached")
+    tab.page.get_by_role("status").filter(has=slow).get_by_role("button", name="Dismiss").click()
+    slow.wait_for(state="detached")
 
 
 def test_the_3d_view_is_never_white_while_it_opens_in_the_dark_theme(
-    browser: Browser, studio: RunningStudio
+    browser: Browser, opened: StudioPage, demo: SharedDemo
 ):
-    context = browser.new_context(viewport=VIEWPORT, color_scheme="light")
+    del opened  # which has the demo open
+    context = studio_context(browser)
     context.add_init_script(_DARK_BY_CHOICE)
     tab = StudioPage(context.new_page())
+    tab.page.set_viewport_size(_WINDOW)
     recording: Any = context.new_cdp_session(tab.page)
     pictures: list[str] = []
 
@@ -187,9 +214,9 @@ def test_the_3d_view_is_never_white_while_it_opens_in_the_dark_theme(
         recording.send("Page.screencastFrameAck", {"sessionId": event["sessionId"]})
 
     recording.on("Page.screencastFrame", keep)
-    recording.send("Page.startScreencast", {"format": "png"})
+    recording.send("Page.startScreencast", {"format": "jpeg", "maxWidth": _RECORDED_WIDTH})
     try:
-        tab.open(studio.url)
+        tab.open(demo.studio.url)
         place = tab.page.locator("iframe").bounding_box()
         assert place is not None
         seen = [brightness(one, place) for one in pictures]
@@ -202,13 +229,15 @@ def test_the_3d_view_is_never_white_while_it_opens_in_the_dark_theme(
 
 def brightness(picture: str, place: FloatRect) -> float:
     """Of the middle of a place in a recorded picture, from 0 to 255."""
-    left, top = int(place["x"] + place["width"] / 4), int(place["y"] + place["height"] / 4)
-    right, bottom = left + int(place["width"] / 2), top + int(place["height"] / 2)
+    scale = _RECORDED_WIDTH / _WINDOW["width"]
+    left, top = place["x"] + place["width"] / 4, place["y"] + place["height"] / 4
+    right, bottom = left + place["width"] / 2, top + place["height"] / 2
+    middle = (int(left * scale), int(top * scale), int(right * scale), int(bottom * scale))
     with Image.open(io.BytesIO(base64.b64decode(picture))) as image:
-        return ImageStat.Stat(image.convert("L").crop((left, top, right, bottom))).mean[0]
+        assert image.width == _RECORDED_WIDTH
+        return ImageStat.Stat(image.convert("L").crop(middle)).mean[0]
 
 
-@pytest.mark.without_view
 def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):
     tab.page.set_viewport_size({"width": 390, "height": 844})
     bar = tab.page.get_by_role("navigation", name="Panels")
@@ -218,7 +247,6 @@ def test_every_panel_has_a_way_on_a_phone(tab: StudioPage):
     wait_until("its name in the bar", lambda: "Source" in bar.inner_text())
 
 
-@pytest.mark.without_view
 def test_a_link_that_is_selected_in_the_tree_stays_in_view_above_its_details(tab: StudioPage):
     row = tab.page.get_by_role("treeitem", name="upper_arm", exact=True)
     row.click()
@@ -235,10 +263,10 @@ def top_of(one: Locator) -> float:
     return float(one.evaluate("one => one.getBoundingClientRect().top"))
 
 
-@pytest.mark.without_view
-def test_who_logs_everybody_out_is_told_how_to_come_back(tab: StudioPage):
+def test_who_logs_everybody_out_is_told_how_to_come_back(opened: StudioPage):
+    tab = opened  # which complains that it is refused
     tab.page.keyboard.press("Control+k")
     tab.page.keyboard.type("log everybody out")
     tab.page.get_by_role("option", name="Log everybody out").click()
     tab.page.get_by_role("button", name="Log out", exact=True).click()
-    tab.page.get_by_text("Open the address that the studio prints").wait_for()
+    tab.page.get_by_text(_LOGGED_OUT).wait_for()
