@@ -328,8 +328,8 @@ class DisplayPropertyError(DisplayError):
     """A property of a display is not there, or does not take a value."""
 
     def __init__(self, name: str, takes: str, value: object) -> None:
-        said = "" if value is None else f", not {str(value)[:60]!r}"
-        super().__init__(f"{name} {takes}{said}.")
+        given = "" if value is None else f", not {str(value)[:60]!r}"
+        super().__init__(f"{name} {takes}{given}.")
         self.name, self.takes, self.value = name, takes, value
 
 
@@ -721,9 +721,9 @@ class DestroyedError(NodeError):
 class RosArgumentError(NodeError):
     """An argument after `--ros-args` cannot be read."""
 
-    def __init__(self, word: str, reason: str) -> None:
-        super().__init__(f'The argument "{word[:200]}" is not understood: {reason}.')
-        self.word, self.reason = word, reason
+    def __init__(self, argument: str, reason: str) -> None:
+        super().__init__(f'The argument "{argument[:200]}" is not understood: {reason}.')
+        self.argument, self.reason = argument, reason
 
 
 class OtherTypeError(NodeError):
@@ -765,9 +765,9 @@ class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy
 class CallRefusedError(CallError):
     """A server answered a request with an error, which nodes on rmw_zenoh never do."""
 
-    def __init__(self, name: str, said: str) -> None:
-        super().__init__(f'The service {name} refused the request: "{said}".')
-        self.name, self.said = name, said
+    def __init__(self, name: str, reply: str) -> None:
+        super().__init__(f'The service {name} refused the request: "{reply}".')
+        self.name, self.reply = name, reply
 
 
 class ForeignAnswerError(CallError):

@@ -210,16 +210,16 @@ async def _time_to_run(pid: int, timeout_s: float) -> AsyncGenerator[None]:
     loop = asyncio.get_running_loop()
     began, had_waited = loop.time(), kept_waiting_s(pid)
 
-    def look() -> None:
+    def check() -> None:
         nonlocal timer
         kept_s = min(kept_waiting_s(pid) - had_waited, _PATIENCE * timeout_s)
         left_s = began + timeout_s + kept_s - loop.time()
         if left_s > 0.01:
-            timer = loop.call_later(left_s, look)
+            timer = loop.call_later(left_s, check)
         else:
             limit.reschedule(loop.time())
 
-    timer = loop.call_later(timeout_s, look)
+    timer = loop.call_later(timeout_s, check)
     try:
         async with asyncio.timeout(None) as limit:
             yield

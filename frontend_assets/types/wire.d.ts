@@ -491,7 +491,7 @@ export interface DisplayView {
   reliable: boolean;
   latched: boolean;
   depth: number;
-  wished: ListeningWish;
+  wished: ListeningView;
   values: Record<string, boolean | number | string>;
   more: PropertyView[];
 }
@@ -1410,7 +1410,7 @@ export interface ListTopics {
 }
 
 /** QoS that a display asks for; None: as fits the publishers of its topic. */
-export interface ListeningWish {
+export interface ListeningView {
   reliable: boolean | null;
   latched: boolean | null;
   depth: number | null;
@@ -1466,7 +1466,7 @@ export interface LookUp {
   type: "look_up";
 }
 
-/** One macro on the way to a place: its name and where it was called. */
+/** One macro call on the way to a place: its name and where it was called. */
 export interface MacroCall {
   macro: string;
   called_at: Place;
@@ -1496,7 +1496,7 @@ export interface Masses {
   links: LinkMassView[];
 }
 
-/** What a word stands for; [start, end) is the word. */
+/** The meaning of a name; [start, end) is the name. */
 export interface Meaning {
   kind: SubjectKind;
   name: string;
@@ -1687,7 +1687,7 @@ export interface OriginCause {
   inputs: number[];
 }
 
-/** One value behind a number. `inputs` are what it was made of itself, as indices. */
+/** One value behind a number. `inputs` are those that it was made of itself, as indices. */
 export interface OriginInput {
   kind: InputKind;
   name: string;
@@ -1699,7 +1699,7 @@ export interface OriginInput {
   inputs: number[];
 }
 
-/** What the files of a run hold; `is_current`: the texts have not changed since. */
+/** Outline of the files of a run; `is_current`: the texts have not changed since. */
 export interface Outline {
   files: OutlineFile[];
   macros: OutlineMacro[];
@@ -1879,7 +1879,7 @@ export interface PressKey {
  * One finding. `sentence` stands alone; `code` is stable, kebab-case, for tests and tools.
  *
  * `include_chain` runs from the opened file down to (not including) `place`; `macro_stack` from
- * the outermost call to the innermost. `parts` are what is to be shown of the robot, by part key:
+ * the outermost call to the innermost. `parts` are the parts of the robot to show, by part key:
  * `link:<name>`, `joint:<name>`.
  */
 export interface Problem {
@@ -2146,10 +2146,10 @@ export interface ReplaceTexts {
 }
 
 /**
- * The bytes [start, end) of a file as it is edited now, which say `before`, become `text`.
+ * Replaces the bytes [start, end) of an edited file, which are `before`, by `text`.
  *
- * Both are raw text, escaped as they stand in the file. `before` is never empty: what is only put
- * in repeats what it stands beside, so that a place that has moved is noticed.
+ * Both are raw text, escaped as in the file. `before` is never empty: an insertion repeats a text
+ * beside it, so that a place that has moved is noticed.
  */
 export interface Replacement {
   file: string;
@@ -2370,7 +2370,7 @@ export interface SetParameter {
 }
 
 /**
- * How much a Problem hinders.
+ * How serious a Problem is.
  *
  * An error keeps the last good model, or ROS rejects the robot for it; a warning does neither, and
  * something will not work as it is written; the rest is worth knowing.
@@ -2383,7 +2383,7 @@ export interface Side {
   name: string;
 }
 
-/** What an editable text is in its file. */
+/** Kind of an editable text in its file. */
 export type SiteKind = "arg" | "property" | "yaml" | "param_default" | "literal";
 
 /** One editable text, as a property row shows it. */
@@ -2439,7 +2439,7 @@ export interface StopPublishing {
   operation?: number;
 }
 
-/** What a word in a text stands for. */
+/** Kind of the thing at a place in a text. */
 export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
 
 /** Show or hide displays: one, or all of a group. */
@@ -2706,7 +2706,7 @@ export interface Watch {
   type: "watch";
 }
 
-/** How to turn a site; `minimum`, `maximum` and `step` are in `unit`, the unit of the file. */
+/** Editing control of a site; `minimum`, `maximum` and `step` are in `unit`, the file's unit. */
 export interface Widget {
   kind: WidgetKind;
   minimum: number | null;
@@ -2718,7 +2718,7 @@ export interface Widget {
   annotated: boolean;
 }
 
-/** How a site is best turned: `VECTOR` is two or more numbers separated by blanks. */
+/** How a site is edited: `VECTOR` is two or more numbers separated by blanks. */
 export type WidgetKind = "slider" | "switch" | "choice" | "vector" | "text";
 
 /** What of a document's robot comes from the wire, and what goes there. */

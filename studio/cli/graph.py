@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 _NamesOf: TypeAlias = "Callable[[Graph], list[tuple[str, list[str]]]]"
-_FIRST_NEWS_S = 1.0
+_FIRST_TOKENS_S = 1.0
 _QUIET_S = 0.1
 
 
@@ -61,7 +61,7 @@ def settle(graph: Graph, options: argparse.Namespace) -> None:
     """Take in what stands, and for `--spin-time` what comes."""
     graph.settle()
     # A router that was just joined sends the tokens in parts, and at first perhaps none.
-    graph.wait_for(lambda: graph.version > 0, _FIRST_NEWS_S)
+    graph.wait_for(lambda: graph.version > 0, _FIRST_TOKENS_S)
     seen = -1
     while seen != graph.version:
         seen = graph.version
@@ -143,14 +143,14 @@ def print_listing(found: list[tuple[str, list[str]]], options: argparse.Namespac
         print(f"{name} [{', '.join(types)}]" if options.show_types else name)
 
 
-def say_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]]]) -> None:
+def print_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]]]) -> None:
     """Say on stderr that a name has other types than the one that is meant: they never meet."""
     types = dict(found).get(name)
     if types and wanted not in types:
         print(f"WARNING: {name} has the type {', '.join(types)}, not {wanted}", file=sys.stderr)
 
 
-def say_unknown(what: str, name: str) -> int:
+def print_unknown(what: str, name: str) -> int:
     """Print that nothing has a name; return ros2's exit code."""
     print(f"Unknown {what} '{name}'", file=sys.stderr)
     return 1

@@ -122,11 +122,11 @@ def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
             if is_pasted(path)
             else texts_at(path.expanduser().absolute())
         )
-        say_faults(library.add_sound_texts(found).values())
+        print_faults(library.add_sound_texts(found).values())
     return library
 
 
-def say_faults(faults: Iterable[InterfaceTextError]) -> None:
+def print_faults(faults: Iterable[InterfaceTextError]) -> None:
     """Say on stderr which texts define no type, and why."""
     for fault in faults:
         print(f"WARNING: {harmless(str(fault))}", file=sys.stderr)

@@ -39,11 +39,11 @@ examples:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; return its exit code: 0 where it has none, 2 after a sentence on stderr."""
-    words = sys.argv[1:] if argv is None else list(argv)
+    arguments = sys.argv[1:] if argv is None else list(argv)
     options = argparse.Namespace()
     take_any_letters()
     try:
-        options = _read(words)
+        options = _read(arguments)
         code = options.run(options) or 0
         print(end="", flush=True)  # else what is wrong with the output is met after the end
     except StudioError as error:
@@ -67,14 +67,14 @@ def _output_refused(error: OSError) -> int:
     return 2
 
 
-def _read(words: list[str]) -> argparse.Namespace:
-    asked = next((word for word in words if not word.startswith("-")), None)
+def _read(arguments: list[str]) -> argparse.Namespace:
+    asked = next((argument for argument in arguments if not argument.startswith("-")), None)
     parser, command = _parsers(asked)
     mappings: list[str] = []
     if command is not None and command.get_default("takes_mappings"):
-        mappings = [word for word in words if ":=" in word]
-        words = [word for word in words if ":=" not in word]
-    options, rest = parser.parse_known_args(shield_values(words))
+        mappings = [argument for argument in arguments if ":=" in argument]
+        arguments = [argument for argument in arguments if ":=" not in argument]
+    options, rest = parser.parse_known_args(shield_values(arguments))
     if rest[:1] == ["--"] or (len(rest) == 1 and not rest[0].startswith("-")):
         rest = _take_late(options, rest)
     if rest and not getattr(options, "takes_rest", False):
@@ -89,21 +89,21 @@ def _take_late(options: argparse.Namespace, rest: list[str]) -> list[str]:
     `takes_late` names the value, and what it is when it is left out.
     """
     name, left_out = getattr(options, "takes_late", ("", None))
-    values = [word for word in rest if word != "--"]
+    values = [argument for argument in rest if argument != "--"]
     if not name or getattr(options, name) != left_out or len(values) != 1:
         return rest
     setattr(options, name, values[0])
     return []
 
 
-def shield_values(words: Sequence[str]) -> list[str]:
+def shield_values(arguments: Sequence[str]) -> list[str]:
     """Put a blank before values that begin with a dash, which argparse then takes for values.
 
     YAML and Python's numbers skip the blank; arguments behind `--` are values already.
     """
-    end = words.index("--") if "--" in words else len(words)
-    shielded = [f" {word}" if _VALUE.match(word) else word for word in words[:end]]
-    return [*shielded, *words[end:]]
+    end = arguments.index("--") if "--" in arguments else len(arguments)
+    shielded = [f" {one}" if _VALUE.match(one) else one for one in arguments[:end]]
+    return [*shielded, *arguments[end:]]
 
 
 def _parsers(

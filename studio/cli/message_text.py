@@ -75,13 +75,13 @@ def _list_text(values: list[Any], brevity: Brevity) -> str:
     if brevity.no_arrays:
         return f"<sequence, length: {len(values)}>"
     limit = len(values) if brevity.length_max is None else brevity.length_max
-    words = [
+    texts = [
         "{" + to_yaml(one, brevity, flow=True).strip().removeprefix("{").removesuffix("}") + "}"
         if isinstance(one, MessageValue)
         else repr(one)
         for one in values[:limit]
     ]
-    return f"[{', '.join([*words, *(['...'] if len(values) > limit else [])])}]"
+    return f"[{', '.join([*texts, *(['...'] if len(values) > limit else [])])}]"
 
 
 _END = "---"
@@ -97,7 +97,7 @@ class Printing:
             no_texts=options.no_str,
             length_max=None if options.full_length else options.truncate_length,
         )
-        self._said_lost = 0
+        self._printed_lost = 0
 
     def text(self, message: MessageValue | bytes, info: MessageInfo) -> str:
         """Write a message, without the end of its last line.
@@ -110,13 +110,13 @@ class Printing:
             return f"{head}{message!r}\n{_END}"
         return head + self._message(message)
 
-    def say_lost(self, losses: Losses) -> None:
+    def print_lost(self, losses: Losses) -> None:
         """Say on stderr that messages were lost, and why, when that is news."""
         lost = losses.lost + losses.overwritten
         broken = losses.refused + losses.malformed
-        if lost + broken <= self._said_lost:
+        if lost + broken <= self._printed_lost:
             return
-        self._said_lost = lost + broken
+        self._printed_lost = lost + broken
         if broken:
             print(f"{broken} messages could not be read: {losses.reason}", file=sys.stderr)
         if lost:

@@ -107,11 +107,11 @@ def print_error(sentence: str) -> None:
 
 def warn_of_foreign_types(own: OwnNode, endpoints: Sequence[GraphEndpoint]) -> None:
     """Warn on stderr that others have another form of a type, so that nothing of theirs arrives."""
-    from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_heard
+    from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_received
 
     wire = own.node.wire
     for found in foreign_hashes(endpoints, wire.profile, DistroHashes(wire.types)):
-        print(f"WARNING: {why_not_heard(found, wire.profile)}", file=sys.stderr)
+        print(f"WARNING: {why_not_received(found, wire.profile)}", file=sys.stderr)
 
 
 _LATE_S = 0.5

@@ -88,11 +88,11 @@ def _packages_in(folder: Path) -> tuple[Path, ...]:
     """The packages right in a folder, which may be any: one of downloads, or of pictures."""
     try:
         with os.scandir(folder) as entries:
-            looked_at = list(islice(entries, ENTRIES_MAX + 1))
-            names = sorted(one.name for one in looked_at)
+            found = list(islice(entries, ENTRIES_MAX + 1))
+            names = sorted(one.name for one in found)
     except OSError:
         return ()
-    if len(looked_at) > ENTRIES_MAX:
+    if len(found) > ENTRIES_MAX:
         return ()
     return tuple(folder / name for name in names if is_file(folder / name / FILE_NAME))
 

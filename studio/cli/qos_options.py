@@ -52,8 +52,8 @@ def add_qos_options(parser: argparse.ArgumentParser) -> None:
         help="how long a publisher may be silent",
     )  # fmt: skip
     for name, policies in _POLICIES.items():
-        words = [policy.name.lower() for policy in policies if policy.name != "UNKNOWN"]
-        parser.add_argument(f"--qos-{name}", choices=words, help=f"{name} alone")
+        choices = [policy.name.lower() for policy in policies if policy.name != "UNKNOWN"]
+        parser.add_argument(f"--qos-{name}", choices=choices, help=f"{name} alone")
 
 
 def is_given(options: argparse.Namespace) -> bool:
@@ -81,9 +81,9 @@ def given_profile(options: argparse.Namespace, base: QoSProfile) -> QoSProfile:
             )
         profile.liveliness_lease_duration = Duration(seconds=lease_s)
     for name, policies in _POLICIES.items():
-        word = getattr(options, f"qos_{name}")
-        if word is not None:
-            setattr(profile, name, policies[word.upper()])
+        choice = getattr(options, f"qos_{name}")
+        if choice is not None:
+            setattr(profile, name, policies[choice.upper()])
     return profile
 
 

@@ -129,17 +129,17 @@ def serve(
     launch(settings, opening, viewer_link=options.viewer_link)
 
 
-def read_mappings(words: Sequence[str]) -> dict[str, str]:
+def read_mappings(arguments: Sequence[str]) -> dict[str, str]:
     """Return `name:=value` by name, as xacro reads it: outer blanks dropped, no `_name`.
 
     Raises:
         SettingsError: An argument has more than one `:=`.
     """
     found: dict[str, str] = {}
-    for word in words:
-        name, *values = (part.strip() for part in word.split(":="))
+    for argument in arguments:
+        name, *values = (part.strip() for part in argument.split(":="))
         if len(values) != 1:
-            raise SettingsError(f"{word} is no argument: write it as name:=value.")
+            raise SettingsError(f"{argument} is no argument: write it as name:=value.")
         is_hidden = len(name) > 1 and name[0] == "_" and name[1] != "_"
         if name and values[0] and not is_hidden:
             found[name] = values[0]

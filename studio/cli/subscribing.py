@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from studio.cli.graph import full_name, say_other_types
+from studio.cli.graph import full_name, print_other_types
 from studio.cli.own_node import learn_type, warn_of_foreign_types
 from studio.cli.qos_options import listening_profile
 from studio.errors import NotServedError, StudioError, UnknownTypeError
@@ -58,7 +58,7 @@ def join_topic(
     type_name = full_type_name(given_type) if given_type is not None else _only(name, types)
     if type_name is None:
         return None
-    say_other_types(name, type_name, [(name, types)])
+    print_other_types(name, type_name, [(name, types)])
     publishers = own.graph.publishers(name)
     qos = listening_profile(options, [one.qos for one in publishers])
     kind, form = _form_of(own, name, type_name, raw=raw)
@@ -119,10 +119,10 @@ def _only(name: str, types: list[str]) -> str | None:
     if len(types) == 1:
         return types[0]
     if types:
-        said = f"Cannot tell the type of topic '{name}', it has several: {', '.join(types)}"
+        text = f"Cannot tell the type of topic '{name}', it has several: {', '.join(types)}"
     else:
-        said = "Could not determine the type for the passed topic"
-    print(said, file=sys.stderr)
+        text = "Could not determine the type for the passed topic"
+    print(text, file=sys.stderr)
     return None
 
 
@@ -186,7 +186,7 @@ def _described_form(
         return None
     for end in ends:
         try:
-            kind = _class_as_told(own, end)
+            kind = _class_as_described(own, end)
         except StudioError:
             continue
         print(
@@ -212,7 +212,7 @@ def _is_nobodys(own: OwnNode, ends: Sequence[GraphEndpoint]) -> bool:
     return all(not one.distros for one in found)
 
 
-def _class_as_told(own: OwnNode, end: GraphEndpoint) -> type[MessageValue]:
+def _class_as_described(own: OwnNode, end: GraphEndpoint) -> type[MessageValue]:
     """Ask the node of an endpoint to describe its type; the hash proves the answer.
 
     Raises:

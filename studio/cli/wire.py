@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from studio.ros.profiles import WireProfile
     from studio.ros.wire.session import WireSession
 
-LOOKING = "off"
+ROUTER_OFF = "off"
 STARTING = "auto"
 _DISTRO = "jazzy"
 
 
 def add_wire_options(
-    parser: argparse.ArgumentParser, router: str = LOOKING, *, own_types: bool = True
+    parser: argparse.ArgumentParser, router: str = ROUTER_OFF, *, own_types: bool = True
 ) -> None:
     """Add the options of a verb that joins nodes; `router` is the default of `--router`."""
     wire = parser.add_argument_group(JOINING)

@@ -37,7 +37,7 @@ class AddPointsServiceClientNode(Node):
         if self.future is not None and not self.future.done():
             self.future.cancel()
             self.get_logger().warn("The answer took too long: it was given up.")
-        self.get_logger().info(f"Adding {_said(request.a)} and {_said(request.b)}")
+        self.get_logger().info(f"Adding {_text(request.a)} and {_text(request.b)}")
         self.future = self.service_client.call_async(request)
         self.future.add_done_callback(self.process_response)
 
@@ -46,10 +46,10 @@ class AddPointsServiceClientNode(Node):
         if future.cancelled() or future.exception() is not None:
             self.get_logger().info("The response was None.")
         else:
-            self.get_logger().info(f"The result was {_said(future.result().result)}")
+            self.get_logger().info(f"The result was {_text(future.result().result)}")
 
 
-def _said(point: Point) -> str:
+def _text(point: Point) -> str:
     return f"({point.x:.2f}, {point.y:.2f}, {point.z:.2f})"
 
 

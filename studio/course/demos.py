@@ -118,13 +118,13 @@ class Lesson:
     Attributes:
         demo: Its name in `DEMOS`.
         node: The full name of its node, while it runs.
-        words: Arguments that it needs.
+        arguments: Arguments that it needs.
         has_keys: Whether it is driven by key presses.
     """
 
     demo: str
     node: str
-    words: tuple[str, ...] = ()
+    arguments: tuple[str, ...] = ()
     has_keys: bool = False
 
 
@@ -153,7 +153,7 @@ CHAPTERS: dict[str, tuple[Lesson, ...]] = {
     ),
     "services": (
         Lesson("adder_server", "/service_adder_server"),
-        Lesson("adder_client", "/service_adder_client", words=("41", "1")),
+        Lesson("adder_client", "/service_adder_client", arguments=("41", "1")),
         Lesson("service_server_node", "/service_server_node"),
         Lesson("service_client_node", "/service_client_node"),
         Lesson("now_playing_server", "/get_now_playing"),

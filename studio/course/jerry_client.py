@@ -36,8 +36,8 @@ class DistanceClient(Node):
                 self.get_logger().warn(f"No answer. {future.exception()}")
                 return
             distance = future.result().distance
-            said = f"({place.x:.2f}, {place.y:.2f}) is {distance:.2f} m away from Jerry"
-            self.get_logger().info(said)
+            text = f"({place.x:.2f}, {place.y:.2f}) is {distance:.2f} m away from Jerry"
+            self.get_logger().info(text)
 
         self.client.call_async(place).add_done_callback(answered)
 

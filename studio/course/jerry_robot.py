@@ -30,7 +30,7 @@ class JerryRobot(Node):
         self.pose = self.create_publisher(Point, "jerry/pose", kept)
         self.create_subscription(JerryCommand, "jerry_command", self.command_callback, 10)
         self.create_service(Distance, "distance", self.distance_callback)
-        self.tell()
+        self.publish_pose()
 
     def command_callback(self, msg: JerryCommand) -> None:
         """Go some steps; a direction that he does not know leaves him where he is."""
@@ -41,7 +41,7 @@ class JerryRobot(Node):
         self.x += ahead * msg.steps
         self.y += left * msg.steps
         self.get_logger().info(f"{msg.steps} steps {msg.direction}: at ({self.x}, {self.y})")
-        self.tell()
+        self.publish_pose()
 
     def distance_callback(
         self, request: Distance.Request, response: Distance.Response
@@ -50,7 +50,7 @@ class JerryRobot(Node):
         response.distance = math.hypot(request.x - self.x, request.y - self.y)
         return response
 
-    def tell(self) -> None:
+    def publish_pose(self) -> None:
         """Publish his position, also for late subscribers."""
         self.pose.publish(Point(x=float(self.x), y=float(self.y)))
 

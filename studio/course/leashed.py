@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _CHUNK = 1024
 _LINE_MAX = 64
-_WHEN_TOLD_S = 2.0
+_AFTER_SIGTERM_S = 2.0
 
 
 def main() -> None:
@@ -39,7 +39,7 @@ def _hold(source: int, press: Callable[[str], None]) -> None:
     """Pass keys on until the other end is closed, then end this process."""
     read_lines(source, press)
     os.kill(os.getpid(), signal.SIGTERM)
-    time.sleep(_WHEN_TOLD_S)
+    time.sleep(_AFTER_SIGTERM_S)
     os._exit(1)
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 BY_ITSELF_S = 0.6
 """So long a process may take to end by the Ctrl-C that the terminal sent it, too."""
-WHEN_TOLD_S = 1.0
+AFTER_SIGNAL_S = 1.0
 LEASHED = "studio.course.leashed"
 """Runs the module that is its first argument for as long as its input stays open."""
 _OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
@@ -37,14 +37,14 @@ class DemoProcesses:
 
     def start(self, module: str, arguments: Iterable[str] = ()) -> None:
         """Run a module, none of the folder we are in; what it prints comes out where ours does."""
-        words = [sys.executable, "-P", "-m", module, *arguments]
-        self._processes.append(subprocess.Popen(words, env=self._environment))
+        command = [sys.executable, "-P", "-m", module, *arguments]
+        self._processes.append(subprocess.Popen(command, env=self._environment))
 
     def start_leashed(self, module: str, arguments: Iterable[str] = ()) -> None:
         """Run a module that ends with this process, however that ends; no key reaches it."""
-        words = [sys.executable, "-P", "-m", LEASHED, module, *arguments]
+        command = [sys.executable, "-P", "-m", LEASHED, module, *arguments]
         self._processes.append(
-            subprocess.Popen(words, env=self._environment, stdin=subprocess.PIPE)
+            subprocess.Popen(command, env=self._environment, stdin=subprocess.PIPE)
         )
 
     def wait(self) -> int:
@@ -58,8 +58,8 @@ class DemoProcesses:
             if process.stdin is not None:
                 process.stdin.close()
         self._all_ended_within(BY_ITSELF_S)
-        self._tell()
-        if not self._all_ended_within(WHEN_TOLD_S):
+        self._terminate()
+        if not self._all_ended_within(AFTER_SIGNAL_S):
             for process in self._running():
                 process.kill()
                 process.wait()
@@ -70,7 +70,7 @@ class DemoProcesses:
     def __exit__(self, *_: object) -> None:
         self.end()
 
-    def _tell(self) -> None:
+    def _terminate(self) -> None:
         for process in self._running():
             process.terminate()
 
@@ -87,7 +87,7 @@ class DemoProcesses:
         return True
 
 
-def rover_words(package: Path, arguments: Mapping[str, str], router: str) -> tuple[str, list[str]]:
+def rover_call(package: Path, arguments: Mapping[str, str], router: str) -> tuple[str, list[str]]:
     """Return the rover's module and its arguments, for a copy of its package and `arguments`."""
     file = package / "urdf" / "rover.urdf.xacro"
     mapping = [f"{name}:={value}" for name, value in arguments.items()]

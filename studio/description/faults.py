@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from studio.problems import MacroCall
 
 
-_NAMES_LOOKED_AT: Final = 2_000
+_NAMES_MAX: Final = 2_000
 _SENTENCE_LIMIT: Final = 480
 """Characters; names and texts of hostile files may be as long as the file."""
 
@@ -71,7 +71,7 @@ def misnamed(code: str, sentence: str, name: str, known: Iterable[str], otherwis
 
 def near(name: str, known: Iterable[str]) -> str:
     """The known name that is nearly this one; empty when none is."""
-    found = get_close_matches(name, islice(known, _NAMES_LOOKED_AT), n=1, cutoff=0.7)
+    found = get_close_matches(name, islice(known, _NAMES_MAX), n=1, cutoff=0.7)
     return found[0] if found else ""
 
 

@@ -186,17 +186,17 @@ def write_poses(path: str, entry: str, before: bytes, poses: Sequence[NamedPose]
         PosesFileError: The present file, or the new one, cannot be read.
     """
     written = _woven(path, before, poses) if before.strip() and poses else None
-    if written is None or not _says(path, written, poses):
+    if written is None or not _reads_as(path, written, poses):
         head = _HEAD.format(entry=entry.replace("\n", " "))
         written = (head + "".join(map(_text, poses))).encode("utf-8", "replace")
     if len(written) > SIZE_LIMIT_BYTES:
         raise PosesFileError(path, "the poses are too many for one file; delete some")
-    if not _says(path, written, poses):
+    if not _reads_as(path, written, poses):
         raise PosesFileError(path, "a name in it is one that a file cannot hold; choose another")
     return written
 
 
-def _says(path: str, written: bytes, poses: Sequence[NamedPose]) -> bool:
+def _reads_as(path: str, written: bytes, poses: Sequence[NamedPose]) -> bool:
     try:
         found = read_poses(path, written)
     except PosesFileError:

@@ -33,8 +33,8 @@ class AxesDisplay(StillDisplay):
         """What cannot be seen at all."""
         if self.values["Alpha"]:
             return ()
-        words = "Alpha is 0, so nothing of the axes is seen."
-        return (Status("warn", "transparent", words, ("Alpha", 1.0)),)
+        sentence = "Alpha is 0, so nothing of the axes is seen."
+        return (Status("warn", "transparent", sentence, ("Alpha", 1.0)),)
 
     def _drawn(self) -> Drawing:
         if not self.values["Alpha"]:

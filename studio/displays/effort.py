@@ -182,11 +182,11 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         radius_m = _LEAST + ring.share * self.number("Scale") / 2
         if radius_m > FAR:
             return {}
-        way = -1.0 if ring.effort > 0 else 1.0
+        sign = -1.0 if ring.effort > 0 else 1.0
         around = radius_m * np.stack(
-            (-way * np.sin(_CIRCLE_RAD), np.cos(_CIRCLE_RAD), np.zeros(_CIRCLE_RAD.size)), axis=1
+            (-sign * np.sin(_CIRCLE_RAD), np.cos(_CIRCLE_RAD), np.zeros(_CIRCLE_RAD.size)), axis=1
         )
-        head = np.array([[0.0, radius_m, 0.0], [way * 2.0 * width_m, radius_m, 0.0]])
+        head = np.array([[0.0, radius_m, 0.0], [sign * 2.0 * width_m, radius_m, 0.0]])
         points = _about(ring.axis, np.concatenate((around, head)))
         colour = mapped(np.array([1.0 - ring.share]), RAINBOW)[0]
         pieces = np.stack((points[:-3], points[1:-2]), axis=1)

@@ -83,12 +83,12 @@ class GridDisplay(StillDisplay):
     def statuses(self) -> tuple[Status, ...]:
         """What cannot be seen, and what is left out."""
         if not self.values["Alpha"]:
-            words = "Alpha is 0, so nothing of the grid is seen."
-            return (Status("warn", "transparent", words, ("Alpha", 0.5)),)
+            sentence = "Alpha is 0, so nothing of the grid is seen."
+            return (Status("warn", "transparent", sentence, ("Alpha", 0.5)),)
         if self._layers and self._uprights > _UPRIGHTS_MAX:
-            words = f"{self._uprights} lines between the layers are too many, and are left out."
+            sentence = f"{self._uprights} lines between the layers are too many, and are left out."
             mend: tuple[str, Value] = ("Plane Cell Count", 100)
-            return (Status("warn", "unsupported", words, mend),)
+            return (Status("warn", "unsupported", sentence, mend),)
         return ()
 
     @property

@@ -164,9 +164,9 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         if self.shapes(newest.content):
             return ()
         are = "is" if len(names) == 1 else "are"
-        words = f"{' and '.join(names)} {are} 0, so nothing of it is seen: raise {names[0]}."
+        sentence = f"{' and '.join(names)} {are} 0, so nothing of it is seen: raise {names[0]}."
         mend = (names[0], self._property(names[0]).default)
-        return (Status("warn", "empty", words, mend),)
+        return (Status("warn", "empty", sentence, mend),)
 
     def number(self, name: str) -> float:
         """The value of a property that is a number."""

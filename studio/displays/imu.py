@@ -126,8 +126,8 @@ class ImuDisplay(HistoryDisplay[Motion]):
         """Also that nothing is switched on."""
         if any(self.values[part] for part in _PARTS):
             return super().statuses()
-        words = "None of its parts is switched on, so nothing of it is seen."
-        off = Status("warn", "empty", words, (_HAS_AXES[0], True))
+        sentence = "None of its parts is switched on, so nothing of it is seen."
+        off = Status("warn", "empty", sentence, (_HAS_AXES[0], True))
         return (*super().statuses(), off)
 
     def placed(self, entry: Entry[Motion], shapes: Mapping[str, Shape]) -> Placed:

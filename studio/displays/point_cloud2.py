@@ -232,11 +232,11 @@ class PointCloud2Display(CloudDisplay):
         """
         message = self.decode(received)
         fields = CloudFields(message)
-        positions, looked_at = fields.positions()
+        positions, read_rows = fields.positions()
         shown, chosen, available = kept(positions, limits.points)
-        if looked_at is not None:
-            chosen = looked_at if chosen is None else looked_at[chosen]
-            available = available * fields.count // len(looked_at)
+        if read_rows is not None:
+            chosen = read_rows if chosen is None else read_rows[chosen]
+            available = available * fields.count // len(read_rows)
         return Cloud(
             message.header.frame_id, stamp_ns_of(message.header), shown, chosen, available, fields,
             _nothing(fields.count, shown),

@@ -180,17 +180,17 @@ class RobotModelDisplay(StillDisplay):
         if not self.robot.links and (self.description or self.source.kind != "Topic"):
             return (Status("warn", "empty", "The description of the robot is on its way."),)
         if self._left_out:
-            words = f"{self._left_out:,} links are left out: {LINKS_MAX:,} are shown at most."
-            return (Status("warn", "thinned", words),)
+            sentence = f"{self._left_out:,} links are left out: {LINKS_MAX:,} are shown at most."
+            return (Status("warn", "thinned", sentence),)
         return ()
 
     def _of_settings(self) -> tuple[Status, ...]:
         if not self.values["Alpha"]:
-            words = "Alpha is 0, so nothing of the robot is seen."
-            return (Status("warn", "transparent", words, ("Alpha", 1.0)),)
+            sentence = "Alpha is 0, so nothing of the robot is seen."
+            return (Status("warn", "transparent", sentence, ("Alpha", 1.0)),)
         if not any(self.values[part] for part in _PARTS):
-            words = "Neither looks nor collision shapes of the robot are switched on."
-            return (Status("warn", "empty", words, ("Visual Enabled", True)),)
+            sentence = "Neither looks nor collision shapes of the robot are switched on."
+            return (Status("warn", "empty", sentence, ("Visual Enabled", True)),)
         links = self.robot.links
         if links and not self._shown():
             off = _ALL_LINKS if not self.values[_ALL_LINKS] else f"{_LINKS}{next(iter(links))}"

@@ -170,13 +170,13 @@ def arrows_to_parents(
     children: Floats, parents: Floats, shades: Shades, scale: float, alpha: float
 ) -> dict[str, Solids]:
     """Shafts and heads of arrows from places (N, 3) of children to those of their parents."""
-    ways = parents - children
-    lengths = np.sqrt(np.einsum("ij,ij->i", ways, ways))
+    offsets = parents - children
+    lengths = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
     far = lengths > _NEAR_M
     if not far.any():
         return {}
     shades, children, lengths = shades.of(far), children[far], lengths[far]
-    along = ways[far] / lengths[:, None]
+    along = offsets[far] / lengths[:, None]
     heads, shafts = _parts_of_arrows(lengths, _HEAD_LENGTH_M * scale)
     opacities = _opacities(shades.opacity, alpha)
     shaft = Solids(
@@ -357,11 +357,11 @@ class TfDisplay(Display):
     def statuses(self) -> tuple[Status, ...]:
         """Why nothing is seen of the frames, and what is left out."""
         if not self.values["Marker Alpha"]:
-            words = "Marker Alpha is 0, so nothing of the frames is seen."
-            return (Status("warn", "transparent", words, ("Marker Alpha", 1.0)),)
+            sentence = "Marker Alpha is 0, so nothing of the frames is seen."
+            return (Status("warn", "transparent", sentence, ("Marker Alpha", 1.0)),)
         if not any(self.values[part] for part in _PARTS):
-            words = "Neither names, axes nor arrows of the frames are switched on."
-            return (Status("warn", "empty", words, ("Show Axes", True)),)
+            sentence = "Neither names, axes nor arrows of the frames are switched on."
+            return (Status("warn", "empty", sentence, ("Show Axes", True)),)
         if self._frames is None or not self._frames.names:
             return (Status("warn", "empty", "No transform has come yet."),)
         found = (self._nothing_chosen(), self._not_connected(), self._too_many())
@@ -372,8 +372,8 @@ class TfDisplay(Display):
             return None
         for name in (WHITELIST, BLACKLIST):
             if self.values[name]:
-                words = f"{name} lets no frame through."
-                return Status("warn", "empty", words, (name, ""))
+                sentence = f"{name} lets no frame through."
+                return Status("warn", "empty", sentence, (name, ""))
         return Status("warn", "empty", "All frames are switched off.", (FRAMES, True))
 
     def _not_connected(self) -> Status | None:
@@ -384,15 +384,15 @@ class TfDisplay(Display):
             return None
         names = [self._frames.names[row] for row in lost[:3]]
         more = f" and {len(lost) - len(names)} more" if len(lost) > len(names) else ""
-        words = f"Nothing connects {', '.join(names)}{more} with {self._frames.fixed}."
-        return Status("error", "not_connected_frame", words)
+        sentence = f"Nothing connects {', '.join(names)}{more} with {self._frames.fixed}."
+        return Status("error", "not_connected_frame", sentence)
 
     def _too_many(self) -> Status | None:
         count = 0 if self._seen is None else int(self._seen.shown.sum())
         if not self.values["Show Names"] or count <= NAMES_MAX:
             return None
-        words = f"Of {count} frames the names of {NAMES_MAX} are written: filter the others."
-        return Status("warn", "unsupported", words)
+        sentence = f"Of {count} frames the names of {NAMES_MAX} are written: filter the others."
+        return Status("warn", "unsupported", sentence)
 
     def _seen_of(self, frames: FramesNow) -> _Seen:
         shades = shades_of(frames.ages_s, float(self.values["Frame Timeout"]))

@@ -77,7 +77,7 @@ class CheckedFile:
 
 
 async def check_path(
-    settings: Settings, path: Path, arguments: Mapping[str, str], tell: Progress
+    settings: Settings, path: Path, arguments: Mapping[str, str], progress: Progress
 ) -> list[CheckedFile]:
     """Check a file, or every robot file of a folder or zip that can be opened.
 
@@ -87,16 +87,16 @@ async def check_path(
         settings: Packages and the data folder.
         path: What to check.
         arguments: Passed to xacro for each of them.
-        tell: Called with the progress, from any thread.
+        progress: Called with the progress, from any thread.
 
     Raises:
         PackageError: Nothing there can be opened.
     """
     location = await asyncio.to_thread(
-        open_location, path, settings.package_paths, settings.data_folder, os.environ, tell
+        open_location, path, settings.package_paths, settings.data_folder, os.environ, progress
     )
     async with _services(settings) as services:
-        run = _Run(location, arguments, services, tell)
+        run = _Run(location, arguments, services, progress)
         types = asyncio.create_task(asyncio.to_thread(_types_below, location, path))
         if location.entry is not None and _is_same(location.entry, path):
             checked = await run.check([location.entry])
@@ -161,10 +161,10 @@ class _Run:
         location: Location,
         arguments: Mapping[str, str],
         services: Services,
-        tell: Progress,
+        progress: Progress,
     ) -> None:
         self._location, self._arguments = location, arguments
-        self._services, self._tell = services, tell
+        self._services, self._progress = services, progress
         self._turns = asyncio.Semaphore(_AT_ONCE)
         self._done = self._all = 0
         self.files_read: set[Path] = set()
@@ -176,13 +176,13 @@ class _Run:
 
     def ended(self, count: int) -> None:
         """Say that all is checked, and how many robots it was."""
-        self._tell("Checked", count, count)
+        self._progress("Checked", count, count)
 
     async def _check_in_turn(self, entry: Path) -> CheckedFile:
         async with self._turns:
             checked = await self._check(replace(self._location, entry=entry))
         self._done += 1
-        self._tell(f"Checked {entry.name}", self._done, self._all)
+        self._progress(f"Checked {entry.name}", self._done, self._all)
         return checked
 
     async def _check(self, location: Location) -> CheckedFile:
@@ -289,11 +289,11 @@ def report_lines(files: Sequence[CheckedFile], folder: Path) -> Iterator[str]:
     counts: Counter[Severity] = Counter()
     for path, problem in _findings(files):
         counts[problem.severity] += 1
-        yield f"{_place(path, problem, folder)}: {_WORDS[problem.severity]}: {problem.sentence}"
+        yield f"{_place(path, problem, folder)}: {_NOUNS[problem.severity]}: {problem.sentence}"
         yield from (f"    in {one.macro}, called at {one.called_at}" for one in problem.macro_stack)
         if problem.fix:
             yield f"    fix: {problem.fix.label}"
-    found = ", ".join(_count(counts[one], _WORDS[one]) for one in Severity if counts[one])
+    found = ", ".join(_count(counts[one], _NOUNS[one]) for one in Severity if counts[one])
     yield f"{_count(len(files), 'file')} checked: {found or 'nothing found'}."
 
 
@@ -314,7 +314,7 @@ def report_json(files: Sequence[CheckedFile]) -> str:
     return json.dumps(rows, indent=2, ensure_ascii=False)
 
 
-_WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+_NOUNS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
 def _findings(files: Sequence[CheckedFile]) -> Iterator[tuple[str, Problem]]:
@@ -323,18 +323,18 @@ def _findings(files: Sequence[CheckedFile]) -> Iterator[tuple[str, Problem]]:
     Names of links and joints are ignored: what robots share may have another prefix in each.
     """
     listed: set[object] = set()
-    told_by_others: set[object] = set()
+    found_elsewhere: set[object] = set()
     for file in files:
         shared: set[object] = set()
         for problem in file.problems:
             where = problem.place or file.path
             mark, nameless = ((problem.code, one, where) for one in _sentences(problem))
-            if mark in listed or nameless in told_by_others:
+            if mark in listed or nameless in found_elsewhere:
                 continue
             listed.add(mark)
             shared.add(nameless)
             yield str(file.path), problem
-        told_by_others |= shared
+        found_elsewhere |= shared
 
 
 def _sentences(problem: Problem) -> tuple[str, str]:
@@ -350,5 +350,5 @@ def _place(path: str, problem: Problem, folder: Path) -> str:
     return place.removeprefix(f"{folder}{os.sep}")
 
 
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

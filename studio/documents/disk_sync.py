@@ -66,12 +66,12 @@ class DiskSync:
         """Take over what changed on disk where it can be; the edits that did it, in order."""
         found = {file: self._sources.refresh(file) for file in files}
         self._gone -= found.keys()
-        self._gone |= {file for file, news in found.items() if news.what is FileChange.GONE}
+        self._gone |= {file for file, change in found.items() if change.what is FileChange.GONE}
         self._report()
-        for file, news in found.items():
-            if news.what is FileChange.MERGED:
-                self._audience.tell(DiskMerged(file=file, kept=news.kept))
-        return tuple(edit for news in found.values() for edit in news.edits)
+        for file, change in found.items():
+            if change.what is FileChange.MERGED:
+                self._audience.send(DiskMerged(file=file, kept=change.kept))
+        return tuple(edit for change in found.values() for edit in change.edits)
 
     async def reload(self) -> None:
         """Take the disk's text of every file; undo brings unsaved edits back."""

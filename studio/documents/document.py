@@ -62,7 +62,7 @@ from studio.live.displays.document_displays import DocumentDisplays
 from studio.live.displays.robot_reading import RobotReader
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
-from studio.protocol.listeners import Audience, Listener, tell
+from studio.protocol.listeners import Audience, Listener, send
 from studio.protocol.robot import Displays, SetDisplay
 from studio.scene import DocumentScene
 from studio.settings import LOOPBACK_HOSTS
@@ -220,7 +220,7 @@ class Document:
     def attach(self, listener: Listener) -> None:
         """Send a new page the whole state, and every change from then on."""
         for event in self._snapshot():
-            tell(listener, event)
+            send(listener, event)
         self.audience.add(listener)
         self.poses.trigger()
 
@@ -241,7 +241,7 @@ class Document:
         """Change one shared display setting."""
         self.scene.set_display(display, name, value)
         self._meshes.want()
-        self.audience.tell(self._displays_event())
+        self.audience.send(self._displays_event())
         self.variants.trigger()
 
     def value_edited(self) -> None:
@@ -250,8 +250,8 @@ class Document:
 
     def texts_changed(self) -> None:
         """Tell the sites that changed, the undo list and what is unsaved."""
-        self.sites.tell()
-        self.audience.tell(history_event(self.sources))
+        self.sites.send()
+        self.audience.send(history_event(self.sources))
         self.texts.follow()
         self.drafts.note()
         self.variants.trigger()
@@ -261,7 +261,7 @@ class Document:
 
     def arguments_changed(self) -> None:
         """Tell the arguments, with the rest of the state."""
-        self.audience.tell(self._state_event())
+        self.audience.send(self._state_event())
 
     async def _take_types(self) -> None:
         self.findings.replace("types", await asyncio.to_thread(take_types, self.location))
@@ -271,13 +271,13 @@ class Document:
         await self.saving.sweep()
 
     async def _open(self) -> None:
-        self._tell_expanded(0)
+        self._send_progress(0)
         await self.edits.timed(self.runs.reopen())
-        self._tell_expanded(1)
+        self._send_progress(1)
 
-    def _tell_expanded(self, done: int) -> None:
+    def _send_progress(self, done: int) -> None:
         label = "Reading the description"
-        self.audience.tell(Progress(task="expand", label=label, done=done, total=1))
+        self.audience.send(Progress(task="expand", label=label, done=done, total=1))
 
     def _take(self, outcome: Outcome, version: int) -> None:
         """Show the outcome of a run, or report why the last good one stays."""
@@ -288,8 +288,8 @@ class Document:
             case Expansion():
                 self._take_expansion(outcome, version, is_first=before[0] != "ready")
         if before != self._state_before:
-            self.audience.tell(self._state_event())
-            self.findings.tell()
+            self.audience.send(self._state_event())
+            self.findings.send()
         self._watch_files()
         self.texts_changed()
         if self.sources.conflicts:  # an undo may have ended them
@@ -313,7 +313,7 @@ class Document:
         self._report_duplicates()
         if is_first or change.new_meshes:
             self._meshes.want()
-        if self.robot_view.tell():
+        if self.robot_view.send():
             self.poses.trigger()
 
     def _report_duplicates(self) -> None:

@@ -83,7 +83,7 @@ _BROKEN: Final = "broken"
 _VERSION: Final = 1
 _SLOTS: Final = 32
 """Documents that may have the same file open with the same data folder, in all studios."""
-_LOOKED_AT: Final = 50
+_CHECKED_MAX: Final = 50
 _TRIES: Final = 5
 _TRY_AGAIN_S: Final = 0.01
 _LIMIT_BYTES: Final = 256 << 20
@@ -220,7 +220,7 @@ def _newest(folder: Path) -> list[Path]:
         known = [(path.stat().st_mtime, path) for path in folder.glob("*.json")]
     except OSError:
         return []
-    return [path for _, path in sorted(known, reverse=True)[:_LOOKED_AT]]
+    return [path for _, path in sorted(known, reverse=True)[:_CHECKED_MAX]]
 
 
 def _left(path: Path) -> Draft | None:

@@ -127,7 +127,7 @@ class Drafts:
     async def discard(self) -> None:
         """Give up what was restored: the files as the disk has them, which undo takes back."""
         self._restored = Restored(at="", files=())
-        self._audience.tell(self._restored)
+        self._audience.send(self._restored)
         await self._disk.discard(self._opened_with)
 
     def _take(self, draft: Draft) -> None:
@@ -142,7 +142,7 @@ class Drafts:
         self._disk.refresh([one.file for one in texts])
         if sources.unsaved_files or sources.arguments != self._opened_with:
             self._restored = Restored(at=draft.at, files=sources.unsaved_files)
-            self._audience.tell(self._restored)
+            self._audience.send(self._restored)
 
     def _end_notice(self) -> None:
         """Remove the notice of what was restored, once it is saved or discarded."""
@@ -151,7 +151,7 @@ class Drafts:
         sources = self._sources
         if not (sources.unsaved_files or sources.arguments != self._opened_with):
             self._restored = Restored(at="", files=())
-            self._audience.tell(self._restored)
+            self._audience.send(self._restored)
 
     async def _write_while_noted(self) -> None:
         while self._is_noted:

@@ -153,7 +153,7 @@ class Edits:
         began_s = time.perf_counter()
         await run
         took_ms = (time.perf_counter() - began_s) * 1000
-        self._audience.tell(Built(ok=not self._runs.last.failed, duration_ms=took_ms))
+        self._audience.send(Built(ok=not self._runs.last.failed, duration_ms=took_ms))
 
     async def _run(self, edits: Sequence[Edit], *, in_gesture: bool = False) -> None:
         files = {edit.file for edit in edits}

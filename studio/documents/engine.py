@@ -48,7 +48,7 @@ from studio.protocol.documents import (
     OpenPath,
     Watch,
 )
-from studio.protocol.listeners import Audience, tell
+from studio.protocol.listeners import Audience, send
 from studio.protocol.saving import ForgetWork
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ class Engine:
     def attach(self, listener: Listener) -> None:
         """Send the list of documents to a new control lane."""
         self._lobby.add(listener)
-        tell(listener, self._list())
+        send(listener, self._list())
         self.left_work.attach(listener)
         self._services.wire.attach(listener)
         self.ros.attach(listener)
@@ -134,8 +134,8 @@ class Engine:
             StudioError: It cannot be done.
         """
         if (answer := await self._once.run(command, asker, self._carry_out)) is not None:
-            tell(asker, answer)
-        tell(asker, Done(request=command.request))
+            send(asker, answer)
+        send(asker, Done(request=command.request))
 
     async def _carry_out(self, command: Command, asker: Listener) -> Answer:
         entry = COMMANDS[type(command)]
@@ -227,13 +227,13 @@ class Engine:
         if len(self.documents) >= _DOCUMENT_LIMIT:
             raise CommandError(f"{_DOCUMENT_LIMIT} documents are open: close one first.")
         document = Document(self._free_id(location), location, arguments, self._services)
-        document.on_unsaved = self._tell_list
+        document.on_unsaved = self._send_list
         self.documents[document.id] = document
         self.default_document = self.default_document or document.id
         document.start()
         document.begin_background_work()
         self.library.note(document)
-        self._tell_list()
+        self._send_list()
         return document.id
 
     def _free_id(self, location: Location) -> str:
@@ -261,11 +261,11 @@ class Engine:
         del self.documents[document.id]
         if self.default_document == document.id:
             self.default_document = next(iter(self.documents), None)
-        document.audience.tell(Gone(document=document.id))
+        document.audience.send(Gone(document=document.id))
         document.drafts.forget()
         self._watching = {who: one for who, one in self._watching.items() if one is not document}
         await document.close()
-        self._tell_list()
+        self._send_list()
         # Its parts know each other. The garbage of several documents would stall the loop longer.
         asyncio.get_running_loop().call_soon(gc.collect)
 
@@ -289,8 +289,8 @@ class Engine:
             )
         )
 
-    def _tell_list(self) -> None:
-        self._lobby.tell(self._list())
+    def _send_list(self) -> None:
+        self._lobby.send(self._list())
         self.left_work.trigger()
 
 

@@ -94,13 +94,13 @@ class FileWatch:
     def _catch_up(self, since_ns: int) -> None:
         """Tell what changed before the watch stood; it stands as soon as its task has begun."""
 
-        async def tell() -> None:
+        async def report() -> None:
             paths = self._files | self._beside
             touched = await asyncio.to_thread(_touched, paths, since_ns, time.time_ns())
             if meant := {path for path in touched if self._is_meant(path)}:
-                await self._tell(meant)
+                await self._report(meant)
 
-        task = asyncio.create_task(tell())
+        task = asyncio.create_task(report())
         self._catching_up.add(task)
         task.add_done_callback(self._catching_up.discard)
 
@@ -130,14 +130,14 @@ class FileWatch:
             self._take_trouble("")
             touched = {path for _, path in changes if self._is_meant(path)}
             if touched and not stop.is_set():
-                await self._tell(touched)
+                await self._report(touched)
 
     def _take_trouble(self, trouble: str) -> None:
         if trouble != self._trouble:
             self._trouble = trouble
             self._troubled(trouble)
 
-    async def _tell(self, paths: set[str]) -> None:
+    async def _report(self, paths: set[str]) -> None:
         """Tell of changes; who cannot take them does not end the watch."""
         try:
             await self._changed(paths)

@@ -40,7 +40,7 @@ class Findings:
         if found == self._by_origin.get(origin, ()):
             return False
         self._by_origin[origin] = found
-        self.tell()
+        self.send()
         return True
 
     def all(self) -> tuple[Problem, ...]:
@@ -49,9 +49,9 @@ class Findings:
         kept = _bounded(distinct)
         return tuple(sorted(kept, key=lambda problem: _RANK[problem.severity]))
 
-    def tell(self) -> None:
+    def send(self) -> None:
         """Tell all problems."""
-        self._audience.tell(self.event())
+        self._audience.send(self.event())
 
     def event(self) -> Problems:
         """Return all problems, and whether the robot is older than the texts."""

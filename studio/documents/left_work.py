@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from studio.debounce import Throttle
 from studio.documents.draft_files import forget_drafts, left_drafts
 from studio.files import is_file
-from studio.protocol.listeners import tell
+from studio.protocol.listeners import send
 from studio.protocol.roles import Role
 from studio.protocol.saving import LeftWork, LeftWorkEntry
 
@@ -39,7 +39,7 @@ class LeftDrafts:
         if listener.role is Role.PRESENTER:
             self._presenters.add(listener)
             if self._latest is not None:
-                tell(listener, self._latest)
+                send(listener, self._latest)
 
     def detach(self, listener: Listener) -> None:
         """Forget it; it need not be there."""
@@ -68,7 +68,7 @@ class LeftDrafts:
         if left != (self._latest or LeftWork(entries=())):
             self._latest = left
             for listener in tuple(self._presenters):
-                tell(listener, left)
+                send(listener, left)
 
 
 def _left_work(data_folder: Path, served: ServedRoots) -> LeftWork:

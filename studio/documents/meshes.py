@@ -202,7 +202,7 @@ class Meshes:
         self._findings.replace("mesh", [self._nearer.get(one, one) for one in found])
 
     def _progress(self, done: int, total: int) -> None:
-        self._audience.tell(Progress(task="meshes", label="Loading meshes", done=done, total=total))
+        self._audience.send(Progress(task="meshes", label="Loading meshes", done=done, total=total))
 
     def _resolve(self, uri: str) -> tuple[Path, tuple[Path, ...]]:
         """Return the file of a mesh, and the folders of the files that it may use."""

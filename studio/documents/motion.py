@@ -146,7 +146,7 @@ class Motion:
             self._animation.start()
         elif not running:
             self._animation.stop()
-        self._tell()
+        self._send()
 
     def lead(self, leader: str) -> None:
         """Let `leader` move the joints from now on, by `follow`; an empty name ends that."""
@@ -185,15 +185,15 @@ class Motion:
         self._glide.stop()
         if self.swinging:
             self._animation.stop()
-            self._tell()
+            self._send()
 
     def _show(self) -> None:
         self._model.pose()
         self._view.send_joints()
 
-    def _tell(self) -> None:
+    def _send(self) -> None:
         self._view.animating = self.swinging
-        self._view.tell_joints()
+        self._view.send_positions()
 
 
 COMMANDS: Final = Commands[Motion](Scope.DOCUMENT)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 PARTS_KEPT: Final = 1_000
-_LOOKS: Final = frozenset({Aspect.SIZE, Aspect.SHAPE, Aspect.COLOR, Aspect.PRESENCE})
+_APPEARANCE: Final = frozenset({Aspect.SIZE, Aspect.SHAPE, Aspect.COLOR, Aspect.PRESENCE})
 
 
 class Origins:
@@ -118,7 +118,7 @@ def _counts(by_part: dict[str, dict[Aspect, None]]) -> dict[Aspect, int]:
 
 def _changed_links(by_part: dict[str, dict[Aspect, None]], robot: Robot) -> Iterator[str]:
     for part, aspects in by_part.items():
-        if part.startswith("link:") and _LOOKS & aspects.keys():
+        if part.startswith("link:") and _APPEARANCE & aspects.keys():
             yield _name(part)
     yield from _recolored_links(by_part, robot)
 

@@ -103,7 +103,7 @@ def _is_worth(path: Path, location: Location) -> bool:
         data = location.served.read(path)
     except PackageError:
         return False
-    return any(word in data for word in _WORTH)
+    return any(mark in data for mark in _WORTH)
 
 
 def _initial(paths: Iterable[Path], served: ServedRoots) -> list[NamedPose]:

@@ -12,7 +12,7 @@ from studio.documents.side_file import ItemKind, NamedItems
 from studio.errors import CommandError
 from studio.packages.pose_files import may_name_poses
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.listeners import LastTold
+from studio.protocol.listeners import LastSent
 from studio.protocol.robot import ApplyPose, DeletePose, Poses, PoseView, RenamePose, SavePose
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class NamedPoses:
         self._workspace, self._model, self._motion = workspace, model, motion
         self._search, self._audience = search, audience
         self._shelf = NamedItems(workspace.entry, workspace.served, _SHELF)
-        self._sent = LastTold[Poses](audience)
+        self._sent = LastSent[Poses](audience)
         self._watch = FileWatch(self._changed_on_disk, may_name_poses)
         self._watch.watch({str(self._shelf.path)})
         self._throttle = Throttle(self._refresh, pause_s=_PAUSE_S)
@@ -123,7 +123,7 @@ class NamedPoses:
 
     def _put(self, poses: Iterable[NamedPose]) -> None:
         self._shelf.put(tuple(poses))
-        self._tell()
+        self._send()
 
     async def _changed_on_disk(self, files: set[str]) -> None:
         if files - {str(self._shelf.path)}:
@@ -136,7 +136,7 @@ class NamedPoses:
             found = self._search.found
             self._watch.watch({str(self._shelf.path), *found.files}, found.folders)
             self._shelf.refresh()
-        self._tell()
+        self._send()
 
     def _fitting(self) -> Iterator[tuple[_Kind, NamedPose]]:
         """Yield the user's own poses, and of those found in files the ones for this robot."""
@@ -162,8 +162,8 @@ class NamedPoses:
             trouble=shelf.trouble,
         )
 
-    def _tell(self) -> None:
-        self._sent.tell(self._list())
+    def _send(self) -> None:
+        self._sent.send(self._list())
 
 
 COMMANDS: Final = Commands[NamedPoses](Scope.DOCUMENT)

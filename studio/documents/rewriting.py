@@ -21,8 +21,8 @@ from studio.protocol.texts import (
     Rename,
     RenamingAnswer,
     ReplaceTexts,
+    TextSearch,
     TextsFound,
-    WordsCommand,
 )
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ _SHOWN: Final = 240
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class SearchText:
     """A text to find; never a pattern, which could be made to run for ever."""
 
     text: str
@@ -53,8 +53,8 @@ class Words:
         Not by a regular expression: one that ignores case takes the length of both multiplied.
         """
         wanted = self._compared(self.text.replace("\r\n", "\n"))
-        looked_at, at = self._compared(text), 0
-        while (at := looked_at.find(wanted, at)) >= 0:
+        compared, at = self._compared(text), 0
+        while (at := compared.find(wanted, at)) >= 0:
             end = at + len(wanted)
             is_found = not self.whole_word or _stands_alone(text, at, end)
             if is_found:
@@ -84,13 +84,13 @@ class Matches:
     files: int
 
 
-def matches_in(texts: Iterable[tuple[str, bytes]], words: Words, limit: int) -> Matches:
+def matches_in(texts: Iterable[tuple[str, bytes]], wanted_text: SearchText, limit: int) -> Matches:
     """Find a text in the bytes of files, by name."""
     shown: list[Match] = []
     count = files = 0
     for file, data in texts:
         editor = EditorText(data)
-        spans = words.spans(editor.text)
+        spans = wanted_text.spans(editor.text)
         first = list(islice(spans, max(0, limit - len(shown))))
         shown += _drawn(file, editor, first)
         here = len(first) + sum(1 for _ in spans)
@@ -100,7 +100,7 @@ def matches_in(texts: Iterable[tuple[str, bytes]], words: Words, limit: int) -> 
 
 
 def replacements_in(
-    file: str, data: bytes, words: Words, text: str, most: int | None = None
+    file: str, data: bytes, wanted_text: SearchText, text: str, most: int | None = None
 ) -> list[Edit]:
     """Return the edits that write `text` at each place, the last place first.
 
@@ -110,7 +110,7 @@ def replacements_in(
         EditError: The file's encoding lacks a letter of it.
     """
     editor = EditorText(data)
-    return editor.replacements(file, islice(words.spans(editor.text), most), text)
+    return editor.replacements(file, islice(wanted_text.spans(editor.text), most), text)
 
 
 def _stands_alone(text: str, start: int, end: int) -> bool:
@@ -202,7 +202,7 @@ class Rewriting:
     async def find(self, command: FindTexts, asker: Listener) -> TextsFound:
         """Return the places of a text in the files of the robot."""
         texts = self._robot_texts(asker)
-        found = await asyncio.to_thread(matches_in, texts, _words(command), PLACES_SHOWN)
+        found = await asyncio.to_thread(matches_in, texts, _search_text(command), PLACES_SHOWN)
         return _texts_found(command.request, found)
 
     async def replace(self, command: ReplaceTexts, asker: Listener) -> None:
@@ -217,10 +217,10 @@ class Rewriting:
             raise CommandError(
                 f"These are more than {REPLACED_LIMIT} places: look for longer words."
             )
-        words, edits = _words(command), list[Edit]()
+        wanted_text, edits = _search_text(command), list[Edit]()
         for file, data in self._robot_texts(asker):
             most = command.count - len(edits) + 1
-            edits += replacements_in(file, data, words, command.replacement, most)
+            edits += replacements_in(file, data, wanted_text, command.replacement, most)
             if len(edits) > command.count:
                 break
         if len(edits) != command.count:
@@ -275,8 +275,8 @@ COMMANDS.presenter(GetRenaming, lambda rewriting, c, who: rewriting.renaming(c, 
 COMMANDS.viewer(FindTexts, lambda rewriting, c, who: rewriting.find(c, who))
 
 
-def _words(command: WordsCommand) -> Words:
-    return Words(command.text, command.match_case, command.whole_word)
+def _search_text(command: TextSearch) -> SearchText:
+    return SearchText(command.text, command.match_case, command.whole_word)
 
 
 def _texts_found(request: int, found: Matches) -> TextsFound:

@@ -33,7 +33,7 @@ class RobotView:
         self._robot_sent: RobotState | None = None
         self._joints_sent: JointPositions | None = None
 
-    def tell(self) -> bool:
+    def send(self) -> bool:
         """Tell the robot's tree and where its joints stand, as far as that is news.
 
         Returns:
@@ -43,15 +43,15 @@ class RobotView:
         is_new = robot != self._robot_sent
         if is_new:
             self._robot_sent, self._joints_sent = robot, None
-            self._audience.tell(robot)
+            self._audience.send(robot)
         if joints != self._joints_sent:
-            self._audience.tell(joints)
+            self._audience.send(joints)
         self._joints_sent = joints
         return is_new
 
-    def tell_joints(self) -> None:
-        """Tell where the joints stand, by name."""
-        self._audience.tell(self.joints_event())
+    def send_positions(self) -> None:
+        """Send the joint positions, by name."""
+        self._audience.send(self.joints_event())
 
     def send_joints(self) -> None:
         """Send the positions packed; a slow page gets the newest only."""

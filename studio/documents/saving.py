@@ -49,7 +49,7 @@ class Saving:
         with self._drafts.saving(files):
             written = self._sources.save(files)
         self._edits.disk_changed()
-        self._audience.tell(Saved(files=written))
+        self._audience.send(Saved(files=written))
 
     async def changes(self, command: GetChanges) -> Changes:
         """Every file with unsaved edits, and how they read."""

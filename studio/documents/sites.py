@@ -65,13 +65,13 @@ class SiteTable:
         self._changed |= self._ahead
 
     def invalidate(self) -> None:
-        """Compare every site at the next `tell`, after a save, a reload or another argument."""
+        """Compare every site at the next `send`, after a save, a reload or another argument."""
         self._changed.update(self.sites)
 
-    def tell(self) -> None:
+    def send(self) -> None:
         """Send the audience the sites that changed."""
         if changed := self._take_changed():
-            self._audience.tell(changed)
+            self._audience.send(changed)
 
     def event(self) -> Sites:
         """All sites as they were sent."""

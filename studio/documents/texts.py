@@ -187,7 +187,7 @@ class Texts:
         event = TextsChanged(
             file=file, version=sent.version + 1, changes=tuple(changes), origin=origin
         )
-        self._audience.tell(event)
+        self._audience.send(event)
 
     def _name(self, file: str, role: Role) -> str:
         """The name under which the sources hold a file: symlinks resolved."""

@@ -34,7 +34,7 @@ class JointStatePublisher:
         self._header = types.message("std_msgs/msg/Header")
         self._out = node.create_publisher(self._state, "joint_states", _QUEUE)
 
-    def tell(self, positions: Mapping[str, float]) -> None:
+    def publish(self, positions: Mapping[str, float]) -> None:
         """Publish positions, rad or m by name, with the time that it is now."""
         stamp = self._node.get_clock().now().to_msg()
         self._out.publish(
@@ -67,7 +67,7 @@ class JointStateNode(Node):
         else:
             text = message("std_msgs/msg/String")
             self.create_subscription(text, "robot_description", self._take, LATCHED)
-        self.create_timer(1 / rate_hz, self._tell)
+        self.create_timer(1 / rate_hz, self._publish)
 
     def _take(self, description: MessageValue) -> None:
         try:
@@ -75,9 +75,9 @@ class JointStateNode(Node):
         except RobotError as error:
             self.get_logger().error(f"The description was not taken: {error}")
 
-    def _tell(self) -> None:
+    def _publish(self) -> None:
         if self._positions:
-            self._publisher.tell(self._positions)
+            self._publisher.publish(self._positions)
 
 
 def _at_zero(urdf: str) -> dict[str, float]:

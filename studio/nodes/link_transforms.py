@@ -58,7 +58,7 @@ class LinkTransforms:
 
     def fixed(self) -> list[LinkTransform]:
         """Return those that no joint position changes."""
-        return self._told(self._still, np.zeros(len(self._column)))
+        return self._at(self._still, np.zeros(len(self._column)))
 
     def moved(self, positions: Mapping[str, float]) -> list[LinkTransform]:
         """Return those of the joints with given positions (rad or m, by name), and of followers.
@@ -78,9 +78,9 @@ class LinkTransforms:
         values = np.zeros(len(self._column))
         for name, value in known.items():
             values[self._column[name]] = value
-        return self._told([self._moving[name] for name in known], values)
+        return self._at([self._moving[name] for name in known], values)
 
-    def _told(self, joints: list[tuple[Joint, int]], positions: Floats) -> list[LinkTransform]:
+    def _at(self, joints: list[tuple[Joint, int]], positions: Floats) -> list[LinkTransform]:
         if not joints:
             return []
         poses = self._kinematics.wxyz_xyz_in_parents(positions)

@@ -50,7 +50,7 @@ class StatePace:
 
     def __init__(self, frequency_hz: float, *, ignore_stamps: bool = False) -> None:
         self.frequency_hz, self.ignore_stamps = frequency_hz, ignore_stamps
-        self._told_ns: dict[str, int] = {}
+        self._published_ns: dict[str, int] = {}
         self._last_now_ns = 0
 
     def is_due(self, joints: Iterable[str], stamp_ns: int, now_ns: int) -> bool:
@@ -59,14 +59,14 @@ class StatePace:
         A clock that went back, as a simulation's does when it begins anew, forgets all before.
         """
         if now_ns < self._last_now_ns:
-            self._told_ns.clear()
+            self._published_ns.clear()
         self._last_now_ns = now_ns
         names = tuple(joints)
-        oldest_ns = min((self._told_ns.get(name, 0) for name in names), default=0)
+        oldest_ns = min((self._published_ns.get(name, 0) for name in names), default=0)
         interval_ns = int(_NANOSECONDS / self.frequency_hz)
         if not self.ignore_stamps and stamp_ns < oldest_ns + interval_ns and oldest_ns:
             return False
-        self._told_ns |= dict.fromkeys(names, stamp_ns)
+        self._published_ns |= dict.fromkeys(names, stamp_ns)
         return True
 
 

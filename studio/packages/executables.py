@@ -57,23 +57,23 @@ def _of_cmake(folder: Path, package: str) -> dict[str, str]:
     sources: dict[str, str] = {}
     found: dict[str, str] = {}
     for call in _CMAKE_CALL.finditer(text):
-        words = call[2].replace('"', " ").split()
+        arguments = call[2].replace('"', " ").split()
         if call[1].lower() == "add_executable":
-            sources[words[0] if words else ""] = words[1] if len(words) > 1 else ""
-        elif f"lib/{package}" in words or call[1].lower() == "catkin_install_python":
-            found |= {name.rsplit("/", 1)[-1]: name for name in _installed_words(words)}
+            sources[arguments[0] if arguments else ""] = arguments[1] if len(arguments) > 1 else ""
+        elif f"lib/{package}" in arguments or call[1].lower() == "catkin_install_python":
+            found |= {name.rsplit("/", 1)[-1]: name for name in _named(arguments)}
     return {name: sources.get(place) or place for name, place in found.items()}
 
 
-def _installed_words(words: list[str]) -> list[str]:
+def _named(arguments: list[str]) -> list[str]:
     """Give what stands behind TARGETS or PROGRAMS, as far as the next keyword."""
     named: list[str] = []
     is_named = False
-    for word in words:
-        if word in _CMAKE_KEYWORDS:
-            is_named = word in {"TARGETS", "PROGRAMS"}
+    for argument in arguments:
+        if argument in _CMAKE_KEYWORDS:
+            is_named = argument in {"TARGETS", "PROGRAMS"}
         elif is_named:
-            named.append(word)
+            named.append(argument)
     return named
 
 

@@ -94,13 +94,13 @@ def make_file(folder: Path, package: str, text: bytes) -> Path:
 
 
 def _write_all(folder: Path, package: str, file: str, text: bytes) -> None:
-    words = {"PACKAGE": package, "ROBOT": robot_of(package), "FILE": file, "ROOT": _root_of(text)}
+    values = {"PACKAGE": package, "ROBOT": robot_of(package), "FILE": file, "ROOT": _root_of(text)}
     shutil.rmtree(folder, ignore_errors=True)
     for inner in ("urdf", "launch"):
         (folder / inner).mkdir(parents=True)
     _write_new(folder / "urdf" / file, text)
     for path in ("package.xml", "CMakeLists.txt", "README.md", "launch/display.launch.py"):
-        _write_new(folder / path, _filled(f"{Path(path).name}.in", words))
+        _write_new(folder / path, _filled(f"{Path(path).name}.in", values))
 
 
 def _write_new(file: Path, text: bytes) -> None:
@@ -115,10 +115,10 @@ def _write_new(file: Path, text: bytes) -> None:
             raise
 
 
-def _filled(template: str, words: dict[str, str]) -> bytes:
+def _filled(template: str, values: dict[str, str]) -> bytes:
     text = (_TEMPLATES / template).read_text(encoding="utf-8")
-    for name, word in words.items():
-        text = text.replace(f"@{name}@", word)
+    for name, value in values.items():
+        text = text.replace(f"@{name}@", value)
     return text.encode()
 
 

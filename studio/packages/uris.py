@@ -24,7 +24,7 @@ _SCHEME: Final = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)
 _DRIVE: Final = re.compile(r"/?[A-Za-z]:[\\/]")
 _PACKAGE_SCHEMES: Final = frozenset({"package", "model"})
 """Gazebo's `model://` names a model folder; in a ROS package that is exported it is the package."""
-_FILES_LOOKED_AT: Final = 4_000
+_FILES_MAX: Final = 4_000
 _LIKENESS: Final = 0.75
 _LEAST_WORD: Final = 4
 """Shorter parts that differ are no typing errors: `fl` and `fr` are two wheels."""
@@ -142,7 +142,7 @@ def near_file(
 
 def _names(folder: Path, suffixes: Collection[str]) -> list[str]:
     with os.scandir(folder) as entries:
-        names = [one.name for one in islice(entries, _FILES_LOOKED_AT)]
+        names = [one.name for one in islice(entries, _FILES_MAX)]
     return [one for one in names if PurePath(one).suffix.lower() in suffixes]
 
 

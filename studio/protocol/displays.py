@@ -149,7 +149,7 @@ class PropertyView(Message):
     when_values: tuple[PropertyValue, ...]
 
 
-class ListeningWish(Message):
+class ListeningView(Message):
     """QoS that a display asks for; None: as fits the publishers of its topic."""
 
     reliable: bool | None
@@ -170,7 +170,7 @@ class DisplayView(Message):
     reliable: bool
     latched: bool
     depth: int
-    wished: ListeningWish
+    wished: ListeningView
     """What of these three was chosen; `reliable`, `latched` and `depth` are as they are now."""
     values: dict[str, PropertyValue]
     more: tuple[PropertyView, ...]

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from studio.protocol import Event
     from studio.protocol.roles import Role
 
-_Told = TypeVar("_Told", bound="Event")
+_Sent = TypeVar("_Sent", bound="Event")
 
 
 class Listener(Protocol):
@@ -28,7 +28,7 @@ def encode(event: Event) -> bytes:
     return event.model_dump_json().encode()
 
 
-def tell(listener: Listener, event: Event) -> None:
+def send(listener: Listener, event: Event) -> None:
     """Send one event to one listener."""
     listener.post(encode(event))
 
@@ -50,7 +50,7 @@ class Audience:
         """Forget it; it need not be there."""
         self._listeners.discard(listener)
 
-    def tell(self, event: Event) -> None:
+    def send(self, event: Event) -> None:
         """Send one event to all."""
         if self._listeners:
             self.post(encode(event))
@@ -61,7 +61,7 @@ class Audience:
             listener.post(data, binary=binary, key=key)
 
 
-class LastTold(Generic[_Told]):
+class LastSent(Generic[_Sent]):
     """The event that an audience was sent last, so that only changes are sent.
 
     Attributes:
@@ -70,10 +70,10 @@ class LastTold(Generic[_Told]):
 
     def __init__(self, audience: Audience) -> None:
         self._audience = audience
-        self.event: _Told | None = None
+        self.event: _Sent | None = None
 
-    def tell(self, event: _Told) -> None:
+    def send(self, event: _Sent) -> None:
         """Send the event, unless it equals the last one."""
         if event != self.event:
             self.event = event
-            self._audience.tell(event)
+            self._audience.send(event)

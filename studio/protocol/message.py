@@ -58,8 +58,8 @@ def type_of(kind: type[Command | Event]) -> str:
 def adapter_of(kinds: Iterable[type[_Kind]]) -> TypeAdapter[_Kind]:
     """Return a parser of these kinds, which are distinguished by their `type`."""
     union: Any = Union[tuple(sorted(kinds, key=type_of))]  # noqa: UP007 - a tuple of run time
-    told_apart: Any = Annotated[union, Field(discriminator="type")]
-    return TypeAdapter(told_apart)
+    discriminated: Any = Annotated[union, Field(discriminator="type")]
+    return TypeAdapter(discriminated)
 
 
 def all_events() -> set[type[Event]]:

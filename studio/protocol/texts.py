@@ -131,7 +131,7 @@ class RenamingAnswer(Event):
     files: int
 
 
-class WordsCommand(Command):
+class TextSearch(Command):
     """A text to find in the files of the robot; plain, not a pattern."""
 
     text: str = Field(min_length=1, max_length=1000)
@@ -139,7 +139,7 @@ class WordsCommand(Command):
     whole_word: bool = False
 
 
-class FindTexts(WordsCommand):
+class FindTexts(TextSearch):
     """Ask for the places of a text in the files of the robot."""
 
     type: Literal["find_texts"] = "find_texts"
@@ -155,7 +155,7 @@ class TextsFound(Event):
     files: int
 
 
-class ReplaceTexts(WordsCommand):
+class ReplaceTexts(TextSearch):
     """Write `replacement` at all places of a text, as one undo step.
 
     Refused when the number of places is no longer `count`, the one in `texts_found`.

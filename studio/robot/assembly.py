@@ -138,7 +138,7 @@ class Assembly:
                     was.name == link.name
                     and known is not None
                     and known[0] is was
-                    and _looks(was) == _looks(link)
+                    and _appearance(was) == _appearance(link)
                 )
             case Joint() as was, Joint() as joint:
                 return _ties(was) == _ties(joint) and self.robot.joints.get(was.name) is was
@@ -256,7 +256,7 @@ def _add_inline_materials(links: Iterable[Link], materials: dict[str, Material])
     for link in links:
         for visual in link.visuals:
             material = visual.material
-            if material is not None and material.name and _has_looks(material):
+            if material is not None and material.name and _has_appearance(material):
                 materials.setdefault(material.name, material)
 
 
@@ -266,10 +266,10 @@ def _lookup(visual: Visual, materials: Mapping[str, Material]) -> Material | Non
     if material is None:
         return None
     known = materials.get(material.name) if material.name else None
-    return known or (material if _has_looks(material) or not material.name else None)
+    return known or (material if _has_appearance(material) or not material.name else None)
 
 
-def _has_looks(material: Material) -> bool:
+def _has_appearance(material: Material) -> bool:
     return material.rgba is not None or bool(material.texture_uri)
 
 
@@ -307,7 +307,7 @@ def _skeleton(robot: Robot) -> object:
     return tuple(robot.links), [_ties(joint) for joint in robot.joints.values()]
 
 
-def _looks(link: Link) -> object:
+def _appearance(link: Link) -> object:
     """Return what a link is drawn with, but for numbers: kinds of shapes, meshes, materials."""
     return (
         [(_kind(one.geometry), one.material) for one in link.visuals],

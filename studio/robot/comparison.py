@@ -141,7 +141,7 @@ def _compared(
     one: Mapping[str, _Part],
     other: Mapping[str, _Part],
     rows: Callable[[_Part, _Part], Iterator[Row]],
-    word: Callable[[_Part], str],
+    label: Callable[[_Part], str],
 ) -> Iterator[Difference]:
     for name in dict.fromkeys((*one, *other)):
         a, b = one.get(name), other.get(name)
@@ -149,7 +149,7 @@ def _compared(
             for row in rows(a, b):
                 yield Difference(f"{kind}:{name}", row)
         else:
-            whole = Row(kind, word(a) if a else None, word(b) if b else None)
+            whole = Row(kind, label(a) if a else None, label(b) if b else None)
             yield Difference(f"{kind}:{name}", whole)
 
 
@@ -198,8 +198,8 @@ def _shape_rows(
     what: str, one: Visual | Collision | None, other: Visual | Collision | None
 ) -> Iterator[Row]:
     if one is None or other is None:
-        words = _word(one.geometry) if one else None, _word(other.geometry) if other else None
-        yield Row(what, *words)
+        labels = _label(one.geometry) if one else None, _label(other.geometry) if other else None
+        yield Row(what, *labels)
         return
     yield from pose_rows(what, one.origin, other.origin)
     yield from _geometry_rows(what, one.geometry, other.geometry)
@@ -221,10 +221,10 @@ def _geometry_rows(what: str, one: Geometry, other: Geometry) -> Iterator[Row]:
             yield from text_row(f"{what}.mesh", one.uri, other.uri)
             yield from vector_rows(f"{what}.scale", one.scale, other.scale, "")
         case _:
-            yield from text_row(f"{what}.shape", _word(one), _word(other))
+            yield from text_row(f"{what}.shape", _label(one), _label(other))
 
 
-def _word(geometry: Geometry) -> str:
+def _label(geometry: Geometry) -> str:
     return type(geometry).__name__.lower()
 
 

@@ -227,10 +227,10 @@ def is_closed(vertices: NDArray[np.float32], faces: NDArray[np.uint32]) -> bool:
     place = _places(vertices)[faces]
     begin, end = place.ravel(), np.roll(place, -1, axis=1).ravel()
     edge = np.minimum(begin, end) * np.int64(len(vertices)) + np.maximum(begin, end)
-    way = np.sign(end - begin)
+    direction = np.sign(end - begin)
     order = np.argsort(edge, kind="stable")
     starts = np.flatnonzero(np.diff(edge[order], prepend=-1))
-    return not np.add.reduceat(way[order], starts).any()
+    return not np.add.reduceat(direction[order], starts).any()
 
 
 def _places(vertices: NDArray[np.float32]) -> NDArray[np.int64]:

@@ -225,5 +225,5 @@ def _later(what: str, offered: Duration, requested: Duration) -> list[str]:
     requested_ns = requested.nanoseconds or INFINITE.nanoseconds
     if offered_ns <= requested_ns:
         return []
-    said = "none" if offered_ns == INFINITE.nanoseconds else f"{offered_ns / 1e9:g} s"
-    return [f"the publisher's {what} is {said}, the subscription wants {requested_ns / 1e9:g} s"]
+    text = "none" if offered_ns == INFINITE.nanoseconds else f"{offered_ns / 1e9:g} s"
+    return [f"the publisher's {what} is {text}, the subscription wants {requested_ns / 1e9:g} s"]

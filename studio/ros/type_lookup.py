@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from studio.ros.types.library import ActionType, ServiceType
 
 TypeT = TypeVar("TypeT")
-Say: TypeAlias = "Callable[[str], object]"
+Report: TypeAlias = "Callable[[str], object]"
 
 
 def learn_from(
@@ -43,7 +43,7 @@ def learn_from(
         NotServedError: It does not describe its types.
         NoAnswerError: It does not answer.
     """
-    descriptions, texts = _told(node, endpoint, timeout_s)
+    descriptions, texts = _descriptions_of(node, endpoint, timeout_s)
     return learn(node.wire.types, endpoint.type_name, descriptions, texts)
 
 
@@ -57,10 +57,10 @@ def texts_from(
     Raises:
         TypeDescriptionError, NotServedError, NoAnswerError: As `learn_from`.
     """
-    return matching_sources(node.wire.types, _told(node, endpoint, timeout_s)[1])
+    return matching_sources(node.wire.types, _descriptions_of(node, endpoint, timeout_s)[1])
 
 
-def _told(
+def _descriptions_of(
     node: Node, endpoint: GraphEndpoint, timeout_s: float
 ) -> tuple[dict[str, tuple[str, MessageValue]], list[MessageValue]]:
     """Return descriptions with their hashes by what was asked, and the sources of all."""
@@ -101,46 +101,46 @@ def _questions(node: Node, endpoint: GraphEndpoint) -> dict[str, str]:
     }
 
 
-def known_service(node: Node, name: str, type_name: str, say: Say) -> ServiceType:
-    """Return a service's type; `say` is called with why nodes did not describe it.
+def known_service(node: Node, name: str, type_name: str, report: Report) -> ServiceType:
+    """Return a service's type; `report` is called with why nodes did not describe it.
 
     Raises:
         UnknownTypeError: It is not known, and no node describes it.
     """
     types = node.wire.types
-    return _known(types.service, type_name, node, lambda: node.graph.servers(name), say)
+    return _known(types.service, type_name, node, lambda: node.graph.servers(name), report)
 
 
-def known_action(node: Node, name: str, type_name: str, say: Say) -> ActionType:
+def known_action(node: Node, name: str, type_name: str, report: Report) -> ActionType:
     """Return an action's type; else as `known_service`."""
     types = node.wire.types
     service = goal_service(name)
-    return _known(types.action, type_name, node, lambda: node.graph.servers(service), say)
+    return _known(types.action, type_name, node, lambda: node.graph.servers(service), report)
 
 
-def known_message(node: Node, topic: str, type_name: str, say: Say) -> type[MessageValue]:
+def known_message(node: Node, topic: str, type_name: str, report: Report) -> type[MessageValue]:
     """Return the type of a topic's messages; else as `known_service`."""
 
     def users() -> list[GraphEndpoint]:
         return [*node.graph.subscriptions(topic), *node.graph.publishers(topic)]
 
-    return _known(node.wire.types.message, type_name, node, users, say)
+    return _known(node.wire.types.message, type_name, node, users, report)
 
 
-def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], say: Say) -> None:
+def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], report: Report) -> None:
     """Ask the nodes of endpoints in turn until one describes its type.
 
-    `say` is called with why others did not.
+    `report` is called with why others did not.
     """
     for endpoint in endpoints:
         path = endpoint.node.path
         if not node.graph.has_server(f"{path}/{DESCRIPTION_SERVICE}"):  # asking would wait for it
-            say(f"{path} does not tell what its types are made of.")
+            report(f"{path} does not tell what its types are made of.")
             continue
         try:
             learn_from(node, endpoint)
         except StudioError as error:
-            say(f"{path}: {error}")
+            report(f"{path}: {error}")
         else:
             return
 
@@ -170,10 +170,10 @@ def _known(
     type_name: str,
     node: Node,
     users: Callable[[], Iterable[GraphEndpoint]],
-    say: Say,
+    report: Report,
 ) -> TypeT:
     try:
         return find(type_name)
     except UnknownTypeError:
-        learn_from_any(node, users(), say)
+        learn_from_any(node, users(), report)
         return find(type_name)

@@ -53,8 +53,8 @@ def make_app(
         redirect_slashes=False,
         dependencies=[Depends(check_role)],
     )
-    app.add_exception_handler(StudioError, _say)
-    app.add_exception_handler(HTTPException, _say_http)
+    app.add_exception_handler(StudioError, _answer_error)
+    app.add_exception_handler(HTTPException, _answer_http_error)
     Site(engine, assets, session).add_to(app)
     app.include_router(Api(engine, session).router())
     app.include_router(Exports(engine).router())
@@ -82,7 +82,7 @@ def check_role(connection: HTTPConnection) -> None:
         demand(connection.scope["state"]["visitor"], ROUTES.get(path), document)
 
 
-async def _say(connection: Request | WebSocket, error: Exception) -> Response:
+async def _answer_error(connection: Request | WebSocket, error: Exception) -> Response:
     """An error of the studio as an answer in one sentence; a websocket is not opened then."""
     status = next(status for kind, status in _STATUS if isinstance(error, kind))
     if isinstance(connection, WebSocket):
@@ -93,7 +93,7 @@ async def _say(connection: Request | WebSocket, error: Exception) -> Response:
     return _plain(error, status)
 
 
-async def _say_http(request: Request | WebSocket, error: Exception) -> Response:
+async def _answer_http_error(request: Request | WebSocket, error: Exception) -> Response:
     """Answer for the router's own errors: no such address, no such method."""
     assert isinstance(error, HTTPException)
     if _wants_page(request) and error.status_code == HTTPStatus.NOT_FOUND:

@@ -59,10 +59,10 @@ _MODULE_OF_INDEX: Final = re.compile(r'\{\{base\}\}([^"]+\.js)"')
 _OWN_MODULE: Final = re.compile(r"(?!vendor/).*\.js$")
 _CSS_IMPORT: Final = re.compile(r'^@import "([^"]+)";\n?', re.MULTILINE)
 _LANGUAGE: Final = re.compile(r"i18n/(\w+)\.json")
-WORDS_OF_CHECKS: Final = "checks/words.json"
-"""A file that is made in memory, by `words_of_checks`."""
+CHECK_TEXTS: Final = "checks/words.json"
+"""A file that is made in memory, by `check_texts`."""
 _PANEL: Final = re.compile(r"panels/(\w+)/panel\.json")
-_PANEL_WORDS: Final = "words"
+_PANEL_TEXTS: Final = "words"
 _FALLBACK: Final = "en"
 _GZIP_LEVEL, _ZSTD_LEVEL = 6, 15
 
@@ -195,7 +195,7 @@ def _asset(path: str, contents: Mapping[str, bytes], modules: Modules) -> Asset:
         if suffix == ".css":
             return _with_imports(path, contents).encode()
         if language := _LANGUAGE.fullmatch(path):
-            return _all_words(language[1], contents)
+            return _all_texts(language[1], contents)
         joined = modules.text(path)
         return contents[path] if joined is None else joined.encode()
 
@@ -224,27 +224,27 @@ def panel_rows(contents: Mapping[str, bytes]) -> str:
     for path, content in contents.items():
         if panel := _PANEL.fullmatch(path):
             row: dict[str, object] = json.loads(content)
-            rows[panel[1]] = {key: one for key, one in row.items() if key != _PANEL_WORDS}
+            rows[panel[1]] = {key: one for key, one in row.items() if key != _PANEL_TEXTS}
     return json.dumps(rows, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
-def words_of_checks(whys: Mapping[str, Mapping[str, str]]) -> bytes:
+def check_texts(whys: Mapping[str, Mapping[str, str]]) -> bytes:
     """Return a file of texts why findings matter, given by code and language."""
-    words: dict[str, dict[str, str]] = {}
+    by_language: dict[str, dict[str, str]] = {}
     for code, texts in whys.items():
         for language, text in texts.items():
-            words.setdefault(language, {})[f"why.{code}"] = text
-    return json.dumps(words, ensure_ascii=False).encode()
+            by_language.setdefault(language, {})[f"why.{code}"] = text
+    return json.dumps(by_language, ensure_ascii=False).encode()
 
 
-def _all_words(language: str, contents: Mapping[str, bytes]) -> bytes:
+def _all_texts(language: str, contents: Mapping[str, bytes]) -> bytes:
     """Return the texts of page, panels and checks; in English what the language lacks."""
-    words: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for spoken in dict.fromkeys((_FALLBACK, language)):
-        words |= json.loads(contents.get(f"i18n/{spoken}.json", b"{}"))
+        texts |= json.loads(contents.get(f"i18n/{spoken}.json", b"{}"))
         for path, content in contents.items():
-            if path == WORDS_OF_CHECKS:
-                words |= json.loads(content).get(spoken, {})
+            if path == CHECK_TEXTS:
+                texts |= json.loads(content).get(spoken, {})
             elif _PANEL.fullmatch(path):
-                words |= json.loads(content).get(_PANEL_WORDS, {}).get(spoken, {})
-    return json.dumps(words, ensure_ascii=False, separators=(",", ":")).encode()
+                texts |= json.loads(content).get(_PANEL_TEXTS, {}).get(spoken, {})
+    return json.dumps(texts, ensure_ascii=False, separators=(",", ":")).encode()

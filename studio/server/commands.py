@@ -13,7 +13,7 @@ from studio.errors import CommandError, StudioError
 from studio.outlet import Outlet
 from studio.protocol.commands import COMMAND_LIMIT_BYTES, demand
 from studio.protocol.documents import Refused
-from studio.protocol.listeners import tell
+from studio.protocol.listeners import send
 from studio.protocol.message import adapter_of, all_events
 from studio.server.websocket import FrameTransport, binary_frame, text_frame
 
@@ -84,7 +84,7 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
         demand(listener, COMMANDS[type(command)].permission, command.document)
         await engine.execute(command, listener)
     except StudioError as error:
-        tell(
+        send(
             listener,
             Refused(request=request_of(text), kind=type(error).__name__, reason=str(error)),
         )
@@ -93,11 +93,11 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
             raise
         # Not we were cancelled, but what we waited for: its document was closed.
         reason = "The document was closed before this was done: open it again."
-        tell(listener, Refused(request=request_of(text), kind="ClosedError", reason=reason))
+        send(listener, Refused(request=request_of(text), kind="ClosedError", reason=reason))
     except Exception:  # noqa: BLE001 - a bug of ours must not close the socket of a user
         _LOG.exception("A command failed")
         reason = "The studio failed at this command; its terminal says how."
-        tell(listener, Refused(request=request_of(text), kind="InternalError", reason=reason))
+        send(listener, Refused(request=request_of(text), kind="InternalError", reason=reason))
 
 
 class Answers:
@@ -122,7 +122,7 @@ class Answers:
         return self.events
 
 
-_UNDER_WAY_LIMIT: Final = 64
+_RUNNING_LIMIT: Final = 64
 """Commands of one browser that may wait for the engine; then its socket is not read."""
 _TOO_SLOW: Final = 1013
 """Close code `try again later`: the page connects anew and gets the whole state."""
@@ -151,9 +151,9 @@ class ControlLane:
         engine.attach(self)
         try:
             async with asyncio.TaskGroup() as group:
-                under_way = await self._answer_all(engine, group)
+                running = await self._answer_all(engine, group)
                 if self._lane.server_ends:  # the engine has ended before: nothing can come of it
-                    for task in under_way:
+                    for task in running:
                         task.cancel()
         finally:
             engine.detach(self)
@@ -164,11 +164,11 @@ class ControlLane:
         self, engine: OpenDocuments, group: asyncio.TaskGroup
     ) -> set[asyncio.Task[None]]:
         """Start every command that comes; gives those that are not done when the lane ends."""
-        under_way: set[asyncio.Task[None]] = set()
+        running: set[asyncio.Task[None]] = set()
         while (text := await self._lane.receive()) is not None:
             task = group.create_task(answer(engine, self, text))
-            under_way.add(task)
-            task.add_done_callback(under_way.discard)
-            while len(under_way) >= _UNDER_WAY_LIMIT:
-                await asyncio.wait(under_way, return_when=asyncio.FIRST_COMPLETED)
-        return under_way
+            running.add(task)
+            task.add_done_callback(running.discard)
+            while len(running) >= _RUNNING_LIMIT:
+                await asyncio.wait(running, return_when=asyncio.FIRST_COMPLETED)
+        return running

@@ -24,7 +24,7 @@ VIEWER_CONNECTIONS_MAX: Final = 64
 """For one viewer: a browser holds three websockets per tab, and six requests at a time."""
 _STRANGERS_MAX: Final = 128
 _DESCRIPTORS_WITHOUT_LIMIT: Final = 4096
-_SAY_EVERY_S: Final = 60.0
+_LOG_EVERY_S: Final = 60.0
 _log = logging.getLogger(__name__)
 
 
@@ -79,7 +79,7 @@ class Crowd:
         self._people: dict[Visitor, Person] = {}
         self._viewer_connections = 0
         self._viewers = Allowance(10_000, 4_000)
-        self._refused, self._said_s = 0, -_SAY_EVERY_S
+        self._refused, self._logged_s = 0, -_LOG_EVERY_S
 
     def arrive(self, connection: Connection) -> None:
         """Hold a stranger's connection; when there are too many, close the oldest."""
@@ -140,9 +140,9 @@ class Crowd:
         """Note that a stranger was refused: a line a minute at most, however many there are."""
         self._refused += 1
         now_s = time.monotonic()
-        if now_s - self._said_s < _SAY_EVERY_S:
+        if now_s - self._logged_s < _LOG_EVERY_S:
             return
-        count, self._refused, self._said_s = self._refused, 0, now_s
+        count, self._refused, self._logged_s = self._refused, 0, now_s
         before = f" ({count - 1} others since the last such line)" if count > 1 else ""
         _log.warning("A connection without a key was refused: %s%s.", why, before)
 

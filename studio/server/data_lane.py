@@ -47,7 +47,7 @@ class DataLane:
         self._end_bulk: Callable[[], object] = lambda: None
         lane.on_drain(self._outlet.resume)
 
-    def say(self, message: BaseModel, /) -> None:
+    def send(self, message: BaseModel, /) -> None:
         """Queue one JSON message."""
         if self._bulk is not None and isinstance(message, SubscriptionView):
             self._bulk.forget(message.channel)
@@ -98,18 +98,18 @@ class DataLane:
 
     def _take_text(self, topics: SubscribesTopics, text: bytes) -> None:
         if len(text) > _COMMAND_LIMIT_BYTES:
-            self.say(NotSubscribed(subscription=0, reason="So long a command is not read."))
+            self.send(NotSubscribed(subscription=0, reason="So long a command is not read."))
             return
         try:
             command = LANE_COMMANDS.validate_json(text)
         except ValidationError as error:
-            self.say(NotSubscribed(subscription=0, reason=malformed("command", error)))
+            self.send(NotSubscribed(subscription=0, reason=malformed("command", error)))
         else:
             self._carry_out(topics, command)
 
     def _carry_out(self, topics: SubscribesTopics, command: LaneCommand) -> None:
         if isinstance(command, AskBulk):
-            self.say(BulkKey(key=self._keys.key_of(self)))
+            self.send(BulkKey(key=self._keys.key_of(self)))
         else:
             topics.carry_out(self, command)
 

@@ -113,7 +113,7 @@ class StudioConnection(HttpToolsProtocol):
 
     def on_message_begin(self) -> None:
         """The first byte of a request; others may wait for their answers."""
-        self._heard()
+        self._received()
         if len(self.pipeline) >= _WAITING_MAX:
             self._refusal = HTTPStatus.TOO_MANY_REQUESTS, "Wait for the answers."
             raise _RefusedError
@@ -123,7 +123,7 @@ class StudioConnection(HttpToolsProtocol):
 
     def on_url(self, url: bytes) -> None:
         """A piece of the address."""
-        self._heard()
+        self._received()
         self._head_bytes += len(url)
         if self._head_bytes > _URL_LIMIT_BYTES:
             self._refusal = HTTPStatus.REQUEST_URI_TOO_LONG, "The address is too long."
@@ -132,7 +132,7 @@ class StudioConnection(HttpToolsProtocol):
 
     def on_header(self, name: bytes, value: bytes) -> None:
         """A header, or a trailer behind a body."""
-        self._heard()
+        self._received()
         self._header_count += 1
         self._head_bytes += len(name) + len(value)
         if self._header_count > _HEADERS_MAX or self._head_bytes > _HEAD_LIMIT_BYTES:
@@ -142,18 +142,18 @@ class StudioConnection(HttpToolsProtocol):
 
     def on_headers_complete(self) -> None:
         """Let the application find its connection: the task that runs it has not begun yet."""
-        self._heard()
+        self._received()
         super().on_headers_complete()
         self.scope["extensions"] = {_EXTENSION: {"protocol": self}}  # type: ignore[typeddict-item]
 
     def on_body(self, body: bytes) -> None:
         """A piece of the body."""
-        self._heard()
+        self._received()
         super().on_body(body)
 
     def on_message_complete(self) -> None:
         """The last byte of a request."""
-        self._heard()
+        self._received()
         super().on_message_complete()
 
     def resume_writing(self) -> None:
@@ -176,7 +176,7 @@ class StudioConnection(HttpToolsProtocol):
         """End it at once, with what was not taken yet."""
         self.transport.abort()
 
-    def _heard(self) -> None:
+    def _received(self) -> None:
         """The parser has passed on what it had."""
         self._kept_bytes = 0
 

@@ -29,7 +29,7 @@ from studio.protocol.roles import Role
 from studio.robot import checks as robot_checks
 from studio.scene import CLIENT_PATH, viser_client
 from studio.server.app import make_app
-from studio.server.assets import WORDS_OF_CHECKS, Assets, words_of_checks
+from studio.server.assets import CHECK_TEXTS, Assets, check_texts
 from studio.server.credentials import Credentials, cookie_key
 from studio.server.origin import is_loopback
 from studio.server.ports import address, bind, code_address, port_of
@@ -114,12 +114,12 @@ def _default_browser() -> str:
         return ""
     asked = [settings, "get", "default-web-browser"]
     try:
-        told = subprocess.run(
+        found = subprocess.run(
             asked, capture_output=True, text=True, timeout=_ASK_TIMEOUT_S, check=False
         )
     except (OSError, subprocess.SubprocessError):
         return ""
-    return told.stdout.strip()
+    return found.stdout.strip()
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,20 +165,22 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
 
 def remarks(settings: Settings, port: int, *, is_root: bool = False) -> list[str]:
     """Return sentences about what is unusual in how the studio runs and where it listens."""
-    said: list[str] = []
+    sentences: list[str] = []
     if is_root:
-        said.append(
+        sentences.append(
             "The studio runs as root, and so does all that a file or a visitor makes it do: "
             "start it as an ordinary user."
         )
     if settings.port is None and port != DEFAULT_PORT:
-        said.append(f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}.")
+        sentences.append(
+            f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}."
+        )
     if not is_loopback(settings.host):
-        said.append(
+        sentences.append(
             "Other machines reach this studio, and the connection is not encrypted: "
             "whoever has the address with its token can change and save files."
         )
-    return said
+    return sentences
 
 
 def _is_root() -> bool:
@@ -208,7 +210,7 @@ class _Visit:
             repository_or_wheel("frontend_assets"),
             {
                 CLIENT_PATH: viser_client(),
-                WORDS_OF_CHECKS: words_of_checks(whys(robot_checks, text_checks)),
+                CHECK_TEXTS: check_texts(whys(robot_checks, text_checks)),
             },
         )
         app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
@@ -248,7 +250,7 @@ class _Visit:
         gc.collect()
         gc.freeze()  # the objects of the start stay: a collection over all of them takes 40 ms
         for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
-            _say(f"{name}: {link}")
+            _print(f"{name}: {link}")
         if self._settings.open_browser and has_display():
             self._open_browser()
         if opening.then is not None:
@@ -263,7 +265,7 @@ class _Visit:
         self._window.show(code_address(self._settings.host, self._port, code))
 
 
-def _say(line: str) -> None:
+def _print(line: str) -> None:
     """Print one line at once: the parent process may read it from a pipe."""
     with suppress(OSError):
         sys.stdout.write(f"{line}\n")

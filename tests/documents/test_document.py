@@ -337,7 +337,7 @@ def test_a_save_makes_only_those_rows_anew_that_it_changes(tmp_path: Path):
             with calls_here() as calls:
                 await document.saving.save()
             assert ear.site("reach")["saved_text"] is None
-            assert calls["SiteTable.tell"]
+            assert calls["SiteTable.send"]
             assert calls["_site_view"] == 1
             assert len(ear.sites()) > 1
 

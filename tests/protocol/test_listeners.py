@@ -1,5 +1,5 @@
 from studio.protocol.displays import LiveDisplays
-from studio.protocol.listeners import Audience, LastTold
+from studio.protocol.listeners import Audience, LastSent
 from tests.support.open_documents import Ear
 
 
@@ -10,9 +10,9 @@ def settings_in(frame: str) -> LiveDisplays:
 def test_an_audience_hears_only_what_is_news():
     audience, ear = Audience(), Ear()
     audience.add(ear)
-    settings = LastTold[LiveDisplays](audience)
+    settings = LastSent[LiveDisplays](audience)
     assert settings.event is None
     for frame in ("map", "map", "odom", "map"):
-        settings.tell(settings_in(frame))
+        settings.send(settings_in(frame))
     assert [said["fixed_frame"] for said in ear.events] == ["map", "odom", "map"]
     assert settings.event == settings_in("map")

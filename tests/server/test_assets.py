@@ -11,7 +11,7 @@ import pytest
 import zstandard
 
 from studio.protocol.roles import Role
-from studio.server.assets import WORDS_OF_CHECKS, Assets, accepted_coding, words_of_checks
+from studio.server.assets import CHECK_TEXTS, Assets, accepted_coding, check_texts
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -198,8 +198,8 @@ def test_the_words_hold_why_a_finding_matters(tmp_path: Path):
     written.mkdir()
     for language in ("en", "de"):
         (written / f"{language}.json").write_text("{}")
-    made = words_of_checks({"bad-mass": {"en": "Forces divide by it.", "de": "Kräfte."}})
-    files = Assets(tmp_path, {WORDS_OF_CHECKS: made}).current().files
+    made = check_texts({"bad-mass": {"en": "Forces divide by it.", "de": "Kräfte."}})
+    files = Assets(tmp_path, {CHECK_TEXTS: made}).current().files
     assert json.loads(files["i18n/en.json"].content) == {"why.bad-mass": "Forces divide by it."}
     assert json.loads(files["i18n/de.json"].content) == {"why.bad-mass": "Kräfte."}
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
-from studio.protocol.listeners import tell
+from studio.protocol.listeners import send
 
 if TYPE_CHECKING:
     from studio.documents.document import Document
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 async def ask_document(document: Document, command: Command, asker: Listener) -> None:
     """Have a document carry a command out; its answer goes to the asker."""
     if (answer := await DOCUMENT_COMMANDS.carry_out(document, command, asker)) is not None:
-        tell(asker, answer)
+        send(asker, answer)
 
 
 async def ask_ros(ros: RosSystem, command: Command, asker: Listener) -> Any:  # noqa: ANN401

@@ -53,7 +53,7 @@ class KeepingHearer:
         self.came: list[Came] = []
         self.ticks: list[Tick] = []
 
-    def say(self, message: BaseModel, /) -> None:
+    def send(self, message: BaseModel, /) -> None:
         if isinstance(message, SubscriptionView):
             self.told.append(message)
         if isinstance(message, NotSubscribed):

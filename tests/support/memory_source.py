@@ -149,7 +149,7 @@ class MemorySource(SharedSource):
         offer = Endpoint(node, False, type_name, type_hash or known, qos or QoSProfile(depth=10))
         made = MemoryPublisher(self, topic, offer, gid)
         self._publishers.append(made)
-        self.doubt()
+        self.refit()
         return made
 
     def say(self, topic: str, payload: bytes, gid: bytes = b"\x00" * 16) -> None:
@@ -166,7 +166,7 @@ class MemorySource(SharedSource):
     def forget(self, publisher: MemoryPublisher) -> None:
         """Let somebody publish no more."""
         self._publishers.remove(publisher)
-        self.doubt()
+        self.refit()
 
     def connect(self, connection: Connection = "there") -> None:
         """Be connected, or not; a connection that was ended is another one afterwards."""
@@ -176,7 +176,7 @@ class MemorySource(SharedSource):
             if "none" in (connection, self._connection):
                 self.change_epoch()
             self._connection = connection
-        self.doubt()
+        self.refit()
 
     def speakers(self, topic: str) -> list[MemoryPublisher]:
         """Who publishes a topic."""
@@ -251,7 +251,7 @@ class MemorySource(SharedSource):
         return made
 
     @override
-    def doubt(self) -> None:
+    def refit(self) -> None:
         self.fit_all()
 
     @override

@@ -12,7 +12,7 @@ from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, 
 from studio.live.topics.frames import Tick, chunk_of
 from studio.protocol.documents import CloseDocument, DocumentEntry, Documents, Done
 from studio.protocol.edits import Redo, Undo
-from studio.protocol.listeners import tell
+from studio.protocol.listeners import send
 from studio.protocol.robot import AnimateJoints, RandomizeJoints, ZeroJoints
 from studio.protocol.saving import Reload, Save
 from studio.protocol.subscriptions import NotSubscribed, Subscribe
@@ -114,7 +114,7 @@ class SmallTopics:
                 both = (chunk_of(at, [sample], 0, keeps_all=at == 1) for at in (1, 2))
                 lane.take(Tick(tuple(both)))
                 self.flooded += 1
-        lane.say(NotSubscribed(subscription=command.subscription, reason="there is no such topic"))
+        lane.send(NotSubscribed(subscription=command.subscription, reason="there is no such topic"))
 
 
 class SmallEngine:
@@ -138,7 +138,7 @@ class SmallEngine:
     def attach(self, listener: Listener, /) -> None:
         self.listeners.append(listener)
         entry = DocumentEntry(id="small", title="small", path="small.urdf", unsaved=False)
-        tell(listener, Documents(documents=(entry,)))
+        send(listener, Documents(documents=(entry,)))
 
     def detach(self, listener: Listener, /) -> None:
         if listener in self.listeners:
@@ -149,7 +149,7 @@ class SmallEngine:
         match command:
             case GetUrdf():
                 self.document(command.document)
-                tell(listener, Urdf(request=command.request, text=URDF))
+                send(listener, Urdf(request=command.request, text=URDF))
             case Save():
                 raise SaveConflictError("small.urdf")
             case Undo():
@@ -169,7 +169,7 @@ class SmallEngine:
                     listener.post(b"%d" % number + bytes(1 << 20), binary=True, key=key)
             case _:
                 pass
-        tell(listener, Done(request=command.request))
+        send(listener, Done(request=command.request))
 
     async def _wait(self, command: Redo | Reload) -> None:
         if isinstance(command, Reload):

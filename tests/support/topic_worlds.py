@@ -125,7 +125,7 @@ class ZenohWorld(World):
 
     @override
     def connect(self) -> None:
-        self._link = WireLink(WireChoice("off", (self._endpoint,)), self._source.doubt)
+        self._link = WireLink(WireChoice("off", (self._endpoint,)), self._source.refit)
         self._source.attach(self._link)
 
     @override

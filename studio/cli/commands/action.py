@@ -14,7 +14,7 @@ from studio.cli.graph import (
     full_name,
     opened_graph,
     print_listing,
-    say_other_types,
+    print_other_types,
     visible_names,
 )
 from studio.cli.own_node import own_node, print_error, warn_of_foreign_types
@@ -85,7 +85,7 @@ _CANCEL_TIMEOUT_S = 5.0
 _LOG_PATIENCE_S = 0.5
 """A server's log may arrive later than its answer."""
 _WARNING = 30
-_LOOK_S = 0.1
+_CHECK_EVERY_S = 0.1
 """Between two checks for Ctrl-C while waiting for an answer."""
 
 
@@ -119,7 +119,7 @@ def _send_goal(options: argparse.Namespace) -> int:
         kind = known_action(own.node, name, type_name, print_error)
         goal = from_yaml(kind.Goal, options.goal, now_ns=time.time_ns())
         client = ActionClient(own.node, kind, name)
-        say_other_types(name, type_name, own.graph.actions())
+        print_other_types(name, type_name, own.graph.actions())
         from studio.ros.graph.graph import goal_service
 
         warn_of_foreign_types(own, own.graph.servers(goal_service(name)))
@@ -150,7 +150,7 @@ def _follow(
 
     if not goal.accepted:
         print("Goal was rejected.")
-        log.say()
+        log.print_reason()
         return 0
     print(f"Goal accepted with ID: {bytes(goal.goal_id.uuid).hex()}\n", flush=True)
     feedback.begin()
@@ -163,7 +163,7 @@ def _follow(
     print(f"Result:\n    {_text(answer.result)}")
     print(f"Goal finished with status: {GoalStatus(answer.status).name.removeprefix('STATUS_')}")
     if answer.status == GoalStatus.ABORTED:
-        log.say()
+        log.print_reason()
     return 0
 
 
@@ -199,7 +199,7 @@ class _Interrupt:
 
     def wait(self, own: OwnNode, future: Future[Any]) -> None:
         """Carry out callbacks until a future is done or Ctrl-C is pressed."""
-        while not self.came and not own.wait(future, _LOOK_S):
+        while not self.came and not own.wait(future, _CHECK_EVERY_S):
             pass
 
 
@@ -253,15 +253,15 @@ class _ServerLog:
         log = own.types.message("rcl_interfaces/msg/Log")
         own.node.create_subscription(log, ROSOUT, self._take, 100)
 
-    def say(self) -> None:
+    def print_reason(self) -> None:
         """Print its last warning or error, or where to find it."""
         self._actor.work_until(lambda: self._warning is not None, _LOG_PATIENCE_S)
         server = ", ".join(self._servers)
         if self._warning is None:
-            said = f"The answer holds no reason; what {server} prints may tell it."
+            text = f"The answer holds no reason; what {server} prints may tell it."
         else:
-            said = f"The answer holds no reason; meanwhile {server} logged: {self._warning.msg}"
-        print(said, file=sys.stderr)
+            text = f"The answer holds no reason; meanwhile {server} logged: {self._warning.msg}"
+        print(text, file=sys.stderr)
 
     def _take(self, line: Any) -> None:  # noqa: ANN401  # of the message's own class
         stamp_ns = line.stamp.sec * 10**9 + line.stamp.nanosec

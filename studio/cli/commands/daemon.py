@@ -25,10 +25,10 @@ def add(parser: argparse.ArgumentParser) -> None:
     verbs = Verbs(parser)
     for name, sentence in _SENTENCES.items():
         summary = sentence[0].lower() + sentence[1:].rstrip(".")
-        take_wire_options(verbs.add(name, _saying(sentence), summary))
+        take_wire_options(verbs.add(name, _printing(sentence), summary))
 
 
-def _saying(sentence: str) -> Run:
+def _printing(sentence: str) -> Run:
     def run(_options: argparse.Namespace) -> None:
         print(sentence)
 

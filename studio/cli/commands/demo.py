@@ -50,11 +50,11 @@ def open_demo(
     if not moving:
         serve(options, settings, package, arguments)
         return
-    from studio.course.processes import DemoProcesses, rover_words
+    from studio.course.processes import DemoProcesses, rover_call
     from studio.ros.wire.settings import wire_settings
 
     wire = wire_settings(settings.wire.connect, settings.wire.domain)
     with DemoProcesses.at(wire) as nodes:
-        words = rover_words(package, arguments, settings.wire.router)
+        words = rover_call(package, arguments, settings.wire.router)
         # Afterwards: the page comes first, and a studio that cannot start leaves no node behind.
         serve(options, settings, package, arguments, lambda: nodes.start_leashed(*words))

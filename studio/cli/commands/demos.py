@@ -74,7 +74,7 @@ def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
         DemoProcesses(environment_for(wire.settings, own_types)) as processes,
     ):
         for demo in demos:
-            processes.start(demo.module, [*LESSONS[demo.name].words, *arguments])
+            processes.start(demo.module, [*LESSONS[demo.name].arguments, *arguments])
         return processes.wait()
 
 

@@ -215,11 +215,11 @@ def _hash_faults(
 
 
 def _foreign_hashes(graph: Graph, types: TypeLibrary, profile: WireProfile) -> Iterator[Fault]:
-    from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_heard
+    from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_received
 
     ends = [end for node in graph.nodes() for end in graph.endpoints_of(node)]
     for found in foreign_hashes(ends, profile, DistroHashes(types)):
-        yield Fault("hash", why_not_heard(found, profile))
+        yield Fault("hash", why_not_received(found, profile))
 
 
 def _malformed(graph: Graph) -> Iterator[Fault]:

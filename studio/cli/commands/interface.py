@@ -7,7 +7,7 @@ import sys
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from studio.cli.interface_types import PASTED, is_pasted, known_types, say_faults
+from studio.cli.interface_types import PASTED, is_pasted, known_types, print_faults
 from studio.cli.verbs import Verbs
 from studio.cli.wire import add_wire_options, profile_of
 from studio.errors import SettingsError, UnknownTypeError, WireError
@@ -76,7 +76,7 @@ def _list(options: argparse.Namespace) -> None:
             if f"/{kind}/" in name:
                 print(f"    {name}")
     if not options.interfaces:  # else printed when they were read
-        say_faults(library.faults().values())
+        print_faults(library.faults().values())
 
 
 def _packages(options: argparse.Namespace) -> None:
@@ -91,7 +91,7 @@ def _package(options: argparse.Namespace) -> int:
     names = [name for name in library.names() if name.startswith(wanted)]
     faults = [fault for name, fault in library.faults().items() if name.startswith(wanted)]
     if not options.interfaces:  # else printed when they were read
-        say_faults(faults)
+        print_faults(faults)
     if not names and not faults:
         raise UnknownTypeError(options.package_name, f"no package {options.package_name} has types")
     print("".join(f"{name}\n" for name in names), end="")

@@ -109,7 +109,7 @@ def _lines(remote: ParameterClient, options: argparse.Namespace) -> list[str]:
         names = [name for name in names if options.filter.match(name)]
     if not options.param_type:
         return [f"  {name}\n" for name in names]
-    return [f"  {one.name} (type: {one.type_.words})\n" for one in remote.get(names)]
+    return [f"  {one.name} (type: {one.type_.label})\n" for one in remote.get(names)]
 
 
 def _get(remote: ParameterClient, options: argparse.Namespace) -> int:
@@ -126,8 +126,8 @@ def _get(remote: ParameterClient, options: argparse.Namespace) -> int:
 
 def _label(parameter: Parameter) -> str:
     """Say the type as `ros2 param get` does: `Integer value is:`, `Double values are:`."""
-    word, _, is_array = parameter.type_.name.partition("_")
-    noun = {"BOOL": "Boolean"}.get(word, word.capitalize())
+    prefix, _, is_array = parameter.type_.name.partition("_")
+    noun = {"BOOL": "Boolean"}.get(prefix, prefix.capitalize())
     return f"{noun} values are:" if is_array else f"{noun} value is:"
 
 
@@ -203,17 +203,17 @@ def _describe(remote: ParameterClient, options: argparse.Namespace) -> int:
 
 def _description_lines(descriptor: Any) -> list[str]:  # noqa: ANN401  # of the node's distribution
     """Write a `ParameterDescriptor`; constraints only where there are some."""
-    lines = [f"Parameter name: {descriptor.name}", f"  Type: {_type_words(descriptor.type)}"]
+    lines = [f"Parameter name: {descriptor.name}", f"  Type: {_type_label(descriptor.type)}"]
     if descriptor.description:
         lines.append(f"  Description: {descriptor.description}")
     constraints = _constraints(descriptor)
     return [*lines, "  Constraints:", *constraints] if constraints else lines
 
 
-def _type_words(number: int) -> str:
+def _type_label(number: int) -> str:
     from studio.ros.parameters.parameter import ParameterType
 
-    return ParameterType(number).words if number in set(ParameterType) else f"unknown ({number})"
+    return ParameterType(number).label if number in set(ParameterType) else f"unknown ({number})"
 
 
 def _constraints(descriptor: Any) -> list[str]:  # noqa: ANN401

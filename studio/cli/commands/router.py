@@ -28,8 +28,8 @@ def _run(options: argparse.Namespace) -> None:
     from studio.ros.wire.settings import wire_settings
 
     settings = wire_settings()
-    run_router(options.listen, _say, settings.overrides, settings.router_config_file)
+    run_router(options.listen, _print, settings.overrides, settings.router_config_file)
 
 
-def _say(endpoint: str) -> None:
+def _print(endpoint: str) -> None:
     print(f"Zenoh router at {endpoint}; Ctrl-C ends it.", flush=True)

@@ -59,13 +59,13 @@ def _run(options: argparse.Namespace) -> int:
     from studio.ros.wire.session import open_wire
     from studio.ros.wire.settings import wire_settings
 
-    words = [word.removeprefix(" ") for word in options.arguments]
+    arguments = [argument.removeprefix(" ") for argument in options.arguments]
     command = _COMMANDS.get((options.package_name, options.executable_name))
     if command is not None:
         from studio.cli.main import main
 
-        return main([command, *words])
-    wire, arguments = _part_arguments(words)
+        return main([command, *arguments])
+    wire, arguments = _part_arguments(arguments)
     module = _demo_module(options) if options.demo else _module_of(options, wire.package_path)
     settings = wire_settings(tuple(wire.connect), wire.domain)
     # Held for as long as the node runs: with it goes the router, where one was started here.
@@ -75,17 +75,17 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _part_arguments(words: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
+def _part_arguments(arguments: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:
     """Take what is of the wire out of a node's arguments, as far as `--ros-args`."""
-    end = words.index(_ROS_ARGUMENTS) if _ROS_ARGUMENTS in words else len(words)
+    end = arguments.index(_ROS_ARGUMENTS) if _ROS_ARGUMENTS in arguments else len(arguments)
     parser = argparse.ArgumentParser(prog="studio run", add_help=False, allow_abbrev=False)
     parser.add_argument("--connect", action="append", default=[])
     parser.add_argument("--domain", type=domain_number)
     parser.add_argument("--router", default=STARTING)
     parser.add_argument("--interfaces", action="append", default=[], type=Path)
     parser.add_argument("--package-path", action="append", default=[])
-    wire, rest = parser.parse_known_args(words[:end])
-    return wire, [*rest, *words[end:]]
+    wire, rest = parser.parse_known_args(arguments[:end])
+    return wire, [*rest, *arguments[end:]]
 
 
 def _demo_module(options: argparse.Namespace) -> str:
@@ -138,24 +138,24 @@ def _workspace_sentence(folder: Path, package: str, name: str, *, is_ours: bool)
     """Say what the workspace holds under a name, and how to start what the studio has under it."""
     known = executables_of(folder, package)
     if name in known:
-        said = (
+        text = (
             f"Your workspace has {package} {name}: the package is {folder}, and it would start "
             f"{_program(folder, known[name])}. The studio does not start nodes of a workspace "
             f"yet, so nothing runs: where ROS is installed, ros2 run {package} {name} starts it."
         )
     elif known:
-        said = (
+        text = (
             f'Your workspace has the package {package} ({folder}), which has no executable "{name}"'
             f": it has {', '.join(sorted(known))}."
         )
     else:
-        said = (
+        text = (
             f"Your workspace has the package {package} ({folder}), which starts nothing: no "
             'entry in console_scripts of its setup.py, no install to "lib/${PROJECT_NAME}" in its '
             "CMakeLists.txt."
         )
     demo = f" The studio's demo of that name starts with: studio run --demo {package} {name}"
-    return said + (demo if is_ours else "")
+    return text + (demo if is_ours else "")
 
 
 def _program(folder: Path, place: str) -> str:

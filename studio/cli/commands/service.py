@@ -14,8 +14,8 @@ from studio.cli.graph import (
     full_name,
     opened_graph,
     print_listing,
-    say_other_types,
-    say_unknown,
+    print_other_types,
+    print_unknown,
     visible_names,
 )
 from studio.cli.own_node import own_node, print_error, warn_of_foreign_types
@@ -52,7 +52,7 @@ def _info(options: argparse.Namespace) -> int:
     with opened_graph(options) as graph:
         servers, clients = graph.servers(name), graph.clients(name)
         if not servers and not clients:
-            return say_unknown("service", options.service_name)
+            return print_unknown("service", options.service_name)
         types = sorted({end.type_name for end in (*servers, *clients)})
         print(f"Type: {types[0] if len(types) == 1 else types}")
         print(f"Clients count: {len(clients)}")
@@ -94,7 +94,7 @@ def _call(options: argparse.Namespace) -> int:
         kind = known_service(own.node, name, type_name, print_error)
         request = from_yaml(kind.Request, options.values, now_ns=time.time_ns())
         client = own.node.create_client(kind, name)
-        say_other_types(name, type_name, own.graph.services())
+        print_other_types(name, type_name, own.graph.services())
         if not _wait_for_service(client, options.timeout):
             print(f"Nobody serves {name} as {type_name}.", file=sys.stderr)
             return 1

@@ -33,7 +33,7 @@ class Body:
     """Publishes /joint_states, /odom, /imu and the transforms above the robot's own."""
 
     def __init__(self, node: Node) -> None:
-        self.tells_joints = True
+        self.publishes_joints = True
         self._joints = node.create_publisher(JointState, "joint_states", 10)
         self._odometry = node.create_publisher(Odometry, "odom", 10)
         self._imu = node.create_publisher(Imu, "imu", 10)
@@ -46,7 +46,7 @@ class Body:
 
     def publish(self, stamp: Time, drive: Drive, seconds: float) -> None:
         """Tell all of it, as it is `seconds` after the start."""
-        if self.tells_joints:
+        if self.publishes_joints:
             self._publish_joints(stamp, drive, seconds)
         self._publish_odometry(stamp, drive)
         self._publish_imu(stamp, drive)

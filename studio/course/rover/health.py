@@ -45,8 +45,8 @@ class Health:
 
 
 def _battery(charge: float, volts: float) -> DiagnosticStatus:
-    told = (DiagnosticStatus.WARN, "low") if charge < LOW else (DiagnosticStatus.OK, "charged")
-    return _status("battery", told, charge=f"{100 * charge:.0f} %", voltage=f"{volts:.2f} V")
+    state = (DiagnosticStatus.WARN, "low") if charge < LOW else (DiagnosticStatus.OK, "charged")
+    return _status("battery", state, charge=f"{100 * charge:.0f} %", voltage=f"{volts:.2f} V")
 
 
 def _motors_level(is_blocked: bool) -> tuple[bytes, str]:  # noqa: FBT001
@@ -55,8 +55,8 @@ def _motors_level(is_blocked: bool) -> tuple[bytes, str]:  # noqa: FBT001
     return DiagnosticStatus.OK, "running"
 
 
-def _status(name: str, told: tuple[bytes, str], **values: str) -> DiagnosticStatus:
-    level, message = told
+def _status(name: str, state: tuple[bytes, str], **values: str) -> DiagnosticStatus:
+    level, message = state
     pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
     return DiagnosticStatus(
         level=level, name=f"rover: {name}", message=message, hardware_id="rover", values=pairs

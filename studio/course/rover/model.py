@@ -23,21 +23,21 @@ class OwnModel:
 
     def __init__(self, executor: Executor, urdf: str) -> None:
         self._executor, self._urdf = executor, urdf
-        self._told_by: RobotStateNode | None = None
+        self._publisher: RobotStateNode | None = None
 
-    def look(self, rover: Node) -> None:
+    def check(self, rover: Node) -> None:
         """Start to publish, or leave it to others who do; called every second."""
-        if is_told_by_others(rover, "/robot_description"):
-            if self._told_by is not None:
+        if is_published_by_others(rover, "/robot_description"):
+            if self._publisher is not None:
                 rover.get_logger().info("Somebody else tells the model of the robot.")
-                self._told_by.destroy_node()
-                self._told_by = None
-        elif self._told_by is None:
-            self._told_by = RobotStateNode(self._urdf)
-            self._executor.add_node(self._told_by)
+                self._publisher.destroy_node()
+                self._publisher = None
+        elif self._publisher is None:
+            self._publisher = RobotStateNode(self._urdf)
+            self._executor.add_node(self._publisher)
 
 
-def is_told_by_others(rover: Node, topic: str) -> bool:
+def is_published_by_others(rover: Node, topic: str) -> bool:
     """Whether a process that is no rover publishes a topic: two rovers would both fall silent."""
     rovers = {node.zid for node in rover.graph.nodes() if node.name == rover.get_name()}
     rovers.add(rover.wire.zid)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from studio.course.rover.body import Body, pan_rad
 from studio.course.rover.drive import Drive
 from studio.course.rover.health import Health
-from studio.course.rover.model import is_told_by_others
+from studio.course.rover.model import is_published_by_others
 from studio.course.rover.round_trip import RoundTrip
 from studio.course.rover.sensors import SCAN_S, Camera, Lidar
 from studio.course.rover.surroundings import Surroundings
@@ -64,7 +64,7 @@ class RoverNode(Node):
 
     def on_second(self) -> None:
         """Publish what changes slowly; joints that another node publishes are left to it."""
-        self.body.tells_joints = not is_told_by_others(self, "/joint_states")
+        self.body.publishes_joints = not is_published_by_others(self, "/joint_states")
         self.surroundings.publish(self.stamp(), self.drive)
         self.health.publish(self.stamp(), self.drive, self.seconds, is_blocked=self.is_blocked)
         if self.is_blocked:

@@ -59,7 +59,7 @@ def _differing_materials(run: CheckedRun) -> Iterator[Problem]:
         if element.tag != "material" or not name or name in reported or not element.children:
             continue
         known = first.setdefault(name, element)
-        if known is not element and _look(known) != _look(element):
+        if known is not element and _appearance(known) != _appearance(element):
             reported.add(name)
             sentence = (
                 f"The material {quoted(name)} is defined in line {known.origin.line} with "
@@ -69,7 +69,7 @@ def _differing_materials(run: CheckedRun) -> Iterator[Problem]:
             yield run.problem(Severity.INFO, "duplicate-material", short, element)
 
 
-def _look(material: OutputElement) -> str:
+def _appearance(material: OutputElement) -> str:
     return "".join(write_xml(child) for child in material.elements())
 
 

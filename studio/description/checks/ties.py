@@ -32,7 +32,7 @@ _OF_JOINTS: Final = frozenset(
 )
 """A joint that holds something else may have its parent or child there, misspelt."""
 _LIKENESS: Final = 0.7
-_NAMES_LOOKED_AT: Final = 2_000
+_NAMES_MAX: Final = 2_000
 _FOUND_LIMIT: Final = 100
 _SHOWN: Final = 5
 _BASE: Final = "base_link"
@@ -135,7 +135,7 @@ class Holding:
 
     def _taken_out(self, joint: _Joint, first: _Joint) -> Fix | None:
         """Return a fix that removes a joint that repeats the first and is not used by name."""
-        if not self._is_alone(joint) or _said(joint) != _said(first):
+        if not self._is_alone(joint) or _content(joint) != _content(first):
             return None
         named = re.findall(
             rf"(?<!\w){re.escape(escape(joint.name, quote=False))}(?!\w)", write_xml(self._run.root)
@@ -186,7 +186,7 @@ def _only(names: list[str]) -> str:
     return names[0] if len(names) == 1 else ""
 
 
-def _said(joint: _Joint) -> tuple[str | None, list[str]]:
+def _content(joint: _Joint) -> tuple[str | None, list[str]]:
     """All of a joint but its name."""
     element = joint.element
     return element.attributes.get("type"), [write_xml(one) for one in element.elements()]
@@ -243,7 +243,7 @@ def _meant(name: str, links: dict[str, OutputElement]) -> str:
     for link in links:
         if _SEPARATORS.sub("_", link.strip()) == plain:
             return link
-    near = get_close_matches(name, islice(links, _NAMES_LOOKED_AT), 1, _LIKENESS)
+    near = get_close_matches(name, islice(links, _NAMES_MAX), 1, _LIKENESS)
     return near[0] if near else ""
 
 

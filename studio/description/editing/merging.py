@@ -20,8 +20,8 @@ Side: TypeAlias = Literal["mine", "theirs"]
 
 _LINES_COMPARED: Final = 4000
 """With more lines between the first and the last difference, all of them are one change."""
-_WORD: Final = re.compile(rb"[^\s\"'<>=,\[\]{}]*")
-_WORD_BACKWARDS_LIMIT: Final = 1000
+_TOKEN: Final = re.compile(rb"[^\s\"'<>=,\[\]{}]*")
+_TOKEN_BACKWARDS_LIMIT: Final = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,8 +146,8 @@ def _extents(base: bytes, hunks: list[Hunk]) -> Iterator[tuple[int, int]]:
 
 
 def _widened(base: bytes, hunk: Hunk) -> tuple[int, int]:
-    behind = _WORD.match(base, hunk.end)
-    before = _WORD.match(base[max(0, hunk.start - _WORD_BACKWARDS_LIMIT) : hunk.start][::-1])
+    behind = _TOKEN.match(base, hunk.end)
+    before = _TOKEN.match(base[max(0, hunk.start - _TOKEN_BACKWARDS_LIMIT) : hunk.start][::-1])
     return hunk.start - (before.end() if before else 0), behind.end() if behind else hunk.end
 
 

@@ -103,7 +103,7 @@ class FileChange(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class DiskNews:
+class DiskChange:
     """The change, the edits that took it over (in order), and how many places stay edited."""
 
     what: FileChange
@@ -363,7 +363,7 @@ class Sources:
         save_files(changed, self._resolve, self._may_write, self._saved)
         return tuple(one.file for one in changed)
 
-    def refresh(self, file: str) -> DiskNews:
+    def refresh(self, file: str) -> DiskChange:
         """Look at the disk after somebody may have written a file that is held.
 
         What the disk changed is taken, as a step to take back, and unsaved edits stay unsaved
@@ -371,24 +371,24 @@ class Sources:
         """
         text = self._texts.get(file)
         if text is None:
-            return DiskNews(FileChange.NONE)
+            return DiskChange(FileChange.NONE)
         try:
             disk = self._disk(file)
         except PackageError:
-            return DiskNews(FileChange.GONE)
+            return DiskChange(FileChange.GONE)
         self._conflicts.pop(file, None)
         merged = merge(text.disk, text.now, disk)
         if merged.collisions:
             self._conflicts[file] = disk
-            return DiskNews(FileChange.CONFLICT)
+            return DiskChange(FileChange.CONFLICT)
         # A burst of writes is one step.
         step = Step(f"Changed on disk: {Path(file).name}", gesture=f"disk {file}", is_value=False)
         edits = self._become(file, merged.text(), step)
         self._texts[file] = self._held(file).rebased(disk)
         if not edits:
-            return DiskNews(FileChange.NONE)
+            return DiskChange(FileChange.NONE)
         what = FileChange.MERGED if merged.kept else FileChange.RELOADED
-        return DiskNews(what, edits, merged.kept)
+        return DiskChange(what, edits, merged.kept)
 
     def collisions(self, file: str) -> Merge:
         """The unsaved edits and the disk's changes of a file, as they stand now.

@@ -165,12 +165,12 @@ class NamedTexts:
             site = here.get(name)
             if site is None:
                 if name in texts:
-                    left_out.append(f"{self.file} has no {_words(name)} any more.")
+                    left_out.append(f"{self.file} has no {_label(name)} any more.")
             elif site.text != text:
                 try:
                     edits.append(edit_at(self.path, now, site.span, text))
                 except EditError as error:
-                    left_out.append(f"{self.file}, {_words(name)}: {error}")
+                    left_out.append(f"{self.file}, {_label(name)}: {error}")
         edits.sort(key=lambda edit: edit.start, reverse=True)
         return Placed(tuple(edits), tuple(left_out))
 
@@ -215,7 +215,7 @@ def _named(file: str, sites: FileSites) -> dict[TextName, FileSite]:
     return found
 
 
-def _words(name: TextName) -> str:
+def _label(name: TextName) -> str:
     kinds = {
         SiteKind.ARG: "argument",
         SiteKind.PROPERTY: "property",
@@ -265,25 +265,25 @@ def write_variants(path: str, entry: str, before: bytes, variants: Sequence[Vari
         VariantsFileError: The present file, or the new one, cannot be read.
     """
     written = _woven(path, before, variants) if before.strip() else None
-    if written is None or not _says(path, written, variants):
+    if written is None or not _reads_as(path, written, variants):
         written = _HEAD.format(entry=entry.replace("\n", " ")).encode() + _whole(variants)
     if len(written) > SIZE_LIMIT_BYTES:
         raise VariantsFileError(path, "the variants are too many for one file; delete some")
-    if not _says(path, written, variants):
+    if not _reads_as(path, written, variants):
         raise VariantsFileError(path, _unwritable(path, variants))
     return written
 
 
 def _unwritable(path: str, variants: Sequence[Variant]) -> str:
     """Why variants do not read back as they are: which one, where it is one."""
-    alone = (one for one in variants if not _says(path, _whole([one]), [one]))
+    alone = (one for one in variants if not _reads_as(path, _whole([one]), [one]))
     found = next(alone, None)
     if found is None:
         return "a file cannot hold these variants together; delete one, or give it another name"
     return f'"{found.name}" has a name or a text that a file cannot hold; make it shorter'
 
 
-def _says(path: str, written: bytes, variants: Sequence[Variant]) -> bool:
+def _reads_as(path: str, written: bytes, variants: Sequence[Variant]) -> bool:
     try:
         return read_variants(path, written) == tuple(variants)
     except VariantsFileError:

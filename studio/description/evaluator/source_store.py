@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from studio.description.values import Edit
 
 _MAGIC: Final = re.compile(r"[*[?]")
-_NAMES_LOOKED_AT: Final = 2_000
+_NAMES_MAX: Final = 2_000
 """Limit for a folder, in search of the name that was meant."""
 WILDCARD_LEVELS: Final = 3
 """Links that lead back to their own folder make each further one many times as slow."""
@@ -220,7 +220,7 @@ def _unreadable(path: str, sentence: str) -> Fault:
     folder, _, name = path.rpartition("/")
     try:
         with os.scandir(folder) as found:
-            names = [one.name for one in islice(found, _NAMES_LOOKED_AT)]
+            names = [one.name for one in islice(found, _NAMES_MAX)]
     except OSError:
         names = []
     if not names or name in names:

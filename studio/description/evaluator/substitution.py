@@ -61,31 +61,31 @@ def substitute(command: str, context: Context) -> str:
 
 def _resolve(text: str, context: Context, active: tuple[str, ...]) -> str:
     for command in _commands_in(text):
-        words = [word for word in command.split(" ") if word]
-        if not words or words[0] not in _COMMANDS:
+        parts = [part for part in command.split(" ") if part]
+        if not parts or parts[0] not in _COMMANDS:
             raise Fault(
                 "bad-substitution",
                 f'"$({shorten(command)})" is not known: use $(find), $(arg), $(env), $(optenv) '
                 "or $(eval).",
             )
-        if words[0] in active:
-            value = _value(words[0], words[1:], command, context)
+        if parts[0] in active:
+            value = _value(parts[0], parts[1:], command, context)
             text = text.replace(f"$({command})", value)
     return text
 
 
-def _value(name: str, words: list[str], command: str, context: Context) -> str:
-    if name == "optenv" and words:
-        return context.environment.get(words[0], " ".join(words[1:]))
+def _value(name: str, parts: list[str], command: str, context: Context) -> str:
+    if name == "optenv" and parts:
+        return context.environment.get(parts[0], " ".join(parts[1:]))
     if name == "dirname":
         raise Fault("bad-substitution", "$(dirname) is not known in xacro: use $(find package).")
-    if len(words) != 1:
+    if len(parts) != 1:
         raise Fault("bad-substitution", f'"$({shorten(command)})" must name one thing.')
     if name == "arg":
-        return context.argument(words[0])
+        return context.argument(parts[0])
     if name == "find":
-        return context.find_package(words[0])
-    return variable(words[0], context)
+        return context.find_package(parts[0])
+    return variable(parts[0], context)
 
 
 def variable(name: str, context: Context) -> str:

@@ -263,7 +263,7 @@ class Texts:
 
     def warn(self, code: str, sentence: str, severity: Severity = Severity.WARNING) -> None:
         """Note a warning at the element being worked on, once."""
-        self._says_more(sentence)
+        self._note_effect(sentence)
         if len(self.warnings) >= WARNINGS_LIMIT:
             return
         place = self.at.place if self.at else None
@@ -362,11 +362,11 @@ class Texts:
             self.replay.refuse(f"{file} was not read before")
         self.asked_at.setdefault(file, self.evaluations)
 
-    def say(self, severity: str, text: str) -> None:
+    def log(self, severity: str, text: str) -> None:
         """A message of the description, or about a name that it uses."""
         if text:
-            said = shorten(text, _MESSAGE_LIMIT)
-            self.warn(f"xacro-{severity}", said, _SEVERITIES[severity])
+            message = shorten(text, _MESSAGE_LIMIT)
+            self.warn(f"xacro-{severity}", message, _SEVERITIES[severity])
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
         """The items of a loop, each counted."""
@@ -385,10 +385,10 @@ class Texts:
         """The text of an expression that is put together first."""
         inner = text_of(self.value(text, scope))
         if compile_expression(inner).compared:
-            self._says_more("what is compared depends on a value")
+            self._note_effect("what is compared depends on a value")
         return inner
 
-    def _says_more(self, reason: str) -> None:
+    def _note_effect(self, reason: str) -> None:
         """Note that the running text has an effect besides its value."""
         if self.replay is not None:
             self.replay.refuse(reason)
@@ -399,7 +399,7 @@ class Texts:
         if expression.name is not None:
             return self._counted(scope.value_of(expression.name))
         if not expression.is_pure:
-            self._says_more("an expression changes what it reads")
+            self._note_effect("an expression changes what it reads")
             self.is_pure = False
         try:
             value = eval(expression.code, scope.names)

@@ -48,7 +48,7 @@ _BYTES_A_SECOND: Final = 150_000
 _MOST_READING_S: Final = 30.0
 _CLOCK_EVERY: Final = 16
 """Steps between two checks of the clock."""
-_LOOK_AFTER_S: Final = 0.05
+_CHECK_AFTER_S: Final = 0.05
 """Or so long after the last check: a step may be the search of a long text."""
 
 
@@ -157,9 +157,9 @@ class Budget:
     __slots__ = (
         "_began",
         "_characters",
+        "_checked_s",
         "_elements",
         "_evaluations",
-        "_looked_s",
         "_sources",
         "limits",
     )
@@ -172,8 +172,8 @@ class Budget:
     def restart(self) -> None:
         """Count anew, for an edit of what came out."""
         self._elements = self._evaluations = self._characters = 0
-        self._looked_s = perf_counter()
-        self._began = self._looked_s, thread_time()
+        self._checked_s = perf_counter()
+        self._began = self._checked_s, thread_time()
 
     def source(self, path: str, size_bytes: int) -> None:
         """A file is read: once, however often it is included."""
@@ -199,14 +199,14 @@ class Budget:
         if self._elements > self.limits.elements and self._elements > self.elements:
             raise Refusal("too-many-elements", f"It makes more than {self.elements:,} elements.")
         if not self._elements % _CLOCK_EVERY:
-            self._look_at_clock()
+            self._check_clock()
 
     def evaluation(self) -> None:
         """Count the evaluation of a text; raises as `element`."""
         self._evaluations += 1
         is_due = not self._evaluations % _CLOCK_EVERY
-        if is_due or perf_counter() - self._looked_s > _LOOK_AFTER_S:
-            self._look_at_clock()
+        if is_due or perf_counter() - self._checked_s > _CHECK_AFTER_S:
+            self._check_clock()
             if self._evaluations > self.limits.evaluations:
                 raise Refusal(
                     "too-many-evaluations",
@@ -254,15 +254,15 @@ class Budget:
                 "it calls itself without end.",
             )
 
-    def _look_at_clock(self) -> None:
+    def _check_clock(self) -> None:
         """See that the time is not over, of which a loaded machine gives a run little.
 
         Raises:
             Refusal: It is, and the run had no small part of the processor meanwhile.
         """
         began, began_working = self._began
-        self._looked_s, seconds = perf_counter(), self.seconds
-        if self._looked_s - began <= seconds:
+        self._checked_s, seconds = perf_counter(), self.seconds
+        if self._checked_s - began <= seconds:
             return  # the processor's clock is a slow one, and cannot be ahead
         if thread_time() - began_working > seconds / 2:
             raise Refusal(

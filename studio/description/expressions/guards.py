@@ -53,15 +53,15 @@ def guarded_method(value: Any, name: str) -> Callable[..., Any]:  # noqa: ANN401
     return method
 
 
-def unbound_method(kind: type, name: str, look_up: Callable[[Any, str], Any]) -> Callable[..., Any]:
-    """`kind.name`, to be called with a value of that type; `look_up` finds the value's method."""
+def unbound_method(kind: type, name: str, find: Callable[[Any, str], Any]) -> Callable[..., Any]:
+    """`kind.name`, to be called with a value of that type; `find` finds the value's method."""
     if name == "fromkeys":
         return cast("Callable[..., Any]", getattr(kind, name))
 
     def call(value: Any, *arguments: Any, **named: Any) -> Any:  # noqa: ANN401
         if not isinstance(value, kind):
             raise TypeError(f"{kind.__name__}.{name} is for values of that type")
-        return look_up(value, name)(*arguments, **named)
+        return find(value, name)(*arguments, **named)
 
     return call
 
@@ -287,10 +287,10 @@ def _named(value: dict[str, Any], name: str) -> Any:  # noqa: ANN401
     """A key of a namespace or YAML mapping, which both answer `__getattr__`, else a dict method."""
     if name in _DICT_READING:
         return getattr(value, name)
-    look_up = getattr(type(value), "__getattr__", None)
-    if look_up is None or hasattr(dict, name) or name.startswith("__"):
+    find = getattr(type(value), "__getattr__", None)
+    if find is None or hasattr(dict, name) or name.startswith("__"):
         raise Refusal("expression-refused", f'".{name}" may not be used in an expression.')
-    return look_up(value, name)
+    return find(value, name)
 
 
 def multiply(left: Any, right: Any) -> Any:  # noqa: ANN401

@@ -239,7 +239,7 @@ class Services(Protocol):
         """The value of an arg."""
         ...
 
-    def say(self, severity: str, text: str) -> None:
+    def log(self, severity: str, text: str) -> None:
         """A message of the description: `message`, `warning`, `error` or `deprecated`."""
         ...
 
@@ -276,7 +276,7 @@ def _deprecated(
 ) -> dict[str, Any]:
     def warning(name: str, function: Callable[..., Any]) -> Callable[..., Any]:
         def call(*arguments: Any, **named: Any) -> Any:  # noqa: ANN401
-            services.say("deprecated", f"{name}() is deprecated: write {namespace}.{name}().")
+            services.log("deprecated", f"{name}() is deprecated: write {namespace}.{name}().")
             return function(*arguments, **named)
 
         return call
@@ -285,19 +285,19 @@ def _deprecated(
 
 
 def _messenger(services: Services, level: str) -> Callable[..., str]:
-    def say(*words: Any, **_options: Any) -> str:  # noqa: ANN401
-        services.say(level, " ".join(text_of(word) for word in words))
+    def log(*values: Any, **_options: Any) -> str:  # noqa: ANN401
+        services.log(level, " ".join(text_of(value) for value in values))
         return ""
 
-    return say
+    return log
 
 
 def _silent(*_arguments: object, **_named: object) -> str:
     return ""
 
 
-def _fatal(*words: Any) -> None:  # noqa: ANN401
-    raise Fault("fatal", " ".join(text_of(word) for word in words))
+def _fatal(*values: Any) -> None:  # noqa: ANN401
+    raise Fault("fatal", " ".join(text_of(value) for value in values))
 
 
 def pure_names(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any]:

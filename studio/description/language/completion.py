@@ -12,8 +12,8 @@ from studio.description.language.definitions import (
 )
 from studio.description.language.name_offers import (
     expression_offers,
+    name_around,
     substitution_offers,
-    word_around,
 )
 from studio.description.language.named_files import names_in, path_named
 from studio.description.language.offers import Offer, Snippet, chosen, plain, written
@@ -79,7 +79,7 @@ def _in_segment(cursor: Cursor, segment: Segment) -> Completions:
     if not segment.is_expression:
         offers, start, end = substitution_offers(cursor, segment)
         return chosen(offers, cursor, start, end)
-    start, end = word_around(cursor)
+    start, end = name_around(cursor)
     return chosen(expression_offers(cursor, segment), cursor, start, min(end, segment.end))
 
 
@@ -229,9 +229,9 @@ def _parameters(cursor: Cursor, macro: str, given: set[str]) -> Iterator[Offer]:
         for one in parameters_of(params):
             if one.kind == "value" and one.name not in given:
                 group = _LIKELY if one.is_required else _FITTING
-                said = parameter_documentation(doc, one.name)
+                documentation = parameter_documentation(doc, one.name)
                 detail = "" if one.default is None else one.default
-                yield _attribute(cursor, group, Kind.PARAMETER, one.name, detail, said)
+                yield _attribute(cursor, group, Kind.PARAMETER, one.name, detail, documentation)
 
 
 def value_offers(cursor: Cursor, tag: Tag, attribute: Attribute) -> tuple[list[Offer], int, int]:
@@ -240,7 +240,7 @@ def value_offers(cursor: Cursor, tag: Tag, attribute: Attribute) -> tuple[list[O
         return list(_openings(cursor)), cursor.index - 1, cursor.index
     if (tag.name, attribute.name) in FILE_ATTRIBUTES:
         return _files(cursor, attribute, FILE_ATTRIBUTES[tag.name, attribute.name])
-    offers = list(_words(cursor, tag, attribute))
+    offers = list(_values(cursor, tag, attribute))
     return offers, attribute.start, attribute.end
 
 
@@ -255,11 +255,11 @@ def _openings(cursor: Cursor) -> Iterator[Offer]:
         yield written(group, Kind.COMMAND, f"$({name} )", snippet)
 
 
-def _words(cursor: Cursor, tag: Tag, attribute: Attribute) -> Iterator[Offer]:
+def _values(cursor: Cursor, tag: Tag, attribute: Attribute) -> Iterator[Offer]:
     key = (tag.name, attribute.name)
     own = tag.name.removeprefix("xacro:")
-    for group, word in enumerate((*VALUES.get(key, ()), *XACRO_VALUES.get((own, key[1]), ()))):
-        yield plain(group, Kind.VALUE, word)
+    for group, value in enumerate((*VALUES.get(key, ()), *XACRO_VALUES.get((own, key[1]), ()))):
+        yield plain(group, Kind.VALUE, value)
     if key in PART_REFERENCES:
         yield from _parts(cursor, PART_REFERENCES[key])
     if key == ("xacro:insert_block", "name"):

@@ -200,8 +200,8 @@ def _plain(comment: str) -> str:
 def parameter_documentation(documentation: str, name: str) -> str:
     """Return the documentation of one parameter: the line of the macro's that begins with it."""
     for line in re.split(r"\n|;", documentation):
-        words = _LIST_MARK.sub("", line)
-        rest = words.removeprefix(name)
-        if rest != words and (said := re.match(r"\s*(?:\([^)]*\)\s*)?[:=\u2013-]\s*(.+)", rest)):
-            return said[1].strip()
+        text = _LIST_MARK.sub("", line)
+        rest = text.removeprefix(name)
+        if rest != text and (found := re.match(r"\s*(?:\([^)]*\)\s*)?[:=\u2013-]\s*(.+)", rest)):
+            return found[1].strip()
     return ""

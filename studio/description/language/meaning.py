@@ -331,29 +331,29 @@ def _with_macros(cursor: Cursor, found: Subject) -> Subject:
 
 
 def _substitution(cursor: Cursor, segment: Segment, text: str) -> Subject | None:
-    words = [(found[0], found.start(), found.end()) for found in re.finditer(r"\S+", text)]
-    if not words:
+    parts = [(found[0], found.start(), found.end()) for found in re.finditer(r"\S+", text)]
+    if not parts:
         return None
-    command = words[0][0]
+    command = parts[0][0]
     inside = cursor.index - segment.start
-    under = next((one for one in words if one[1] <= inside <= one[2]), None)
-    if command == "eval" and under != words[0]:
+    under = next((one for one in parts if one[1] <= inside <= one[2]), None)
+    if command == "eval" and under != parts[0]:
         return _eval(cursor, segment, text)
-    if under is None or under == words[0] or len(words) < 2:
+    if under is None or under == parts[0] or len(parts) < 2:
         return _whole(cursor, segment)
     start, end = segment.start + under[1], segment.start + under[2]
     subject = _operand(cursor, command, under[0])
     return replace(subject, start=start, end=end) if subject else _whole(cursor, segment)
 
 
-def _operand(cursor: Cursor, command: str, word: str) -> Subject | None:
+def _operand(cursor: Cursor, command: str, part: str) -> Subject | None:
     if command == "arg":
-        return arg_subject(cursor, word)
+        return arg_subject(cursor, part)
     if command == "find":
-        return package_subject(cursor, word)
+        return package_subject(cursor, part)
     if command in {"env", "optenv"}:
-        value = cursor.reading.policy.environment.get(word)
-        return Subject(Kind.ENVIRONMENT, word, values=() if value is None else (value,))
+        value = cursor.reading.policy.environment.get(part)
+        return Subject(Kind.ENVIRONMENT, part, values=() if value is None else (value,))
     return None
 
 

@@ -32,24 +32,24 @@ _COMMANDS: Final = ("arg", "find", "eval", "env", "optenv")
 _BELOW: Final = re.compile(r"(?:\.|\[\s*(?:'|\"|&quot;|&apos;))\s*$")
 _KEY_END: Final = re.compile(r"(?:'|\"|&quot;|&apos;)?\s*\]?\s*")
 """What may stand between a name or key and the `.` or `[` behind it."""
-_WORD_END: Final = re.compile(r"\w*")
-_WORD: Final = re.compile(r"[^\W\d]\w*$|$")
+_NAME_END: Final = re.compile(r"\w*")
+_NAME: Final = re.compile(r"[^\W\d]\w*$|$")
 _OPERAND: Final = re.compile(r"\s*(\w+)\s+(.*)$", re.DOTALL)
 _BLANK_FREE: Final = re.compile(r"[^\s)]*")
 
 
-def word_around(cursor: Cursor) -> tuple[int, int]:
+def name_around(cursor: Cursor) -> tuple[int, int]:
     """The name under the cursor: where it begins and ends, in characters of the text."""
     before = cursor.text[max(0, cursor.index - 200) : cursor.index]
-    typed = _WORD.search(before)
+    typed = _NAME.search(before)
     start = cursor.index - (len(typed[0]) if typed else 0)
-    end = _WORD_END.match(cursor.text, cursor.index)
+    end = _NAME_END.match(cursor.text, cursor.index)
     return start, end.end() if end else cursor.index
 
 
 def expression_offers(cursor: Cursor, segment: Segment) -> Iterator[Offer]:
     """Names that can be read at the cursor of an expression."""
-    start, _ = word_around(cursor)
+    start, _ = name_around(cursor)
     before = cursor.text[segment.start : start]
     below = _BELOW.search(before)
     if below is None:
@@ -116,7 +116,7 @@ def _exposed(cursor: Cursor, name: str, value: Any, group: int) -> Offer:  # noq
     if not callable(value):
         detail = "" if isinstance(value, Namespace) else printed(value)
         return plain(group, Kind.CONSTANT, name, detail=detail)
-    end = word_around(cursor)[1]
+    end = name_around(cursor)[1]
     if cursor.text[end : end + 1] == "(":
         return plain(group, Kind.FUNCTION, name)
     return written(group, Kind.FUNCTION, name, Snippet().write(f"{name}(").stop().write(")"))
@@ -130,7 +130,7 @@ def substitution_offers(cursor: Cursor, segment: Segment) -> tuple[list[Offer], 
         start = cursor.index - len(typed.lstrip())
         return list(_commands(cursor, segment)), start, _end_of(cursor, r"\w*\s?")
     if operand[1] == "eval":
-        start, end = word_around(cursor)
+        start, end = name_around(cursor)
         return [*_args(cursor), *_functions(cursor)], start, end
     start = segment.start + operand.start(2)
     found = _BLANK_FREE.match(cursor.text, cursor.index, max(segment.end, cursor.index))

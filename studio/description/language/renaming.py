@@ -183,8 +183,8 @@ def check_spelling(kind: Kind, old: str, new: str) -> None:
         raise EditError(f"{new!r} is no name: use {letters}, beginning with a letter or _.")
     if new == old:
         raise EditError(f"It is called {old} already: type another name.")
-    is_word = keyword.iskeyword(new) if kind is not Kind.MACRO else new in XACRO_TAGS
-    if is_word:
+    is_keyword = keyword.iskeyword(new) if kind is not Kind.MACRO else new in XACRO_TAGS
+    if is_keyword:
         raise EditError(f"{new} is a word of the language itself: choose another name.")
 
 

@@ -79,7 +79,7 @@ class Governor(Input):
         self.element, self.outer = element, outer
         self.inputs: Inputs = ()
 
-    def is_told_by(self, path: str, name: str) -> bool:
+    def is_decided_by(self, path: str, name: str) -> bool:
         """Whether a text that was consumed is its own: `path` and `name` as of a `Consumer`."""
         return path == self.element.tag or name == "xacro:name"
 
@@ -144,7 +144,7 @@ class _TracedTexts(Texts):
         if record.consumer is None:
             return
         path, name = record.consumer
-        if self.governor is not None and self.governor.is_told_by(path, name):
+        if self.governor is not None and self.governor.is_decided_by(path, name):
             self.governor.inputs += inputs
         self.was_read[name] = inputs
 

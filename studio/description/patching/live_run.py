@@ -108,7 +108,7 @@ class LiveRun:
                 edited.setdefault(site.id, _Edited(path, site))
                 work.sites.update(dict.fromkeys(moved, path))
         except Exception as reason:  # noqa: BLE001 - whatever it is, a full run does it
-            _tell(reason)
+            _log_refusal(reason)
             self.texts.take_back()
             return None
         self.has_edited = True
@@ -117,7 +117,7 @@ class LiveRun:
                 work.take(one.path, one.before, self.texts.live(one.path).by_id(one.before.id))
             return work.finish(self.texts)
         except Exception as reason:  # noqa: BLE001 - as above
-            _tell(reason)
+            _log_refusal(reason)
             self.texts.distrust()
             return None
 
@@ -132,7 +132,7 @@ class LiveRun:
                     work.set_argument(self.evaluation.texts.arguments[name], value)
             return work.finish(self.texts)
         except Exception as reason:  # noqa: BLE001 - as above
-            _tell(reason)
+            _log_refusal(reason)
             return None
 
     def expect_edits_like(self, before: LiveRun) -> None:
@@ -462,7 +462,7 @@ def _check_warnings(warnings: Sequence[Problem], path: str, line: int) -> None:
 _log = logging.getLogger(__name__)
 
 
-def _tell(reason: Exception) -> None:
+def _log_refusal(reason: Exception) -> None:
     """Log what is no refusal: a mistake of ours."""
     if not isinstance(reason, PatchRefused | Fault):
         _log.error("A patch failed; the full run is made instead.", exc_info=reason)

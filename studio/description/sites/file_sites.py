@@ -314,10 +314,10 @@ def _literals(
 
 
 def _is_numbers(text: str) -> bool:
-    words = text.split()
-    if not 1 <= len(words) <= _VECTOR_LENGTH:
+    parts = text.split()
+    if not 1 <= len(parts) <= _VECTOR_LENGTH:
         return False
-    return all(parse_number(word) is not None for word in words)
+    return all(parse_number(part) is not None for part in parts)
 
 
 def _ancestry(element: SourceElement) -> tuple[SourceElement, ...]:

@@ -145,11 +145,11 @@ def folder_choices(
 
 def common(found: Iterable[tuple[str, ...]]) -> tuple[str, ...]:
     """Return the values in all that have any; those of the first if they have none in common."""
-    said = [one for one in found if one]
-    if not said:
+    known = [one for one in found if one]
+    if not known:
         return ()
-    agreed = tuple(value for value in said[0] if all(value in one for one in said))
-    return agreed or said[0]
+    agreed = tuple(value for value in known[0] if all(value in one for one in known))
+    return agreed or known[0]
 
 
 def _named(found: re.Match[str]) -> Named:
@@ -296,8 +296,8 @@ class _Scan:
         sites = xml_sites(tree).sites
         for site in sites:
             if site.kind is SiteKind.ARG:
-                told = _Declared(site.place, site.text, site.annotation)
-                self.declared.setdefault(site.name, told)
+                declared = _Declared(site.place, site.text, site.annotation)
+                self.declared.setdefault(site.name, declared)
         for text in islice(_texts_of(tree), max(0, _TEXTS - len(self._texts))):
             self._note(text)
         return tree
@@ -367,8 +367,8 @@ class _Scan:
         return self._resolve(declared.text, declared.place.file, depth=depth)
 
     def _widget(self, name: str, text: str, shown: str, annotation: Annotation) -> Widget:
-        words = [word for word in self._compared_with(name) if word]
-        widget = infer_widget(name, text, shown, annotation, (), words)
+        texts = [one for one in self._compared_with(name) if one]
+        widget = infer_widget(name, text, shown, annotation, (), texts)
         if annotation.gives_range:
             return widget
         folders = common(self._folder_choices(name))
@@ -389,9 +389,9 @@ class _Scan:
 
     def _compared_with(self, name: str) -> tuple[str, ...]:
         found = {
-            word: None
+            text: None
             for one in self._texts
-            for named, word in compared(one.text)
+            for named, text in compared(one.text)
             if self._means(named, name)
         }
         return tuple(found)[:CHOICES_KEPT]

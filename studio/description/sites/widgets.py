@@ -311,8 +311,8 @@ def infer_widget(
     unit = quantity.unit
     is_expression = _EXPRESSION.search(text) is not None
     shown = value if is_expression or (value and not text.strip()) else text
-    if (said := _annotated(annotation, unit, shown)) is not None:
-        return said
+    if (annotated := _annotated(annotation, unit, shown)) is not None:
+        return annotated
     if not is_expression and shown.strip().lower() in _BOOLEANS:
         return Widget(WidgetKind.SWITCH, help=annotation.help)
     numbers = _numbers(shown)

@@ -144,12 +144,12 @@ def _read_comment(comment: str, text: str) -> Annotation:
     if not plain:
         return NOTHING
     for bracket in _BRACKET.finditer(plain):
-        said = _read_bracket(bracket, text)
-        if said is not None:
+        read = _read_bracket(bracket, text)
+        if read is not None:
             unit, behind = _split_unit(plain[bracket.end() :].lstrip())
             explained = _joined(plain[: bracket.start()], behind)
-            minimum, maximum, step, choices = said.minimum, said.maximum, said.step, said.choices
-            return Annotation(minimum, maximum, step, choices, said.unit or unit, explained)
+            minimum, maximum, step, choices = read.minimum, read.maximum, read.step, read.choices
+            return Annotation(minimum, maximum, step, choices, read.unit or unit, explained)
     return Annotation(help=plain)
 
 
@@ -192,8 +192,8 @@ def _read_choices(parts: Sequence[str], text: str, *, leading: bool) -> Annotati
 
 
 def _holds_numbers(text: str) -> bool:
-    words = text.split()
-    return bool(words) and all(_number(word) is not None for word in words)
+    parts = text.split()
+    return bool(parts) and all(_number(part) is not None for part in parts)
 
 
 def _number(text: str) -> float | None:
@@ -208,8 +208,8 @@ def _number(text: str) -> float | None:
     return -size if pi[1] == "-" else size
 
 
-def _unquoted(word: str) -> str:
-    return word[1:-1] if len(word) >= 2 and word[0] == word[-1] and word[0] in "\"'" else word
+def _unquoted(text: str) -> str:
+    return text[1:-1] if len(text) >= 2 and text[0] == text[-1] and text[0] in "\"'" else text
 
 
 def _split_unit(text: str) -> tuple[str, str]:
@@ -229,8 +229,8 @@ def _plain(comment: str) -> str:
     """Return a comment's text on one line; empty for commented-out XML, licences and long texts."""
     if len(comment) > _READ_LENGTH or _MARKUP.search(comment) or _LICENCE.search(comment):
         return ""
-    words = " ".join(_without_rules(comment).split())
-    return words if len(words) <= _HELP_LENGTH else ""
+    line = " ".join(_without_rules(comment).split())
+    return line if len(line) <= _HELP_LENGTH else ""
 
 
 def _without_rules(comment: str) -> str:

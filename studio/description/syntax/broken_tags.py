@@ -28,7 +28,7 @@ _STRAY_END: Final = re.compile(rb"</[\w:.-]*>(?=\s*(?:[\"'/>]|[\w:.-]+\s*=))")
 _UNCLOSED_VALUE: Final = re.compile(rb"[^<>\r\n\"']*")
 _VALUE_LIMIT: Final = 1 << 20
 _ATTRIBUTES_LIMIT: Final = 4096
-_LOOKED_AT: Final = 200
+_SEARCHED: Final = 200
 """Bytes at the end of a value that are searched for the name of another attribute."""
 _PLACES_LIMIT: Final = 1000
 """Limit of the places of one fault that a fix mends."""
@@ -195,15 +195,15 @@ class TagReader:
         """Whether the next quote is the closing one, or opens the value of another attribute."""
         goes_on = _GOES_ON.match(self._data, close + 1) is not None
         if b"<" in raw:
-            return goes_on and b"\n" not in raw and not _NEXT_ATTRIBUTE.search(raw[-_LOOKED_AT:])
-        return goes_on or not _NEXT_ATTRIBUTE.search(raw[-_LOOKED_AT:])
+            return goes_on and b"\n" not in raw and not _NEXT_ATTRIBUTE.search(raw[-_SEARCHED:])
+        return goes_on or not _NEXT_ATTRIBUTE.search(raw[-_SEARCHED:])
 
     def _unclosed(self, name: str, begin: int, at: int) -> int:
         """Without its closing quote a value goes as far as its line or the next attribute."""
         data, quote = self._data, self._data[at : at + 1].decode()
         found = _UNCLOSED_VALUE.match(data, at + 1)
         raw = found[0] if found else b""
-        following = _NEXT_ATTRIBUTE.search(raw, max(0, len(raw) - _LOOKED_AT))
+        following = _NEXT_ATTRIBUTE.search(raw, max(0, len(raw) - _SEARCHED))
         if following is not None:
             raw = raw[: following.start()]
         raw = raw.rstrip()

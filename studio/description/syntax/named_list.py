@@ -127,7 +127,7 @@ class NamedList:
         except UnicodeDecodeError as error:
             raise self._error("it is not UTF-8 text") from error
         except yaml.YAMLError as error:
-            raise self._error(f"it is no YAML ({_words(error)})") from error
+            raise self._error(f"it is no YAML ({_reason(error)})") from error
 
     def _survey(self, text: str) -> None:
         """Refuse what such a list has no use for, before anything is made of it."""
@@ -163,7 +163,7 @@ def _last_line(node: yaml.Node) -> int:
             return end.line - (end.column == 0 and end.line > node.start_mark.line)
 
 
-def _words(error: yaml.YAMLError) -> str:
+def _reason(error: yaml.YAMLError) -> str:
     mark = getattr(error, "problem_mark", None)
     problem = getattr(error, "problem", None) or "it cannot be parsed"
     return f"line {mark.line + 1}: {problem}" if mark else str(problem)

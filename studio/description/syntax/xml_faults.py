@@ -31,7 +31,7 @@ _SENTENCES: Final = {
         "This &name; is not known: write &amp; for an ampersand that means itself."
     ),
 }
-_LOOKED_BACK: Final = 400
+_SEARCHED_BYTES: Final = 400
 """Bytes before a fault that are searched for its cause."""
 _UNQUOTED: Final = re.compile(rb"[\s\"']([\w:.-]+)\s*=\s*$")
 _VALUELESS: Final = re.compile(rb"\s([\w:.-]+)\s*$")
@@ -78,7 +78,7 @@ def cause_of(error: ExpatError, data: bytes, byte: int) -> int:
     """
     if ErrorString(error.code) != errors.XML_ERROR_INVALID_TOKEN or data[byte : byte + 1] != b"<":
         return byte
-    tag = _OpenTag.around(data[max(0, byte - _LOOKED_BACK) : byte])
+    tag = _OpenTag.around(data[max(0, byte - _SEARCHED_BYTES) : byte])
     if tag is None or (tag.within_quotes and b"\n" not in data[byte - tag.length : byte]):
         return byte
     return byte - tag.length
@@ -101,7 +101,7 @@ def _unfinished(still_open: Sequence[Element]) -> str:
 
 
 def _odd_character(data: bytes, byte: int) -> str:
-    before, here = data[max(0, byte - _LOOKED_BACK) : byte], data[byte : byte + 12]
+    before, here = data[max(0, byte - _SEARCHED_BYTES) : byte], data[byte : byte + 12]
     for cause in _CAUSES:
         if sentence := cause(before, here):
             return sentence
@@ -141,9 +141,9 @@ def _attribute(before: bytes, here: bytes) -> str:
     if not tag or tag.within_quotes:
         return ""
     if found := _UNQUOTED.search(before):
-        return f'The value of {_word(found)} needs quotes: write {_word(found)}="...".'
+        return f'The value of {_name(found)} needs quotes: write {_name(found)}="...".'
     if found := _VALUELESS.search(tag.outside_quotes):
-        return f'{_word(found)} has no value: write {_word(found)}="...".'
+        return f'{_name(found)} has no value: write {_name(found)}="...".'
     if before.endswith((b'"', b"'")) and here[:1].isalpha():
         return "A space is missing between the value before this and the name here."
     return f"The tag <{tag.name}> has no > yet." if here.startswith(b"<") else ""
@@ -164,11 +164,11 @@ class _OpenTag:
         found = _IN_TAG.search(before)
         if found is None:
             return None
-        tag = cls(_word(found), found[2], len(before) - found.start())
+        tag = cls(_name(found), found[2], len(before) - found.start())
         return None if b">" in tag.outside_quotes and not tag.within_quotes else tag
 
 
-def _word(found: re.Match[bytes]) -> str:
+def _name(found: re.Match[bytes]) -> str:
     return found[1].decode("utf-8", "replace")
 
 

@@ -59,7 +59,7 @@ def _status(problem: Problem, first: Key, count: int) -> Status:
     if 1 < count < REFUSED_MAX:
         more = f" (and {count - 1} more)"
     return Status(
-        sentence.level, sentence.reason, f"Marker {marker_name(first)}{more} {sentence.words}."
+        sentence.level, sentence.reason, f"Marker {marker_name(first)}{more} {sentence.text}."
     )
 
 
@@ -128,14 +128,15 @@ class MarkersDisplay(Display):
         hidden = self._hidden()
         found = statuses_of(self._store, hidden)
         if self._has_messages and not len(self._store) and not self._store.refused:
-            words = "There are no markers: all were deleted, or their lifetime is over."
-            found.append(Status("warn", "empty", words))
+            sentence = "There are no markers: all were deleted, or their lifetime is over."
+            found.append(Status("warn", "empty", sentence))
         elif len(self._store) and self._store.namespaces() <= hidden:
-            words = "Markers are there, and all of their namespaces are switched off."
-            found.append(Status("warn", "empty", words, (self._first_off(), True)))
+            sentence = "Markers are there, and all of their namespaces are switched off."
+            found.append(Status("warn", "empty", sentence, (self._first_off(), True)))
         if self._batches.left_out:
-            words = f"{self._batches.left_out} texts, meshes or batches are too many to be shown."
-            found.append(Status("warn", "unsupported", words))
+            left_out = self._batches.left_out
+            sentence = f"{left_out} texts, meshes or batches are too many to be shown."
+            found.append(Status("warn", "unsupported", sentence))
         return tuple(found)
 
     def _hidden(self) -> frozenset[str]:

@@ -89,7 +89,7 @@ class Sentence(NamedTuple):
 
     level: Literal["warn", "error"]
     reason: Reason
-    words: str
+    text: str
 
 
 SENTENCES: Final[dict[Problem, Sentence]] = {

@@ -146,11 +146,11 @@ def _texts(markers: Rows) -> Iterator[tuple[str, Text]]:
     """Words as high as scale.z, centred on the marker; how it is turned means nothing."""
     heights_m: list[float] = np.abs(markers.scales[:, 2]).tolist()
     rows: list[int] = markers.rows.tolist()
-    for row, words, (xyz, rgb, opacity), height_m in zip(
-        rows, markers.words, _looks(markers), heights_m, strict=True
+    for row, text, (xyz, rgb, opacity), height_m in zip(
+        rows, markers.texts, _appearances(markers), heights_m, strict=True
     ):
-        if height_m and opacity and words.strip():
-            yield f"text-{row}", Text(words, xyz, height_m, rgb, opacity)
+        if height_m and opacity and text.strip():
+            yield f"text-{row}", Text(text, xyz, height_m, rgb, opacity)
 
 
 def _meshes(markers: Rows) -> Iterator[tuple[str, MeshFile]]:
@@ -158,18 +158,18 @@ def _meshes(markers: Rows) -> Iterator[tuple[str, MeshFile]]:
 
     RViz takes a colour of all zeros for none where the mesh has its own.
     """
-    for at, (xyz, rgb, opacity) in enumerate(_looks(markers)):
+    for at, (xyz, rgb, opacity) in enumerate(_appearances(markers)):
         own = bool(markers.embedded[at])
         shown = 1.0 if own and not markers.rgba[at].any() else opacity
         if shown and markers.scales[at].all():
             x, y, z = markers.scales[at].tolist()
             w, i, j, k = markers.rotations_wxyz[at].tolist()
             colour = None if own else rgb
-            mesh = MeshFile(markers.words[at], (x, y, z), colour, shown, xyz, (w, i, j, k))
+            mesh = MeshFile(markers.texts[at], (x, y, z), colour, shown, xyz, (w, i, j, k))
             yield f"mesh-{int(markers.rows[at])}", mesh
 
 
-def _looks(markers: Rows) -> Iterator[tuple[Xyz, Rgb, float]]:
+def _appearances(markers: Rows) -> Iterator[tuple[Xyz, Rgb, float]]:
     """Yield each marker's position, colour and opacity."""
     positions: list[list[float]] = markers.positions.tolist()
     colors: list[list[int]] = colors_of(markers.rgba).tolist()

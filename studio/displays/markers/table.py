@@ -32,7 +32,7 @@ _ROWS_AT_FIRST: Final = 64
 _NOBODY: Final = ("", 0)
 N = TypeVar("N", bound=np.generic)
 POINTS_MAX: Final = 2_000_000
-WORDS_MAX: Final = 2000
+TEXT_MAX: Final = 2000
 _MESH_SCHEMES: Final = ("package://", "file://")
 _WORDED: Final = np.array([Kind.TEXT, Kind.MESH], dtype=np.int32)
 # Members of an IntEnum are slow to look up in a loop.
@@ -64,7 +64,7 @@ class Rows:
         scales: Shape (M, 3), as sent.
         rgba: Shape (M, 4), 0 to 1 or beyond.
         items: Of each.
-        words: Text of each, or the URI of its mesh.
+        texts: Text of each, or the URI of its mesh.
         embedded: Shape (M,): whether a mesh uses its own colours.
     """
 
@@ -75,7 +75,7 @@ class Rows:
     scales: Floats
     rgba: NDArray[np.float32]
     items: tuple[Items, ...]
-    words: tuple[str, ...]
+    texts: tuple[str, ...]
     embedded: NDArray[np.bool_]
 
     def only(self, chosen: NDArray[np.bool_]) -> Rows:
@@ -88,7 +88,7 @@ class Rows:
             self.rows[places], self.types[places], self.positions[places],
             self.rotations_wxyz[places], self.scales[places], self.rgba[places],
             tuple([self.items[place] for place in kept]),
-            tuple([self.words[place] for place in kept]),
+            tuple([self.texts[place] for place in kept]),
             self.embedded[places],
         )  # fmt: skip
 
@@ -97,7 +97,7 @@ class Rows:
         run = slice(begin, end)
         return Rows(
             self.rows[run], self.types[run], self.positions[run], self.rotations_wxyz[run],
-            self.scales[run], self.rgba[run], self.items[run], self.words[run],
+            self.scales[run], self.rgba[run], self.items[run], self.texts[run],
             self.embedded[run],
         )  # fmt: skip
 
@@ -135,7 +135,7 @@ class MarkerTable:
         self.rgba = np.zeros((_ROWS_AT_FIRST, 4), dtype=np.float32)
         self.embedded = np.zeros(_ROWS_AT_FIRST, dtype=np.bool_)
         self.items: list[Items] = [NO_ITEMS] * _ROWS_AT_FIRST
-        self.words: list[str] = [""] * _ROWS_AT_FIRST
+        self.texts: list[str] = [""] * _ROWS_AT_FIRST
         self.keys: list[Key] = [_NOBODY] * _ROWS_AT_FIRST
         self._free: list[int] = []
 
@@ -157,7 +157,7 @@ class MarkerTable:
             self.batch[row] = NO_BATCH
             self.expires_ns[row] = FOR_EVER
             self.problems[row], self.points[row] = Problem.NONE, 0
-            self.items[row], self.words[row], self.keys[row] = NO_ITEMS, "", _NOBODY
+            self.items[row], self.texts[row], self.keys[row] = NO_ITEMS, "", _NOBODY
             heapq.heappush(self._free, row)
 
     def drawn_rows(self, batches: Iterable[int]) -> tuple[Whole, NDArray[np.int64]]:
@@ -174,7 +174,7 @@ class MarkerTable:
             rows, self.types[rows], self.positions[rows], self.rotations_wxyz[rows],
             self.scales[rows], self.rgba[rows],
             tuple([self.items[row] for row in chosen]),
-            tuple([self.words[row] for row in chosen]),
+            tuple([self.texts[row] for row in chosen]),
             self.embedded[rows],
         )  # fmt: skip
 
@@ -192,7 +192,7 @@ class MarkerTable:
         """
         changed = self._put(columns, rows, added)
         self._put_items(columns, rows, added)
-        self._put_words(columns, rows, added)
+        self._put_texts(columns, rows, added)
         self._put_problems(columns, nameless, rows, added)
         return changed
 
@@ -234,7 +234,7 @@ class MarkerTable:
             self._points_in_all += counts[-1]
         self.points[rows] = counts
 
-    def _put_words(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
+    def _put_texts(self, columns: MarkerColumns, rows: Whole, added: Whole) -> None:
         """Store texts and addresses of meshes, and what is wrong with them."""
         types = columns.types[added]
         self.problems[rows] = Problem.NONE
@@ -243,15 +243,15 @@ class MarkerTable:
             chosen: list[int] = added[places].tolist()
             of_rows: list[int] = rows[places].tolist()
             for row, at in zip(of_rows, chosen, strict=True):
-                self._put_word(row, columns.texts[at], is_mesh=kind is Kind.MESH)
+                self._put_text(row, columns.texts[at], is_mesh=kind is Kind.MESH)
 
-    def _put_word(self, row: int, texts: MarkerTexts, *, is_mesh: bool) -> None:
-        word = self.words[row] = (texts.mesh_resource if is_mesh else texts.text)[:WORDS_MAX]
+    def _put_text(self, row: int, texts: MarkerTexts, *, is_mesh: bool) -> None:
+        text = self.texts[row] = (texts.mesh_resource if is_mesh else texts.text)[:TEXT_MAX]
         self.embedded[row] = texts.mesh_use_embedded_materials
         if is_mesh:
-            if not word.startswith(_MESH_SCHEMES):
-                self.problems[row] = _FOREIGN_MESH if word else _NO_MESH
-        elif not word.strip():
+            if not text.startswith(_MESH_SCHEMES):
+                self.problems[row] = _FOREIGN_MESH if text else _NO_MESH
+        elif not text.strip():
             self.problems[row] = _EMPTY_TEXT
 
     def _put_problems(
@@ -285,7 +285,7 @@ class MarkerTable:
         self.rgba = _doubled(self.rgba)
         self.embedded = _doubled(self.embedded)
         self.items += [NO_ITEMS] * more
-        self.words += [""] * more
+        self.texts += [""] * more
         self.keys += [_NOBODY] * more
 
 

@@ -145,7 +145,7 @@ def _edits(problem: Problem, uri: str, meant: str, tree: SourceTree) -> Iterator
     part = next((one for one in tree.elements if one.place == problem.place), None)
     for mesh in _meshes(part) if part is not None else ():
         written = mesh.attributes.get("filename", "")
-        if _says(written, uri) and (edit := _renamed(mesh, written, meant)):
+        if _matches(written, uri) and (edit := _renamed(mesh, written, meant)):
             yield edit
 
 
@@ -156,7 +156,7 @@ def _meshes(element: SourceElement) -> Iterator[SourceElement]:
         yield from _meshes(one)
 
 
-def _says(written: str, uri: str) -> bool:
+def _matches(written: str, uri: str) -> bool:
     """Whether the text is the URI, but for folders of packages that are found."""
     literal = _FIND.split(written)
     if any("$" in piece for piece in literal):

@@ -208,7 +208,7 @@ class VariantComparison:
         self._made.clear()
         self._ghost.show(None, beside=False)
         await self._robots.close()
-        self._tell(_NOTHING)
+        self._send(_NOTHING)
 
     async def _robot_of(self, side: Side, recipe: Recipe) -> SecondRobot:
         if side == _PRESENT:
@@ -217,7 +217,7 @@ class VariantComparison:
         made_of = recipe.arguments, overlay, self._book.disk()
         known = self._made.get(side)
         if known is None or known.of != made_of:
-            self._tell(self.latest.model_copy(update={"sides": self.sides, "busy": True}))
+            self._send(self.latest.model_copy(update={"sides": self.sides, "busy": True}))
             robot = await self._robots.made(recipe, overlay)
             known = self._made[side] = _Made(made_of, robot)
         return known.robot
@@ -230,7 +230,7 @@ class VariantComparison:
         self._ghost.show(second if ghost else None, beside=self._ghost.is_beside)
         self._want_meshes()
         rows = robot_differences(one, other, self._ghost.mesh_bounds)
-        self._tell(
+        self._send(
             Comparison(
                 sides=sides,
                 busy=False,
@@ -242,11 +242,11 @@ class VariantComparison:
             )
         )
 
-    def _tell(self, news: Comparison) -> None:
-        if news != self.latest:
-            self.latest = news
+    def _send(self, event: Comparison) -> None:
+        if event != self.latest:
+            self.latest = event
             # While somebody drags, a slow page need not have them all.
-            self._audience.post(encode(news), key="comparison")
+            self._audience.post(encode(event), key="comparison")
 
 
 def _renamed(side: Side, old: str, new: str) -> Side:

@@ -170,17 +170,15 @@ class Ghost:
         ghost.set_poses(kinematics.link_names, poses)
         here = dict(zip(links, wxyz_xyz, strict=True))
         there = zip(kinematics.link_names, poses, strict=True)
-        alike = frozenset[str]() if self._beside else self._look_alike(second)
+        alike = frozenset[str]() if self._beside else self._same_in_both(second)
         ghost.hide({name for name, pose in there if name in alike and _is_near(pose, here[name])})
 
-    def _look_alike(self, second: SecondRobot) -> frozenset[str]:
+    def _same_in_both(self, second: SecondRobot) -> frozenset[str]:
         """Return links that look the same in both robots; cached until either changes."""
         ours = self._model.robot
         if self._alike is None or self._alike[0] is not ours:
             theirs = second.robot.links
-            same = (
-                n for n, one in ours.links.items() if n in theirs and _same_looks(one, theirs[n])
-            )
+            same = (n for n, one in ours.links.items() if n in theirs and _is_alike(one, theirs[n]))
             self._alike = ours, frozenset(same)
         return self._alike[1]
 
@@ -208,7 +206,7 @@ class Ghost:
         return kinematics.positions_with_mimic(kept)
 
 
-def _same_looks(one: Link, other: Link) -> bool:
+def _is_alike(one: Link, other: Link) -> bool:
     return one.visuals == other.visuals
 
 

@@ -13,7 +13,7 @@ from studio.documents.file_watch import FileWatch
 from studio.documents.side_file import ItemKind, NamedItems
 from studio.errors import CommandError
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.listeners import LastTold
+from studio.protocol.listeners import LastSent
 from studio.protocol.variants import (
     ApplyVariant,
     CompareVariants,
@@ -75,7 +75,7 @@ class NamedVariants:
         self._shelf = NamedItems(workspace.entry, workspace.served, _SHELF)
         self._active, self._modified = "", False
         self._steps = 0
-        self._sent = LastTold[Variants](audience)
+        self._sent = LastSent[Variants](audience)
         self._watch = FileWatch(self._changed_on_disk)
         self._watch.watch({str(self._shelf.path)})
         self._throttle = Throttle(self._refresh, first_s=_FIRST_S, pause_s=_PAUSE_S)
@@ -115,7 +115,7 @@ class NamedVariants:
             made = self._book.as_variant(known.name, known.note, present)
             self._replace(known.name, made)
         self._active = made.name
-        self._tell()
+        self._send()
         left_out = tuple(
             f"{file} has unsaved edits beside its values; a variant does not hold them."
             for file in present.edited_otherwise
@@ -142,7 +142,7 @@ class NamedVariants:
         if edits or change.arguments is not None:
             await self._edits.follow(change)
         await self._find_active()
-        self._tell()
+        self._send()
         return VariantApplied(request=command.request, left_out=left_out)
 
     def rename(self, command: RenameVariant) -> None:
@@ -155,7 +155,7 @@ class NamedVariants:
         if self._active == known.name:
             self._active = name
         self._comparison.rename(known.name, name)
-        self._tell()
+        self._send()
 
     def delete(self, name: str) -> None:
         """Forget a variant; errors as for `save`."""
@@ -163,7 +163,7 @@ class NamedVariants:
         self._put([one for one in self._shelf.items if one.name != known.name])
         if self._active == name:
             self._active = ""
-        self._tell()
+        self._send()
 
     def compare(self, sides: tuple[Side, Side] | None) -> None:
         """Compare two states from now on, or none.
@@ -209,7 +209,7 @@ class NamedVariants:
 
     async def _refresh(self) -> None:
         await self._find_active()
-        self._tell()
+        self._send()
         await self._comparison.follow(self._present, self._recipe_of)
         self._watch.watch({str(self._shelf.path), *self._comparison.files})
 
@@ -256,8 +256,8 @@ class NamedVariants:
             trouble=shelf.trouble,
         )
 
-    def _tell(self) -> None:
-        self._sent.tell(self._list())
+    def _send(self) -> None:
+        self._sent.send(self._list())
 
 
 COMMANDS: Final = Commands[NamedVariants](Scope.DOCUMENT)

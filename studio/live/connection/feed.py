@@ -13,7 +13,7 @@ from studio.live.connection.sending import RobotSending
 from studio.packages.received_texts import keep_description
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.connection import PublishJoints, PublishRobot, SetJointSource, WireFeed
-from studio.protocol.listeners import LastTold
+from studio.protocol.listeners import LastSent
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Audience
 
 TICK_S: Final = 1 / 60
-_TELL_EVERY_S: Final = 0.5
+_SEND_EVERY_S: Final = 0.5
 _TOPICS: Final = {"joint_states": "/joint_states", "tf": "/tf"}
 
 _log = logging.getLogger(__name__)
@@ -83,8 +83,8 @@ class RobotFeed:
         self._following: FollowedJoints | None = None
         self._source: Literal["sliders", "joint_states", "tf"] = "sliders"
         self._described: _Described | None = None
-        self._told = LastTold[WireFeed](audience)
-        self._told_s = 0.0
+        self._sent = LastSent[WireFeed](audience)
+        self._sent_s = 0.0
         self._ticking: asyncio.Task[None] | None = None
         self._turn = asyncio.Lock()
         """Two who switch at once do it one after the other."""
@@ -136,7 +136,7 @@ class RobotFeed:
         """Switch everything off, before the connection is ended."""
         async with self._turn:
             await self._end()
-            self._tell()
+            self._send()
 
     async def close(self) -> None:
         """Stop sending and receiving; what is being started ends by itself."""
@@ -200,7 +200,7 @@ class RobotFeed:
 
     def _go_on(self) -> None:
         """Tick while anything is on; a tick that finds nothing is the last one."""
-        self._tell()
+        self._send()
         if self._is_on and (self._ticking is None or self._ticking.done()):
             self._ticking = asyncio.create_task(self._tick())
 
@@ -219,9 +219,9 @@ class RobotFeed:
                 await self._sending.step(began_s)
             except Exception:  # noqa: BLE001 - one robot that fails must not end the rest
                 _log.exception("A tick of the wire failed.")
-            if began_s - self._told_s >= _TELL_EVERY_S:
-                self._told_s = began_s
-                self._tell()
+            if began_s - self._sent_s >= _SEND_EVERY_S:
+                self._sent_s = began_s
+                self._send()
             await asyncio.sleep(max(0.0, began_s + TICK_S - loop.time()))
 
     def _take(self) -> None:
@@ -247,8 +247,8 @@ class RobotFeed:
         except StudioError as error:
             described.trouble = str(error)
 
-    def _tell(self) -> None:
-        self._told.tell(self._state())
+    def _send(self) -> None:
+        self._sent.send(self._state())
 
     def _state(self) -> WireFeed:
         following = self._following

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError, ExternalShutdownException, NotServedError
 from studio.live.connection.plan import planned_wire
-from studio.live.connection.telling import JointsOut, RobotOut
+from studio.live.connection.robot_publishers import JointsOut, RobotOut
 from studio.ros.messages import types_of
 from studio.ros.node.context import Context
 from studio.ros.node.executors import SingleThreadedExecutor

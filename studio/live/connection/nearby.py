@@ -32,22 +32,22 @@ class Nearby:
         changed: Callable[[], None],
     ) -> None:
         self._choice, self._is_wanted, self._changed = choice, is_wanted, changed
-        self._looking: asyncio.Task[None] | None = None
+        self._task: asyncio.Task[None] | None = None
         self.node_count = 0
         """In the domain that would be joined; 0 while nothing is checked."""
 
-    def look(self) -> None:
+    def check(self) -> None:
         """Look from now on, if that is wanted and is not done yet."""
-        if self._is_wanted() and (self._looking is None or self._looking.done()):
-            self._looking = asyncio.create_task(self._look())
+        if self._is_wanted() and (self._task is None or self._task.done()):
+            self._task = asyncio.create_task(self._check())
 
     async def close(self) -> None:
         """Look no more."""
-        if self._looking is not None:
-            self._looking.cancel()
-            await asyncio.gather(self._looking, return_exceptions=True)
+        if self._task is not None:
+            self._task.cancel()
+            await asyncio.gather(self._task, return_exceptions=True)
 
-    async def _look(self) -> None:
+    async def _check(self) -> None:
         while self._is_wanted():
             self._take(await asyncio.to_thread(nodes_nearby, self._choice()))
             await asyncio.sleep(_PAUSE_S)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.settings import WireSettings
     from studio.settings import WireChoice
 
-_LOOK_TIMEOUT_S: Final = 3.0
+_QUERY_TIMEOUT_S: Final = 3.0
 _BRIDGES: Final = "@/*/@ros2_lv/**"
 """Tokens of zenoh-bridge-ros2dds, whose keys are others than rmw_zenoh's."""
 _SHOWN_MAX: Final = 20
@@ -105,10 +105,10 @@ def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireR
 def count(wire: WireSession, own: Collection[str]) -> Census:
     """Ask the router for the tokens of every domain, once."""
     census = Census()
-    for token in set(standing_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", _LOOK_TIMEOUT_S)):
+    for token in set(standing_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", _QUERY_TIMEOUT_S)):
         census.take(token, wire.domain, own)
     if not census.nodes:
-        census.has_bridge = any(standing_tokens(wire.zenoh, _BRIDGES, _LOOK_TIMEOUT_S))
+        census.has_bridge = any(standing_tokens(wire.zenoh, _BRIDGES, _QUERY_TIMEOUT_S))
     return census
 
 

@@ -11,7 +11,7 @@ from studio.live.connection.nearby import Nearby
 from studio.live.connection.plan import planned_wire
 from studio.live.topics.zenoh_source import ZenohSource
 from studio.protocol.connection import WireState
-from studio.protocol.listeners import Audience, LastTold, tell
+from studio.protocol.listeners import Audience, LastSent, send
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,9 +45,9 @@ class RosConnection:
         self._opening: asyncio.Task[WireLink] | None = None
         self._phase: _Phase = "off"
         self._trouble = ""
-        self._told = LastTold[WireState](self._audience)
-        self._throttle = Throttle(self._look, pause_s=_PAUSE_S)
-        self._nearby = Nearby(lambda: self._choice, self._is_alone, self._tell)
+        self._sent = LastSent[WireState](self._audience)
+        self._throttle = Throttle(self._refresh, pause_s=_PAUSE_S)
+        self._nearby = Nearby(lambda: self._choice, self._is_alone, self._send)
         self._closed = False
         self.topics = ZenohSource()
         """The topics of whatever system it is connected with."""
@@ -61,8 +61,8 @@ class RosConnection:
     def attach(self, listener: Listener) -> None:
         """Tell a page how it stands, now and whenever that changes."""
         self._audience.add(listener)
-        tell(listener, self._state())
-        self._nearby.look()
+        send(listener, self._state())
+        self._nearby.check()
 
     def detach(self, listener: Listener) -> None:
         """Forget a page; it need not be there."""
@@ -81,7 +81,7 @@ class RosConnection:
     def choose(self, choice: WireChoice) -> None:
         """Look elsewhere from the next connection on."""
         self._choice = choice
-        self._tell()
+        self._send()
 
     async def link(self) -> WireLink:
         """Give the connection; the first who asks has it opened.
@@ -108,7 +108,7 @@ class RosConnection:
             self.on_link(None)
             if link is not None:
                 await asyncio.to_thread(self._end, link)
-            self._tell()
+            self._send()
 
     async def close(self) -> None:
         """End the connection, and the router if it is ours."""
@@ -131,13 +131,13 @@ class RosConnection:
 
     async def _open_in_turn(self) -> WireLink:
         self._phase, self._trouble = "connecting", ""
-        self._tell()
+        self._send()
         try:
             link = await asyncio.to_thread(self._open_link, asyncio.get_running_loop())
         except Exception as error:
-            said = str(error) if isinstance(error, StudioError) else "The terminal says why."
-            self._phase, self._trouble = "failed", said
-            self._tell()
+            trouble = str(error) if isinstance(error, StudioError) else "The terminal says why."
+            self._phase, self._trouble = "failed", trouble
+            self._send()
             raise
         if self._closed:
             await asyncio.to_thread(link.close)
@@ -145,40 +145,40 @@ class RosConnection:
         self._link = link
         self.topics.attach(link)
         self.on_link(link)
-        self._tell()
+        self._send()
         return link
 
     def _open_link(self, loop: asyncio.AbstractEventLoop) -> WireLink:
         from studio.live.connection.link import WireLink  # noqa: PLC0415 - imports zenoh
 
-        def doubt() -> None:
-            self.topics.doubt()
+        def changed() -> None:
+            self.topics.refit()
             if not loop.is_closed():
-                loop.call_soon_threadsafe(self._doubt)
+                loop.call_soon_threadsafe(self._trigger)
 
-        return WireLink(self._choice, doubt)
+        return WireLink(self._choice, changed)
 
     def _is_alone(self) -> bool:
         """Whether a page is there that is not connected, and might like to be."""
         is_idle = self._link is None and self._phase != "connecting"
         return is_idle and not self._closed and len(self._audience) > 0
 
-    def _doubt(self) -> None:
+    def _trigger(self) -> None:
         if not self._closed:
             self._throttle.trigger()
 
-    async def _look(self) -> None:
+    async def _refresh(self) -> None:
         link = self._link
         if link is not None:
             # Of thousands of nodes it takes its time.
             seen = await asyncio.to_thread(_state_with, link)
             if link is self._link:  # else the state is of an earlier connection
-                self._tell(seen)
+                self._send(seen)
 
-    def _tell(self, seen: WireState | None = None) -> None:
-        self._told.tell(seen or self._state())
+    def _send(self, seen: WireState | None = None) -> None:
+        self._sent.send(seen or self._state())
         self.on_change()
-        self._nearby.look()
+        self._nearby.check()
 
     def _state(self) -> WireState:
         return self._state_without() if self._link is None else _state_with(self._link)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from studio.description.values import Expansion
     from studio.live.connection.link import WireLink
-    from studio.live.connection.telling import JointsOut, RobotOut
+    from studio.live.connection.robot_publishers import JointsOut, RobotOut
     from studio.robot.assembly import Assembly
     from studio.robot.kinematics import Floats
 
@@ -60,7 +60,7 @@ class RobotSending:
         self._values: Floats | None = None
         """The positions published last."""
         self._values_s = -RESTING_PERIOD_S
-        self._stamp_ns = self._told_stamp_ns = 0
+        self._stamp_ns = self._sent_stamp_ns = 0
         """Stamps of the positions, from the joint states received; 0: the present time."""
         self._took_s = 0.0
         self._turn = asyncio.Lock()
@@ -153,16 +153,16 @@ class RobotSending:
     async def _step(self, now_s: float) -> None:
         robot = self._robot
         if robot is not None and self._is_description_due(now_s):
-            await self._tell_description(robot, now_s)
+            await self._publish_description(robot, now_s)
         if self._are_positions_due(now_s):
-            await self._tell_positions(now_s)
+            await self._publish_positions(now_s)
 
     def _is_description_due(self, now_s: float) -> bool:
-        news = self._expansion()
+        newest = self._expansion()
         due = now_s - self._description_s >= DESCRIPTION_PERIOD_S
-        return due and news is not None and news is not self._description
+        return due and newest is not None and newest is not self._description
 
-    async def _tell_description(self, robot: RobotOut, now_s: float) -> None:
+    async def _publish_description(self, robot: RobotOut, now_s: float) -> None:
         model, expansion = self._model, self._expansion()
         assert expansion is not None
         self._description, self._description_s = expansion, now_s
@@ -174,26 +174,26 @@ class RobotSending:
     def _are_positions_due(self, now_s: float) -> bool:
         if self._robot is None and self._joints is None:
             return False
-        is_old = self._stamp_ns != 0 and self._stamp_ns == self._told_stamp_ns
+        is_old = self._stamp_ns != 0 and self._stamp_ns == self._sent_stamp_ns
         if is_old and self._values is not None:
             return False
         moved = self._model.joints.values is not self._values
         period_s = MOVING_PERIOD_S if moved else RESTING_PERIOD_S
         return now_s - self._values_s >= max(period_s, _PAUSE_SHARE * self._took_s)
 
-    async def _tell_positions(self, now_s: float) -> None:
+    async def _publish_positions(self, now_s: float) -> None:
         positions = self._model.joints
         self._values, self._values_s = positions.values, now_s
-        stamp_ns = self._told_stamp_ns = self._stamp_ns
+        stamp_ns = self._sent_stamp_ns = self._stamp_ns
         by_name = positions.by_name()
         robot, joints = self._robot, self._joints
 
-        def tell() -> None:
+        def publish() -> None:
             if robot is not None:
                 robot.place(by_name, stamp_ns or None)
             if joints is not None:
-                joints.tell(by_name)
+                joints.publish(by_name)
 
         began_s = time.perf_counter()
-        await asyncio.to_thread(tell)
+        await asyncio.to_thread(publish)
         self._took_s = time.perf_counter() - began_s

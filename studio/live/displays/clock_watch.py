@@ -21,7 +21,7 @@ CLOCK: Final = Request(
 )
 _JITTER_NS: Final = 100_000_000
 """A publisher with several threads may send times that much out of order."""
-_TELLERS_MAX: Final = 16
+_PUBLISHERS_MAX: Final = 16
 
 
 class ClockWatch:
@@ -36,7 +36,7 @@ class ClockWatch:
     def __init__(self, jumped: Callable[[int, int], None]) -> None:
         self._jumped = jumped
         self._codec = Codec(shared_types().message(_TYPE))
-        self._told_ns: dict[bytes, int] = {}
+        self._last_ns: dict[bytes, int] = {}
 
     def take(self, sample: RawSample) -> None:
         """Take one message; what is none is left out."""
@@ -45,12 +45,12 @@ class ClockWatch:
         except CdrError:
             return
         now_ns = clock.sec * NANOSECONDS + clock.nanosec
-        teller = sample.attachment.gid
-        before_ns = self._told_ns.pop(teller, now_ns)
-        if len(self._told_ns) >= _TELLERS_MAX:
-            del self._told_ns[next(iter(self._told_ns))]
+        gid = sample.attachment.gid
+        before_ns = self._last_ns.pop(gid, now_ns)
+        if len(self._last_ns) >= _PUBLISHERS_MAX:
+            del self._last_ns[next(iter(self._last_ns))]
         if now_ns < before_ns - _JITTER_NS:
             self._jumped(now_ns, before_ns)
         elif now_ns < before_ns:
             now_ns = before_ns
-        self._told_ns[teller] = now_ns
+        self._last_ns[gid] = now_ns

@@ -32,7 +32,7 @@ from studio.protocol.displays import (
     TfFrames,
     Topics,
 )
-from studio.protocol.listeners import LastTold
+from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 
 
 _TICK_S: Final = 1 / 30
-_LOOK_EVERY_S: Final = 0.5
+_CHECK_EVERY_S: Final = 0.5
 """Between two checks of who publishes, and between two states sent of the displays."""
 _UNSEEN_S: Final = 10.0
 """After so long without a page, subscribing and drawing stop; a reload is quicker than that."""
@@ -98,10 +98,10 @@ class DocumentDisplays:
         self._unkept: KeptDisplays | None = None
         self._seen_s = time.monotonic()
         self._fault = ""
-        self._looked_s = 0.0
+        self._checked_s = 0.0
         self._asked_until_s = 0.0
-        self._states = LastTold[DisplayStates](audience)
-        self._settings = LastTold[LiveDisplays](audience)
+        self._states = LastSent[DisplayStates](audience)
+        self._settings = LastSent[LiveDisplays](audience)
         self._closed = False
 
     @property
@@ -288,7 +288,7 @@ class DocumentDisplays:
             await self._wire.link()
         except StudioError as error:
             _log.info("Displays without a connection: %s", error)
-        self._looked_s = 0.0
+        self._checked_s = 0.0
         self._go_on()
 
     def _change(self, spec: DisplaySpec) -> None:
@@ -299,9 +299,9 @@ class DocumentDisplays:
     def _changed(self) -> None:
         """Send, keep and draw the list after a change."""
         self._show_and_hide()
-        self._tell_displays()
+        self._send_displays()
         self._keep()
-        self._looked_s = 0.0
+        self._checked_s = 0.0
         self._go_on()
 
     def _show_and_hide(self) -> None:
@@ -341,14 +341,14 @@ class DocumentDisplays:
         while self._is_on:
             began_s = loop.time()
             try:
-                looks = began_s - self._looked_s >= _LOOK_EVERY_S
-                if looks:
-                    self._looked_s = began_s
+                is_due = began_s - self._checked_s >= _CHECK_EVERY_S
+                if is_due:
+                    self._checked_s = began_s
                     await self._subscribe()
                 self._step()
-                if looks:
-                    self._tell_displays()
-                    self._tell_states()
+                if is_due:
+                    self._send_displays()
+                    self._send_states()
             except Exception as error:  # noqa: BLE001 - what fails once must not end the rest
                 self._log_once(error)
             ended_s = loop.time()
@@ -356,7 +356,7 @@ class DocumentDisplays:
                 max(began_s + _TICK_S - ended_s, _PAUSE_SHARE * (ended_s - began_s))
             )
         self._room.step(self._list, time.time_ns())
-        self._tell_states()
+        self._send_states()
         self.let_go()
         self._ticking = None
         self._go_on()  # somebody may have asked meanwhile
@@ -377,12 +377,12 @@ class DocumentDisplays:
         """Subscribe to what is shown."""
         await self._room.subscribe({one.id for one in self._list if self._list.is_shown(one)})
 
-    def _tell_states(self) -> None:
-        self._states.tell(self._room.states(self._list, time.time_ns()))
+    def _send_states(self) -> None:
+        self._states.send(self._room.states(self._list, time.time_ns()))
 
-    def _tell_displays(self) -> None:
+    def _send_displays(self) -> None:
         """Tell how all are set, if that is news: how they listen changes with who publishes."""
-        self._settings.tell(self._displays())
+        self._settings.send(self._displays())
 
     def _displays(self) -> LiveDisplays:
         return LiveDisplays(

@@ -21,7 +21,7 @@ from studio.protocol.displays import (
     DisplayState,
     DisplayStates,
     DisplayView,
-    ListeningWish,
+    ListeningView,
     PropertyView,
     Remark,
 )
@@ -121,13 +121,13 @@ class DrawingRoom:
                 is_new = True
         if is_new:
             await asyncio.to_thread(self._source.fit_all)
-        self.frames.look()
-        await asyncio.to_thread(self._look_around)
+        self.frames.drop_gone()
+        await asyncio.to_thread(self._find_instead)
 
-    def _look_around(self) -> None:
+    def _find_instead(self) -> None:
         topics = TopicsNow(self._source)
         for running in tuple(self._running.values()):
-            running.look_around(topics)
+            running.find_instead(topics)
 
     def unsubscribe(self) -> None:
         """Receive nothing."""
@@ -213,10 +213,10 @@ class DrawingRoom:
         failed = self._scene.live.failed_meshes(display)
         if not failed:
             return ()
-        words = self._meshes.trouble_of(failed[0])
+        sentence = self._meshes.trouble_of(failed[0])
         if len(failed) > 1:
-            words = f"{len(failed)} meshes cannot be shown. The first: {words}"
-        return (Status("warn", "no_mesh", words[:_SENTENCE_MAX]),)
+            sentence = f"{len(failed)} meshes cannot be shown. The first: {sentence}"
+        return (Status("warn", "no_mesh", sentence[:_SENTENCE_MAX]),)
 
     def _shown_of(self, displays: DisplayList) -> dict[str, RunningDisplay]:
         """Return the displays switched on; for those that are not, forget what was received."""
@@ -265,8 +265,8 @@ def _fit(running: RunningDisplay) -> Fit | TopicRole:
     return running.fit or next(iter(running.display.roles()), _NO_TOPIC)
 
 
-def _wished(listening: Listening) -> ListeningWish:
-    return ListeningWish(
+def _wished(listening: Listening) -> ListeningView:
+    return ListeningView(
         reliable=listening.reliable, latched=listening.latched, depth=listening.depth
     )
 

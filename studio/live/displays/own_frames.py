@@ -66,12 +66,12 @@ class OwnFrames:
         self._kinematics: Kinematics | None = None
         self._values: Floats = np.empty(0)
         self._edges: _Edges | None = None
-        self._told: Floats = np.empty((0, 7))
+        self._last: Floats = np.empty((0, 7))
         """The pose of each edge that was set last."""
         self._rooted: Robot | None = None
         self._root = ""
         self._children: frozenset[str] = frozenset()
-        self._told_by_others: dict[str, str] = {}
+        self._others: dict[str, str] = {}
         """GID of the publisher by frame."""
 
     @property
@@ -89,14 +89,14 @@ class OwnFrames:
 
     def leave_to_others(self, names: tuple[str, ...], who: str = "") -> None:
         """Leave frames to `who`, who publishes them in ROS."""
-        if all(name in self._told_by_others for name in names):
+        if all(name in self._others for name in names):
             return
         children = frozenset(map(plain_name, names))
         with self._lock:
             own = children & self._children
             # Names without end must not fill the memory.
-            is_full = len(self._told_by_others) >= FRAMES_MAX
-            self._told_by_others |= dict.fromkeys(own if is_full else children, who)
+            is_full = len(self._others) >= FRAMES_MAX
+            self._others |= dict.fromkeys(own if is_full else children, who)
             if own:
                 self._buffer.drop(own)
                 self._children -= own
@@ -105,17 +105,17 @@ class OwnFrames:
     def take_back(self) -> None:
         """Set all frames again: nobody is subscribed any more."""
         with self._lock:
-            self._told_by_others, self._children = {}, frozenset()
+            self._others, self._children = {}, frozenset()
             self._kinematics = self._edges = None
 
     def take_back_from(self, gone: Collection[str]) -> None:
         """Set the frames again whose publishers are gone; thread-safe."""
         with self._lock:
-            free = {child for child, who in self._told_by_others.items() if who in gone}
+            free = {child for child, who in self._others.items() if who in gone}
             if not free:
                 return
             for child in free:
-                del self._told_by_others[child]
+                del self._others[child]
             self._buffer.drop(free & {one.child for one in self._robot.robot.joints.values()})
             self._kinematics = self._edges = None
 
@@ -129,26 +129,26 @@ class OwnFrames:
             if kinematics is not self._kinematics or self._edges is None:
                 self._find_edges(kinematics.link_names)
             self._kinematics, self._values = kinematics, values.copy()
-            self._tell(parent_from_links)
+            self._put(parent_from_links)
 
     def _find_edges(self, links: tuple[str, ...]) -> None:
         before = self._edges
-        self._edges = _edges_of(self._robot.robot, links, self._told_by_others)
+        self._edges = _edges_of(self._robot.robot, links, self._others)
         if before is None or before[:2] != self._edges[:2]:
-            self._told = np.full((len(self._edges.children), 7), np.nan)
+            self._last = np.full((len(self._edges.children), 7), np.nan)
         children = frozenset(self._edges.children)
         self._buffer.drop(self._children - children)
         self._children = children
 
-    def _tell(self, parent_from_links: Floats) -> None:
+    def _put(self, parent_from_links: Floats) -> None:
         """Tell of the edges that moved: of a large robot few do."""
         edges = self._edges
         if edges is None or not edges.children:
             return
         poses = parent_from_links[edges.rows]
-        moved = np.flatnonzero((poses != self._told).any(axis=1))
+        moved = np.flatnonzero((poses != self._last).any(axis=1))
         if moved.size:
-            self._told[moved] = poses[moved]
+            self._last[moved] = poses[moved]
             self._buffer.put(edges.transforms(moved, poses), static=True, publisher=PUBLISHER)
 
 

@@ -33,7 +33,7 @@ class Facts:
         types: Message types that it shows; empty: it subscribes to no topic.
         fitting_kind: The display that shows what is published on the topic; empty: none.
         instead: A published topic that would fit; empty: there is none.
-        heard: Number of messages received.
+        received: Number of messages received.
         silent_s: Time since the last one, when that is longer than usual.
         frames: Why parts of the drawing have no pose.
         frame: A fixed frame in which the first of them would have a pose; empty: none.
@@ -49,7 +49,7 @@ class Facts:
     types: tuple[str, ...] = ()
     fitting_kind: str = ""
     instead: str = ""
-    heard: int = 0
+    received: int = 0
     silent_s: float | None = None
     frames: tuple[FrameError, ...] = ()
     frame: str = ""
@@ -71,7 +71,7 @@ def _well(facts: Facts) -> Remark:
     """Return the remark of a display without problems."""
     if facts.draws:
         return Remark(level="ok", reason="", sentence="Shown.")
-    if facts.heard:
+    if facts.received:
         what = f"Messages come on {facts.spec.topic}, and there is nothing in them to draw."
     else:
         what = "There is nothing to draw."
@@ -84,7 +84,7 @@ def _remarks(facts: Facts) -> Iterator[Remark]:
         return
     if facts.types and (silence := _silence(facts)):
         yield silence
-        if facts.heard == 0:
+        if facts.received == 0:
             return
     for error in facts.frames[:_FRAMES_MAX]:
         yield _remark_on_frame(error, facts.frame)
@@ -97,10 +97,10 @@ def _remarks(facts: Facts) -> Iterator[Remark]:
             "have the publisher stamp them.",
         )
     for status in facts.statuses:
-        yield _said_by_itself(facts, status)
+        yield _own_remark(facts, status)
 
 
-def _said_by_itself(facts: Facts, status: Status) -> Remark:
+def _own_remark(facts: Facts, status: Status) -> Remark:
     mend = _of_property(facts.spec, *status.mend) if status.mend else None
     if status.reason == "not_connected_frame" and facts.frame:
         mend = _drawn_in(facts.frame)
@@ -171,7 +171,7 @@ def _other_type(facts: Facts) -> Remark:
 
 
 def _no_message(facts: Facts) -> Remark | None:
-    if facts.heard == 0:
+    if facts.received == 0:
         return _warn("no_message", f"No message has come on {facts.spec.topic} yet.")
     if facts.silent_s is not None:
         return _warn(

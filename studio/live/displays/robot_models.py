@@ -116,7 +116,7 @@ class RobotModels:
             case "File":
                 self._want(model, source.where)
             case "Parameter":
-                self._hear(model)
+                self._read_parameter(model)
 
     def _show_own(self, model: _Model) -> None:
         robot = self._own.robot
@@ -166,7 +166,7 @@ class RobotModels:
             if source == model.source:
                 model.display.fail(_kept(model.display, str(error)))
 
-    def _hear(self, model: _Model) -> None:
+    def _read_parameter(self, model: _Model) -> None:
         """Take the parameter's answer, and ask again if there is none."""
         if model.received is not None:
             text = model.received.newest()

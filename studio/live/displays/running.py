@@ -95,7 +95,7 @@ class RunningDisplay:
             self._subscriptions[name] = source.subscribe(wanted[name])
         return bool(new)
 
-    def look_around(self, topics: TopicsNow) -> None:
+    def find_instead(self, topics: TopicsNow) -> None:
         """Find another topic to subscribe to while nobody publishes its own."""
         main = self._subscriptions.get("")
         lacks = main is not None and main.state.publishers == 0
@@ -183,7 +183,7 @@ class RunningDisplay:
             types=roles[0].types if roles else (),
             fitting_kind=fitting.KIND if fitting else "",
             instead=self._instead,
-            heard=main.received if main else 0,
+            received=main.received if main else 0,
             silent_s=age_s if age_s is not None and age_s > self._patience_s else None,
             frames=tuple(_first_of_each(self.placing.troubles.values())),
             frame=next((drawing[one].frame for one in self.placing.troubles if one in drawing), ""),
@@ -200,10 +200,10 @@ class RunningDisplay:
         return math.inf if fit and fit.latched else _SILENT_S
 
     def _statuses(self) -> tuple[Status, ...]:
-        said = self.display.statuses()
+        statuses = self.display.statuses()
         if not self._bad_message:
-            return said
-        return (_bad(self._bad_message), *said)
+            return statuses
+        return (_bad(self._bad_message), *statuses)
 
     def _take(self, received: Received, role: str) -> None:
         try:

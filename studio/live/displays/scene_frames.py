@@ -32,8 +32,8 @@ STILL: Final[Pose] = (NO_TURN, ORIGIN)
 _TF_TYPE: Final = "tf2_msgs/msg/TFMessage"
 _TOPICS: Final = ("/tf_static", "/tf")
 _FRAMES_SHOWN: Final = 2_000
-_LOOK_EVERY_S: Final = 0.05
-_FIRST_LOOKS: Final = 20
+_CHECK_EVERY_S: Final = 0.05
+_FIRST_CHECKS: Final = 20
 _OTHERS_S: Final = 0.2
 """After the first frames, for those of other nodes: they come some times a second."""
 _NOTICES_KEPT: Final = 20
@@ -86,13 +86,13 @@ class SceneFrames:
         if not any(self._source.publishers(topic) for topic in _TOPICS):
             return
         before = self.buffer.changes
-        for _ in range(_FIRST_LOOKS):
-            await asyncio.sleep(_LOOK_EVERY_S)
+        for _ in range(_FIRST_CHECKS):
+            await asyncio.sleep(_CHECK_EVERY_S)
             if self.buffer.changes != before:
                 await asyncio.sleep(_OTHERS_S)
                 return
 
-    def look(self) -> None:
+    def drop_gone(self) -> None:
         """Take back the robot's own links from those who published them and are gone."""
         known = tuple(self._publishers.items())
         if not known or self._source.connection != "there":  # else all seem to be gone

@@ -29,7 +29,7 @@ class Changes:
     def __init__(self) -> None:
         self._followers: dict[Subject, Audience] = {one: Audience() for one in _PAUSES_S}
         self._throttles: dict[Subject, Throttle] = {
-            one: Throttle(partial(self._tell, one), pause_s=pause_s)
+            one: Throttle(partial(self._send, one), pause_s=pause_s)
             for one, pause_s in _PAUSES_S.items()
         }
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -84,8 +84,8 @@ class Changes:
         self._woken.discard(subject)  # before sending: what changes from now on is sent again
         self.changed(subject)
 
-    async def _tell(self, subject: Subject) -> None:
-        self._followers[subject].tell(Changed(subject=subject))
+    async def _send(self, subject: Subject) -> None:
+        self._followers[subject].send(Changed(subject=subject))
 
 
 COMMANDS: Final = Commands[Changes](Scope.ROS)

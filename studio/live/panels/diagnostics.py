@@ -33,7 +33,7 @@ _REQUEST: Final = Request("/diagnostics", (_TYPE,), depth=100, as_known_here=Tru
 
 
 @dataclass(frozen=True, slots=True)
-class _Said:
+class _Report:
     """The newest status of a part, and when it came."""
 
     view: DiagnosticView
@@ -46,7 +46,7 @@ class Parts:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._lock = threading.Lock()
-        self._said: dict[str, _Said] = {}
+        self._reports: dict[str, _Report] = {}
         self._left_out: set[str] = set()
         self._epoch = 0
 
@@ -55,7 +55,7 @@ class Parts:
         with self._lock:
             if epoch != self._epoch:
                 self._epoch = epoch
-                self._said.clear()
+                self._reports.clear()
                 self._left_out.clear()
 
     def take(self, array: MessageValue) -> None:
@@ -64,8 +64,8 @@ class Parts:
         with self._lock:
             for status in array.status:
                 name = status.name[:_TEXT_MAX]
-                if name in self._said or len(self._said) < PARTS_MAX:
-                    self._said[name] = _Said(_view(status), now_s)
+                if name in self._reports or len(self._reports) < PARTS_MAX:
+                    self._reports[name] = _Report(_view(status), now_s)
                 elif len(self._left_out) < PARTS_MAX:
                     self._left_out.add(name)
 
@@ -73,10 +73,10 @@ class Parts:
         """Return all parts in order, and how many were left out for want of room."""
         now_s = self._clock()
         with self._lock:
-            said = sorted(self._said.items())
+            reports = sorted(self._reports.items())
             more = len(self._left_out)
         views = (
-            one.view.model_copy(update={"age_s": round(now_s - one.at_s, 1)}) for _, one in said
+            one.view.model_copy(update={"age_s": round(now_s - one.at_s, 1)}) for _, one in reports
         )
         return tuple(views), more
 

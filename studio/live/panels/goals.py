@@ -26,7 +26,7 @@ _KEPT: Final = 40
 _RUNNING_MAX: Final = 30
 _FEEDBACK_KEPT: Final = 50
 _FEEDBACK_CHARACTERS: Final = 4_000
-_LOOK_S: Final = 0.2
+_CHECK_EVERY_S: Final = 0.2
 """Between two checks of the status of a goal without feedback."""
 _LOG_PATIENCE_S: Final = 1.0
 """A server's log may arrive later than its answer."""
@@ -56,7 +56,7 @@ class Goal:
     kept: deque[tuple[int, float, Any]] = field(
         default_factory=lambda: deque(maxlen=_FEEDBACK_KEPT)
     )
-    told: int = 0
+    sent: int = 0
     """Number of the last feedback sent to all who follow."""
 
     @property
@@ -64,7 +64,7 @@ class Goal:
         """Whether it has its end."""
         return self.state in _OVER
 
-    def heard(self, feedback: object) -> None:
+    def take_feedback(self, feedback: object) -> None:
         """Take in a feedback message."""
         self.feedback_count += 1
         self.kept.append((self.feedback_count, time.time_ns() / 1e9 - self.began_s, feedback))
@@ -73,14 +73,14 @@ class Goal:
         """Return the goal for the page: with all feedback kept, or with what is new."""
         from studio.ros.types.convert import to_json  # noqa: PLC0415 - takes its time
 
-        kept = [one for one in tuple(self.kept) if is_whole or one[0] > self.told]
+        kept = [one for one in tuple(self.kept) if is_whole or one[0] > self.sent]
         if not is_whole and kept:
-            self.told = kept[-1][0]
+            self.sent = kept[-1][0]
         views = tuple(
             FeedbackView(
-                number=number, after_s=round(at_s, 3), values=to_json(said, _FEEDBACK_CHARACTERS)
+                number=number, after_s=round(at_s, 3), values=to_json(one, _FEEDBACK_CHARACTERS)
             )
-            for number, at_s, said in kept
+            for number, at_s, one in kept
         )
         own = {name: getattr(self, name) for name in GoalView.model_fields if name != "feedback"}
         return GoalView(**own, feedback=views)
@@ -181,7 +181,7 @@ class ActionGoals:
         loop = asyncio.get_running_loop()
 
         def take(feedback: object) -> None:
-            goal.heard(feedback)
+            goal.take_feedback(feedback)
             self.operations.changed(goal)
 
         def on_feedback(feedback: object) -> None:  # in the thread of the link
@@ -193,20 +193,20 @@ class ActionGoals:
         goal.state, goal.goal_id = "accepted", request.goal_id
         self._named()
         self.operations.changed(goal)
-        looking = asyncio.create_task(self._look(goal, request))
+        following = asyncio.create_task(self._follow_status(goal, request))
         try:
             status, result = await request.result()
         finally:
-            looking.cancel()
+            following.cancel()
         return _ended(status.name.lower()), result
 
-    async def _look(self, goal: Goal, request: GoalRequest) -> None:
+    async def _follow_status(self, goal: Goal, request: GoalRequest) -> None:
         """Follow its status on the topic of all goals."""
         while True:
             if goal.state == "accepted" and request.status.name == "EXECUTING":
                 goal.state = "executing"
                 self.operations.changed(goal)
-            await asyncio.sleep(_LOOK_S)
+            await asyncio.sleep(_CHECK_EVERY_S)
 
     async def _finish(
         self, goal: Goal, request: GoalRequest, outcome: Outcome[tuple[GoalState, str]]

@@ -37,7 +37,7 @@ _NODES_MAX: Final = 8
 _REASONS_SHOWN: Final = 2
 _PAUSE_S: Final = 5.0
 """Before a node is asked again for a type that it did not describe."""
-_UNTOLD_MAX: Final = 500
+_UNDESCRIBED_MAX: Final = 500
 _NOBODY: Final = "no known package defines it, and no node that is there tells it"
 _ADVICE: Final = "drop its .{kind} file, or its package's folder, on the page"
 
@@ -48,7 +48,7 @@ class TypeLearner:
     def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._turn = asyncio.Lock()
-        self._untold: dict[str, tuple[float, str]] = {}
+        self._undescribed: dict[str, tuple[float, str]] = {}
         """Names of types that no node described: when, and why."""
 
     async def learn(self, name: str) -> None:
@@ -58,7 +58,7 @@ class TypeLearner:
             UnknownTypeError: No node describes it; the sentence says why and what to do.
         """
         async with self._turn:
-            asked_s, why = self._untold.get(name, (float("-inf"), ""))
+            asked_s, why = self._undescribed.get(name, (float("-inf"), ""))
             if time.monotonic() - asked_s >= _PAUSE_S:
                 why = await asyncio.to_thread(_ask, self._wire.current, name)
                 self._keep(name, why)
@@ -68,19 +68,19 @@ class TypeLearner:
     async def texts(self, name: str) -> dict[str, str]:
         """Return the definitions of a known type and of those it uses; empty: no node has them."""
         async with self._turn:
-            asked_s, _ = self._untold.get(name, (float("-inf"), ""))
+            asked_s, _ = self._undescribed.get(name, (float("-inf"), ""))
             if time.monotonic() - asked_s < _PAUSE_S:
                 return {}
-            told = await asyncio.to_thread(_texts, self._wire.current, name)
-            self._keep(name, "" if told else "nobody tells its text")
-            return told
+            texts = await asyncio.to_thread(_texts, self._wire.current, name)
+            self._keep(name, "" if texts else "nobody tells its text")
+            return texts
 
     def _keep(self, name: str, why: str) -> None:
-        self._untold.pop(name, None)
+        self._undescribed.pop(name, None)
         if why:
-            self._untold[name] = (time.monotonic(), why)
-        if len(self._untold) > _UNTOLD_MAX:
-            self._untold.pop(next(iter(self._untold)))
+            self._undescribed[name] = (time.monotonic(), why)
+        if len(self._undescribed) > _UNDESCRIBED_MAX:
+            self._undescribed.pop(next(iter(self._undescribed)))
 
 
 def _ask(link: WireLink | None, name: str) -> str:
@@ -89,12 +89,12 @@ def _ask(link: WireLink | None, name: str) -> str:
         return _NOBODY
     from studio.ros.type_lookup import learn_from_any  # noqa: PLC0415
 
-    said: list[str] = []
-    learn_from_any(link.node, _others(link, name), said.append)
+    failures: list[str] = []
+    learn_from_any(link.node, _others(link, name), failures.append)
     try:
         link.types.hash_of(name)
     except UnknownTypeError as error:
-        reasons = [one.rstrip(".") for one in said[:_REASONS_SHOWN]]
+        reasons = [one.rstrip(".") for one in failures[:_REASONS_SHOWN]]
         return "; ".join(reasons) or error.reason or _NOBODY
     return ""
 

@@ -14,7 +14,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, Final
 
 from studio.course.demos import CHAPTERS, LESSONS, Lesson, code_of, find_demo
-from studio.course.processes import LEASHED, WHEN_TOLD_S, environment_for
+from studio.course.processes import AFTER_SIGNAL_S, LEASHED, environment_for
 from studio.errors import CommandError
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.lessons import (
@@ -57,7 +57,7 @@ class PrintedLines:
         self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
 
     @property
-    def last_words(self) -> str:
+    def last_text(self) -> str:
         """The last line that is not blank; empty: none came."""
         return next((line for line in reversed(self._lines) if line.strip()), "")
 
@@ -112,7 +112,7 @@ class DemoRun:
         self._process: asyncio.subprocess.Process | None = None
         self._spawned = asyncio.Event()
         self._life: asyncio.Task[None] | None = None
-        self._is_told = False
+        self._is_stopping = False
         self._since_s = time.monotonic()
         self._code: int | None = None
 
@@ -125,8 +125,8 @@ class DemoRun:
     def state(self) -> Literal["starting", "running", "stopping", "stopped", "ended"]:
         """The state as pages receive it."""
         if self.is_over:
-            return "stopped" if self._is_told else "ended"
-        if self._is_told:
+            return "stopped" if self._is_stopping else "ended"
+        if self._is_stopping:
             return "stopping"
         return "running" if self.zids else "starting"
 
@@ -137,7 +137,7 @@ class DemoRun:
             state=self.state,
             for_s=round(time.monotonic() - self._since_s, 1),
             code=self._code or 0,
-            reason=self.printed.last_words[:_REASON_MAX] if self.is_over else "",
+            reason=self.printed.last_text[:_REASON_MAX] if self.is_over else "",
         )
 
     async def start(self, environment: Mapping[str, str]) -> None:
@@ -149,7 +149,7 @@ class DemoRun:
         self._life = asyncio.create_task(self._live(environment))
         await self._spawned.wait()
         if self._process is None:
-            raise CommandError(f"{self.lesson.demo} was not started: {self.printed.last_words}")
+            raise CommandError(f"{self.lesson.demo} was not started: {self.printed.last_text}")
 
     def see(self, zids: frozenset[str]) -> None:
         """Take the sessions in which its node is seen first; later ones belong to others."""
@@ -166,11 +166,11 @@ class DemoRun:
         await self._spawned.wait()
         if self._life is None or self._process is None or self.is_over:
             return
-        self._is_told = True
+        self._is_stopping = True
         self._changed()
         with suppress(ProcessLookupError):
             self._process.send_signal(_CTRL_C)
-        await asyncio.wait({self._life}, timeout=WHEN_TOLD_S)
+        await asyncio.wait({self._life}, timeout=AFTER_SIGNAL_S)
         with suppress(ProcessLookupError):
             self._process.kill()
         await self._life
@@ -195,7 +195,7 @@ class DemoRun:
         demo = find_demo(self.lesson.demo)
         assert demo is not None
         return await asyncio.create_subprocess_exec(
-            *(sys.executable, "-P", "-m", LEASHED, demo.module, *self.lesson.words),
+            *(sys.executable, "-P", "-m", LEASHED, demo.module, *self.lesson.arguments),
             env=environment,
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
@@ -242,7 +242,7 @@ class CourseDemos:
 
     async def demos(self, command: GetDemos) -> Demos:
         """Tell which demos run, those of others too."""
-        elsewhere = await self._look()
+        elsewhere = await self._find_others()
         return Demos(
             request=command.request,
             demos=tuple(run.view() for run in self._runs.values()),
@@ -274,7 +274,7 @@ class CourseDemos:
             CommandError: It is none, or runs already, or too many do, or there is no connection.
         """
         lesson = _lesson(command.demo)
-        strangers = await self._look()
+        strangers = await self._find_others()
         link = self._connected()
         if lesson.demo in strangers:
             raise CommandError(
@@ -292,11 +292,11 @@ class CourseDemos:
         Raises:
             CommandError: It does not run, or was not started from a page.
         """
-        await self._under_way(command.demo).stop()
+        await self._running_demo(command.demo).stop()
 
     def press(self, command: PressKey) -> None:
         """Press a key of a demo; errors as for `stop`."""
-        run = self._under_way(command.demo)
+        run = self._running_demo(command.demo)
         if not run.lesson.has_keys:
             raise CommandError(f"{command.demo} is not driven by keys.")
         run.press(command.pressed)
@@ -321,19 +321,19 @@ class CourseDemos:
         return link
 
     def _demand_room(self, lesson: Lesson) -> None:
-        under_way = [name for name, run in self._runs.items() if not run.is_over]
-        if lesson.demo in under_way:
+        running = [name for name, run in self._runs.items() if not run.is_over]
+        if lesson.demo in running:
             raise CommandError(f"{lesson.demo} runs already.")
-        if len(under_way) >= RUNNING_MAX:
+        if len(running) >= RUNNING_MAX:
             raise CommandError(f"{RUNNING_MAX} demos run already: stop one of them first.")
 
-    def _under_way(self, name: str) -> DemoRun:
+    def _running_demo(self, name: str) -> DemoRun:
         run = self._runs.get(_lesson(name).demo)
         if run is None or run.is_over:
             raise CommandError(f"{name} does not run, or was not started from a page.")
         return run
 
-    async def _look(self) -> tuple[str, ...]:
+    async def _find_others(self) -> tuple[str, ...]:
         """See whose nodes are there; gives the demos that others started."""
         link = self._wire.current
         there = await self._sessions.by_node(link) if link else {}

@@ -40,10 +40,10 @@ class LogRing:
         self._characters = 0
         self._numbers = itertools.count(1)
 
-    def take(self, said: MessageValue) -> None:
+    def take(self, entry: MessageValue) -> None:
         """Keep a `rcl_interfaces/msg/Log`; of a text that is too long, its beginning."""
         with self._lock:
-            line = _line(next(self._numbers), said)
+            line = _line(next(self._numbers), entry)
             self._lines.append(line)
             self._characters += _size(line)
             while len(self._lines) > KEPT_MAX or self._characters > CHARACTERS_MAX:
@@ -84,16 +84,16 @@ class LogRing:
         return None
 
 
-def _line(number: int, said: MessageValue) -> LogLine:
+def _line(number: int, entry: MessageValue) -> LogLine:
     return LogLine(
         number=number,
-        stamp_s=said.stamp.sec + said.stamp.nanosec / NANOSECONDS,
-        level=said.level,
-        node=said.name[:_NAME_MAX],
-        text=_clipped(said.msg),
-        file=said.file[:_NAME_MAX],
-        function=said.function[:_NAME_MAX],
-        line=said.line,
+        stamp_s=entry.stamp.sec + entry.stamp.nanosec / NANOSECONDS,
+        level=entry.level,
+        node=entry.name[:_NAME_MAX],
+        text=_clipped(entry.msg),
+        file=entry.file[:_NAME_MAX],
+        function=entry.function[:_NAME_MAX],
+        line=entry.line,
     )
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final, Generic, Literal, Protocol, TypeVa
 
 from studio.debounce import Throttle
 from studio.errors import CommandError, StudioError
-from studio.protocol.listeners import Audience, tell
+from studio.protocol.listeners import Audience, send
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Coroutine
@@ -95,7 +95,7 @@ class Operations(Generic[OperationT]):
         """The operations kept, the oldest first."""
         return tuple(self._operations.values())
 
-    def under_way(self) -> list[OperationT]:
+    def unfinished(self) -> list[OperationT]:
         """The operations that run."""
         return [one for one in self._operations.values() if not one.is_over]
 
@@ -108,7 +108,7 @@ class Operations(Generic[OperationT]):
     def follow(self, listener: Listener) -> None:
         """Send all that are kept, and then what changes."""
         self._audience.add(listener)
-        tell(listener, self._event_of(True, tuple(self._operations.values())))  # noqa: FBT003 - see `event_of`
+        send(listener, self._event_of(True, tuple(self._operations.values())))  # noqa: FBT003 - see `event_of`
 
     def unfollow(self, listener: Listener) -> None:
         """Send nothing more; the listener need not follow."""
@@ -127,8 +127,8 @@ class Operations(Generic[OperationT]):
     async def _send(self) -> None:
         changed, self._changed = self._changed, set()
         if self.is_followed:
-            news = tuple(one for number, one in self._operations.items() if number in changed)
-            self._audience.tell(self._event_of(False, news))  # noqa: FBT003
+            some = tuple(one for number, one in self._operations.items() if number in changed)
+            self._audience.send(self._event_of(False, some))  # noqa: FBT003
 
 
 ValueT = TypeVar("ValueT")

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 _ANSWER_S: Final = 5.0
 _LISTED_MAX: Final = 2_000
-_BY_WORDS: Final = {kind.words: kind for kind in ParameterType}
+_BY_LABEL: Final = {kind.label: kind for kind in ParameterType}
 
 
 class RemoteParameters:
@@ -50,8 +50,8 @@ class RemoteParameters:
         described = await self._ask(
             "describe_parameters", lambda: self._client.describe_parameters(names)
         )
-        words = {str(one.name): one for one in described.descriptors}
-        return tuple(_view(one, words.get(one.name)) for one in values)
+        descriptors = {str(one.name): one for one in described.descriptors}
+        return tuple(_view(one, descriptors.get(one.name)) for one in values)
 
     async def set(self, name: str, text: str, value_type: str) -> None:
         """Set one.
@@ -120,7 +120,7 @@ def parameter_of(name: str, text: str, value_type: str) -> Parameter:
     Raises:
         InvalidParameterTypeError: It is no value of that type.
     """
-    kind = _BY_WORDS.get(value_type, ParameterType.NOT_SET)
+    kind = _BY_LABEL.get(value_type, ParameterType.NOT_SET)
     match kind:
         case ParameterType.NOT_SET:
             return Parameter(name, value=read_value(text.strip()))
@@ -146,22 +146,22 @@ def _known(name: str, value: MessageValue) -> Parameter:
         return Parameter(name)
 
 
-def _view(parameter: Parameter, words: Any | None) -> ParameterView:  # noqa: ANN401 - a descriptor
+def _view(parameter: Parameter, descriptor: Any | None) -> ParameterView:  # noqa: ANN401 - a descriptor
     value = parameter.value
     if parameter.type_ is ParameterType.BYTE_ARRAY:
         value = [one[0] for one in value]
-    if words is None:
+    if descriptor is None:
         return ParameterView(
-            name=parameter.name, value_type=parameter.type_.words, value=plain_json(value)
+            name=parameter.name, value_type=parameter.type_.label, value=plain_json(value)
         )
-    span = next(iter((*words.floating_point_range, *words.integer_range)), None)
+    span = next(iter((*descriptor.floating_point_range, *descriptor.integer_range)), None)
     return ParameterView(
         name=parameter.name,
-        value_type=parameter.type_.words,
+        value_type=parameter.type_.label,
         value=plain_json(value),
-        description=words.description,
-        read_only=words.read_only,
-        constraints=words.additional_constraints,
+        description=descriptor.description,
+        read_only=descriptor.read_only,
+        constraints=descriptor.additional_constraints,
         low=None if span is None else float(span.from_value),
         high=None if span is None else float(span.to_value),
         step=0.0 if span is None else float(span.step),
@@ -183,12 +183,12 @@ def _as_doubles(value: object) -> object:
     return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
-def _float_of(word: str) -> object:
+def _float_of(text: str) -> object:
     """Read `1e-3` and `inf`, which YAML takes for texts."""
     try:
-        return float(word)
+        return float(text)
     except ValueError:
-        return word
+        return text
 
 
 def _as_bytes(value: object) -> object:

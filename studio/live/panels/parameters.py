@@ -11,7 +11,7 @@ from studio.debounce import Throttle
 from studio.live.topics.request import Request
 from studio.live.topics.source import decoder
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.listeners import tell
+from studio.protocol.listeners import send
 from studio.protocol.parameters import (
     DumpParameters,
     FollowParameters,
@@ -43,7 +43,7 @@ _EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
 _EVENTS: Final = Request("/parameter_events", (_EVENT_TYPE,), depth=1_000, as_known_here=True)
 _SUBSCRIBED_WITHIN_S: Final = 2.0
 _PAUSE_S: Final = 0.1
-_NEWS_MAX: Final = 2_000
+_CHANGES_MAX: Final = 2_000
 """Changes of one node in one event."""
 
 
@@ -57,8 +57,8 @@ class NodeParameters:
         self._followed: dict[Listener, str] = {}
         self._events: Subscription | None = None
         self._subscribed = asyncio.Event()
-        self._news: dict[str, dict[str, ParameterView | None]] = {}
-        self._throttle = Throttle(self._tell, pause_s=_PAUSE_S)
+        self._changes: dict[str, dict[str, ParameterView | None]] = {}
+        self._throttle = Throttle(self._send, pause_s=_PAUSE_S)
 
     async def nodes(self, command: GetParameterNodes) -> ParameterNodes:
         """Tell which nodes have parameters."""
@@ -180,17 +180,17 @@ class NodeParameters:
         node = str(event.node)
         if node not in self._followed.values():
             return
-        news = self._news.setdefault(node, {})
+        changes = self._changes.setdefault(node, {})
         for one in (*event.new_parameters, *event.changed_parameters):
-            news[str(one.name)] = changed_view(one)
-        news.update(dict.fromkeys(str(one.name) for one in event.deleted_parameters))
-        while len(news) > _NEWS_MAX:
-            del news[next(iter(news))]
+            changes[str(one.name)] = changed_view(one)
+        changes.update(dict.fromkeys(str(one.name) for one in event.deleted_parameters))
+        while len(changes) > _CHANGES_MAX:
+            del changes[next(iter(changes))]
         self._throttle.trigger()
 
-    async def _tell(self) -> None:
-        news, self._news = self._news, {}
-        for node, found in news.items():
+    async def _send(self) -> None:
+        changes, self._changes = self._changes, {}
+        for node, found in changes.items():
             event = ParametersChanged(
                 node=node,
                 parameters=tuple(one for one in found.values() if one is not None),
@@ -198,7 +198,7 @@ class NodeParameters:
             )
             for listener, followed in tuple(self._followed.items()):
                 if followed == node:
-                    tell(listener, event)
+                    send(listener, event)
 
 
 def _nodes(link: WireLink) -> tuple[str, ...]:

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from studio.live.connection.link import WireLink
     from studio.protocol.publishing import Publish
 
-_NOW_WORDS: Final = frozenset({"now", "auto"})
+_TIME_KEYWORDS: Final = frozenset({"now", "auto"})
 
 
-class Saying:
+class MessageSender:
     """One message on one topic; made and closed in a thread, published in any.
 
     Raises:
@@ -39,7 +39,7 @@ class Saying:
         kind = known_message(link.node, self.name, self.type_name, why.append)
         message = from_yaml(kind, asked.text, now_ns=time.time_ns())
         values = read_yaml(asked.text)
-        has_time = _holds_word(values)
+        has_time = _has_keyword(values)
         written = codec_of(kind).encode(message)
         self._make = (
             (lambda: from_dict(kind, values, now_ns=time.time_ns()))
@@ -54,16 +54,16 @@ class Saying:
         """Count who subscribes to the topic."""
         return self._publisher.get_subscription_count()
 
-    def say(self) -> None:
+    def send(self) -> None:
         """Send it once."""
         self._publisher.publish(self._make())
 
-    def repeat(self, rate_hz: float, said: Callable[[], None]) -> None:
+    def repeat(self, rate_hz: float, sent: Callable[[], None]) -> None:
         """Send it so often a second from now on, in the thread of the link."""
 
         def beat() -> None:
-            self.say()
-            said()
+            self.send()
+            sent()
 
         node = self._link.node
         timer = node.create_timer(1 / rate_hz, beat)
@@ -85,10 +85,10 @@ def _profile(asked: Publish) -> QoSProfile:
     )
 
 
-def _holds_word(values: object) -> bool:
+def _has_keyword(values: object) -> bool:
     """Whether a keyword for the time (`now`, `auto`) is anywhere in the values."""
     if isinstance(values, dict):
-        return any(map(_holds_word, cast("dict[object, object]", values).values()))
+        return any(map(_has_keyword, cast("dict[object, object]", values).values()))
     if isinstance(values, list):
-        return any(map(_holds_word, cast("list[object]", values)))
-    return isinstance(values, str) and values in _NOW_WORDS
+        return any(map(_has_keyword, cast("list[object]", values)))
+    return isinstance(values, str) and values in _TIME_KEYWORDS

@@ -15,7 +15,7 @@ from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
-    from studio.live.panels.publication_work import Saying
+    from studio.live.panels.publication_work import MessageSender
     from studio.protocol.listeners import Listener
 
 _KEPT: Final = 20
@@ -24,7 +24,7 @@ _LISTENER_PATIENCE_S: Final = 1.0
 """So long a single publication waits for a subscriber."""
 _STAY_S: Final = 0.2
 """After a single publication, before the publisher closes."""
-_LOOK_S: Final = 0.5
+_CHECK_EVERY_S: Final = 0.5
 _GRACE_S: Final = 3.0
 """A page that is loaded anew is back within this time."""
 
@@ -55,7 +55,7 @@ class Publication:
         """Whether it is published no more."""
         return self.state != "running"
 
-    def said(self) -> None:
+    def count_one(self) -> None:
         """Count once more."""
         self.sent += 1
 
@@ -87,17 +87,17 @@ class Publishing:
         Raises:
             StudioError: It cannot be published.
         """
-        from studio.live.panels.publication_work import Saying  # noqa: PLC0415 - imports zenoh
+        from studio.live.panels.publication_work import MessageSender  # noqa: PLC0415 - imports zenoh
 
         number = self.operations.next_number()
         link = await self._wire.link()
-        saying = await asyncio.to_thread(Saying, link, command)
-        publication = Publication(number, saying.name, saying.type_name, command)
+        sender = await asyncio.to_thread(MessageSender, link, command)
+        publication = Publication(number, sender.name, sender.type_name, command)
         self.operations.add(publication)
         self._running.start(
             number,
-            self._say(publication, saying),
-            lambda outcome: self._finish(publication, saying, outcome),
+            self._run(publication, sender),
+            lambda outcome: self._finish(publication, sender, outcome),
         )
         return Begun(request=command.request, operation=number)
 
@@ -122,7 +122,7 @@ class Publishing:
         """Remove a page; when nobody is left who could stop it, what runs ends in a moment."""
         was_there = listener in self._presenters
         self._presenters.discard(listener)
-        if was_there and not self._presenters and self.operations.under_way():
+        if was_there and not self._presenters and self.operations.unfinished():
             if self._leaving is not None:
                 self._leaving.cancel()
             self._leaving = asyncio.get_running_loop().call_later(_GRACE_S, self._left)
@@ -144,30 +144,30 @@ class Publishing:
             self._stop_all("The last page that could stop it was closed.")
 
     def _stop_all(self, reason: str) -> None:
-        for one in self.operations.under_way():
+        for one in self.operations.unfinished():
             self._running.cancel(one.operation, reason)
 
-    async def _say(self, publication: Publication, saying: Saying) -> None:
+    async def _run(self, publication: Publication, sender: MessageSender) -> None:
         from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh
 
         rate_hz = publication.asked.rate_hz
         if rate_hz > 0:
-            await asyncio.to_thread(saying.repeat, rate_hz, publication.said)
+            await asyncio.to_thread(sender.repeat, rate_hz, publication.count_one)
             while True:
-                publication.listeners = saying.listeners()
+                publication.listeners = sender.listeners()
                 self.operations.changed(publication)
-                await asyncio.sleep(_LOOK_S)
-        await came_true(lambda: saying.listeners() > 0, _LISTENER_PATIENCE_S)
-        publication.listeners = saying.listeners()
-        await asyncio.to_thread(saying.say)
-        publication.said()
+                await asyncio.sleep(_CHECK_EVERY_S)
+        await came_true(lambda: sender.listeners() > 0, _LISTENER_PATIENCE_S)
+        publication.listeners = sender.listeners()
+        await asyncio.to_thread(sender.send)
+        publication.count_one()
         self.operations.changed(publication)
         await asyncio.sleep(_STAY_S)
 
     async def _finish(
-        self, publication: Publication, saying: Saying, outcome: Outcome[None]
+        self, publication: Publication, sender: MessageSender, outcome: Outcome[None]
     ) -> None:
-        await asyncio.to_thread(saying.close)
+        await asyncio.to_thread(sender.close)
         publication.state, publication.trouble = _STATES[outcome.kind], outcome.trouble
         self.operations.changed(publication)
 

@@ -35,7 +35,7 @@ SHOWN_CHARACTERS: Final = 60_000
 """Limit of a reply, a result and the like: nobody reads more."""
 SERVER_PATIENCE_S: Final = 3.0
 """So long a server is waited for: it was listed, or it is just starting."""
-_LOOK_S: Final = 0.05
+_CHECK_EVERY_S: Final = 0.05
 _ROUTER_SEEN_S: Final = 0.5
 """A call ends with its router, whose end is noticed a moment later."""
 
@@ -113,7 +113,7 @@ async def came_true(holds: Callable[[], bool], timeout_s: float) -> bool:
     while not holds():
         if time.monotonic() >= end_s:
             return False
-        await asyncio.sleep(_LOOK_S)
+        await asyncio.sleep(_CHECK_EVERY_S)
     return True
 
 

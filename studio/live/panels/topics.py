@@ -59,11 +59,11 @@ def topic_ends(connection: RosConnection, command: GetTopicEnds) -> TopicEnds:
 def _rows(link: WireLink) -> tuple[TopicRow, ...]:
     found: list[TopicRow] = []
     for name, types in link.graph.topics():
-        publishing, hearing = link.graph.publishers(name), link.graph.subscriptions(name)
+        published, subscribed = link.graph.publishers(name), link.graph.subscriptions(name)
         # A user asked for what the studio publishes; what it subscribes only serves to show it.
-        publishers, subscribers = len(publishing), _others(hearing, link.zid)
+        publishers, subscribers = len(published), _others(subscribed, link.zid)
         if publishers or subscribers:
-            carried = carried_types(publishing, hearing)
+            carried = carried_types(published, subscribed)
             found.append(
                 TopicRow(
                     name=name,
@@ -87,19 +87,19 @@ def _end(endpoint: GraphEndpoint, own_zid: str) -> TopicEnd:
         node=endpoint.node.path,
         own=endpoint.node.zid == own_zid,
         type_name=endpoint.type_name,
-        reliability=_words(qos.reliability.name),
-        durability=_words(qos.durability.name),
-        history=_words(qos.history.name),
+        reliability=_policy(qos.reliability.name),
+        durability=_policy(qos.durability.name),
+        history=_policy(qos.history.name),
         depth=qos.depth,
         deadline_s=_seconds(qos.deadline),
         lifespan_s=_seconds(qos.lifespan),
-        liveliness=_words(qos.liveliness.name),
+        liveliness=_policy(qos.liveliness.name),
         lease_s=_seconds(qos.liveliness_lease_duration),
         hash=endpoint.type_hash,
     )
 
 
-def _words(name: str) -> str:
+def _policy(name: str) -> str:
     """Return a policy's value as `ros2 topic info` does, in lower case."""
     return name.lower().replace("_", " ")
 

@@ -48,7 +48,7 @@ _Key: TypeAlias = tuple[object, ...]
 class DataLaneEnd(Protocol):
     """The sending end of one browser's data lane."""
 
-    def say(self, message: BaseModel, /) -> None:
+    def send(self, message: BaseModel, /) -> None:
         """Queue one JSON message."""
         ...
 
@@ -82,7 +82,7 @@ class _Channel:
                 depth=command.depth,
                 at_once=self.is_at_once,
             ),
-            arrived=self._tell_if_due if self.is_at_once else None,
+            arrived=self._send_if_due if self.is_at_once else None,
             changed=changed,
         )
         self.close = self._subscription.close
@@ -90,12 +90,12 @@ class _Channel:
     def state(self, subscription: int) -> SubscriptionView:
         """Return the state of a subscription, by the number that the browser gave it."""
         state = self._subscription.state
-        told = _STATES[state.kind]
-        fit = None if told == "not_connected" else state.fit
+        kind = _STATES[state.kind]
+        fit = None if kind == "not_connected" else state.fit
         return SubscriptionView(
             subscription=subscription,
             channel=self.number,
-            state=told,
+            state=kind,
             type_name=fit.type_name if fit else "",
             types=state.types,
             publishers=state.publishers,
@@ -123,7 +123,7 @@ class _Channel:
         lost = self._subscription.lost if self._keeps_all else 0
         return chunk_of(self.number, samples, lost, keeps_all=self._keeps_all)
 
-    def _tell_if_due(self) -> None:
+    def _send_if_due(self) -> None:
         """Send what is due at once, in a thread of the source; the rest goes with a tick."""
         if time.monotonic() >= self._due_s:
             self._arrived()
@@ -139,13 +139,13 @@ class _Browser:
         """Of its channels, each once and in order: read in every tick."""
         self._sent: dict[int, SubscriptionView] = {}
 
-    def tell(self) -> None:
+    def send_states(self) -> None:
         """Tell how each subscription stands, where that is news."""
         for subscription, channel in self.channels.items():
-            news = channel.state(subscription)
-            if self._sent.get(subscription) != news:
-                self._sent[subscription] = news
-                self._lane.say(news)
+            view = channel.state(subscription)
+            if self._sent.get(subscription) != view:
+                self._sent[subscription] = view
+                self._lane.send(view)
 
     def put(self, subscription: int, channel: _Channel) -> None:
         self.channels[subscription] = channel
@@ -172,7 +172,7 @@ class BrowserTopics:
         self._channels: dict[_Key, _Channel] = {}
         self._numbers = itertools.count(1)
         self._ticking: asyncio.Task[None] | None = None
-        self._is_woken = self._is_telling = self._closed = False
+        self._is_woken = self._is_sending = self._closed = False
 
     def attach(self, lane: DataLaneEnd) -> None:
         """A data lane was opened."""
@@ -193,7 +193,7 @@ class BrowserTopics:
                 browser.remove(command.subscription)
             case Subscribe() if len(browser.channels) >= SUBSCRIPTIONS_MAX:
                 reason = f"{SUBSCRIPTIONS_MAX} topics are shown by this page: close a panel first."
-                lane.say(NotSubscribed(subscription=command.subscription, reason=reason))
+                lane.send(NotSubscribed(subscription=command.subscription, reason=reason))
             case Subscribe():
                 self._put(lane, browser, command)
         self._close_unwanted()
@@ -216,7 +216,7 @@ class BrowserTopics:
         else:
             channel = self._open(key, command)
         browser.put(command.subscription, channel)
-        browser.tell()
+        browser.send_states()
         if kept := channel.kept():
             lane.take(Tick((kept,)))
         if self._ticking is None or self._ticking.done():
@@ -231,9 +231,9 @@ class BrowserTopics:
                 loop.call_soon_threadsafe(self._hand_on_at_once, loop)
 
         def changed() -> None:
-            if not self._is_telling and not loop.is_closed():
-                self._is_telling = True
-                loop.call_soon_threadsafe(self._tell)
+            if not self._is_sending and not loop.is_closed():
+                self._is_sending = True
+                loop.call_soon_threadsafe(self._send_states)
 
         number = next(self._numbers)
         channel = self._channels[key] = _Channel(number, command, self._source, arrived, changed)
@@ -256,10 +256,10 @@ class BrowserTopics:
                 _log.exception("A tick of the data lane failed.")
             await asyncio.sleep(max(0.0, began_s + _TICK_S - loop.time()))
 
-    def _tell(self) -> None:
-        self._is_telling = False  # before sending: what changes from now on is sent again
+    def _send_states(self) -> None:
+        self._is_sending = False  # before sending: what changes from now on is sent again
         for browser in self._browsers.values():
-            browser.tell()
+            browser.send_states()
 
     def _hand_on_at_once(self, loop: asyncio.AbstractEventLoop) -> None:
         self._is_woken = False  # before it is taken: what comes from now on wakes again

@@ -42,7 +42,7 @@ class _Key(NamedTuple):
 class SharedSource(ABC):
     """Keeps the subscriptions, and one stream for all of a topic that fit together.
 
-    A subclass knows the publishers and starts to receive; it calls `fit_all` after `doubt`, and
+    A subclass knows the publishers and starts to receive; it calls `fit_all` after `refit`, and
     `change_epoch` when earlier messages do not belong to those that follow.
     """
 
@@ -106,7 +106,7 @@ class SharedSource(ABC):
         """
 
     @abstractmethod
-    def doubt(self) -> None:
+    def refit(self) -> None:
         """Have all subscriptions fitted again soon; thread-safe."""
 
     @abstractmethod
@@ -125,7 +125,7 @@ class SharedSource(ABC):
         made = Subscription(request, self._left, take, arrived, changed)
         with self._lock:
             self._subscriptions[made] = None
-        self.doubt()
+        self.refit()
         return made
 
     def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
@@ -172,7 +172,7 @@ class SharedSource(ABC):
     def _left(self, subscription: Subscription) -> None:
         with self._lock:
             self._subscriptions.pop(subscription, None)
-        self.doubt()
+        self.refit()
 
     def _kept(self, topic: str, begin_ns: int, end_ns: int) -> list[RawSample]:
         streams = [one for key, one in tuple(self._streams.items()) if key.topic == topic]

@@ -236,7 +236,7 @@ class Stream:
         self._cache = Cache() if fit.latched else None
         self._repeats_to: dict[bytes, int] = {}
         """By sender: samples up to this number came before the depth grew, and come again."""
-        self._newcomers: frozenset[Subscription] = frozenset()
+        self._late: frozenset[Subscription] = frozenset()
         """Subscribers that joined since then, and take those that come again."""
         self._wire = subscribe(self)
 
@@ -276,7 +276,7 @@ class Stream:
                 one.post(kept)
             self._add(one)
         if kept:
-            self._tell((one,))
+            self._notify((one,))
 
     def remove(self, one: Subscription) -> None:
         """Give to this one no more."""
@@ -297,12 +297,12 @@ class Stream:
                 self._cache.put(samples, self.depth)
             given: list[Subscription] = []
             for one in self._subscribers:
-                if share := samples if one in self._newcomers else fresh:
+                if share := samples if one in self._late else fresh:
                     one.post(share)
                     given.append(one)
-        self._tell(given)
+        self._notify(given)
 
-    def _tell(self, given: Sequence[Subscription]) -> None:
+    def _notify(self, given: Sequence[Subscription]) -> None:
         for one in given:
             if one.arrived is not None:
                 one.arrived()
@@ -321,7 +321,7 @@ class Stream:
                 if self._cache is not None:
                     self._repeats_to |= self._cache.last
                     self._cache = Cache()
-                    self._newcomers = frozenset({one})
+                    self._late = frozenset({one})
                 self._add(one)
 
         self._wire.deepen(depth, swapped)
@@ -331,13 +331,13 @@ class Stream:
             return
         self._subscribers = (*self._subscribers, one)
         if self._repeats_to:
-            self._newcomers |= {one}
+            self._late |= {one}
         self._fit_reading()
 
     def _remove(self, one: Subscription) -> None:
         with self._lock:
             self._subscribers = tuple(each for each in self._subscribers if each is not one)
-            self._newcomers -= {one}
+            self._late -= {one}
             self._fit_reading()
 
     def _fit_reading(self) -> None:

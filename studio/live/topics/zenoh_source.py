@@ -81,7 +81,7 @@ class ZenohSource(SharedSource):
     def __init__(self) -> None:
         super().__init__()
         self._link: Link | None = None
-        self._doubted = threading.Event()
+        self._due_to_fit = threading.Event()
         self._closed = False
         self._due: deque[Subscription] = deque()
         self._is_due = threading.Event()
@@ -92,7 +92,7 @@ class ZenohSource(SharedSource):
         self._link = link
         self.change_epoch()
         self._start()
-        self.doubt()
+        self.refit()
 
     def detach(self) -> None:
         """Take nothing more from the connection, which is about to end; in a thread."""
@@ -106,7 +106,7 @@ class ZenohSource(SharedSource):
         """Take nothing more from anywhere; in a thread."""
         self.detach()
         self._closed = True
-        self._doubted.set()
+        self._due_to_fit.set()
         self._is_due.set()
         for thread in self._threads:
             thread.join()
@@ -182,8 +182,8 @@ class ZenohSource(SharedSource):
         return link.measure(topic, kept_s) if link and _publishers(link, topic) else None
 
     @override
-    def doubt(self) -> None:
-        self._doubted.set()
+    def refit(self) -> None:
+        self._due_to_fit.set()
 
     @override
     def hand_over(self, subscription: Subscription) -> None:
@@ -201,8 +201,8 @@ class ZenohSource(SharedSource):
 
     def _keep_fitting(self) -> None:
         while not self._closed:
-            self._doubted.wait(_AGAIN_S if self.is_refused else None)
-            self._doubted.clear()
+            self._due_to_fit.wait(_AGAIN_S if self.is_refused else None)
+            self._due_to_fit.clear()
             try:
                 self.fit_all()
             except Exception:  # noqa: BLE001 - what fails once must not end the rest

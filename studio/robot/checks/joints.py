@@ -156,10 +156,10 @@ def _unknown(joint: Joint, written: str) -> Finding:
 
 def _meant(written: str) -> str:
     """Return the type that was most likely meant; empty when that is unclear."""
-    word = written.strip().lower()
-    if word in _OTHER_NAMES:
-        return _OTHER_NAMES[word].value
-    return next(iter(get_close_matches(word, [*JointType], 1, _LIKENESS)), "")
+    text = written.strip().lower()
+    if text in _OTHER_NAMES:
+        return _OTHER_NAMES[text].value
+    return next(iter(get_close_matches(text, [*JointType], 1, _LIKENESS)), "")
 
 
 WHY: Final = {

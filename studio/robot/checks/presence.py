@@ -87,7 +87,7 @@ def _massless(moving: list[tuple[Body, Joint]]) -> Iterator[Finding]:
 
 def _untouchable(moving: list[tuple[Body, Joint]]) -> Iterator[Finding]:
     for body, mover in moving:
-        seen = [link for link in body.links if _looks_like_a_mesh(link)]
+        seen = [link for link in body.links if _seems_a_mesh(link)]
         if not seen or any(link.collisions for link in body.links):
             continue
         link = seen[0]
@@ -98,7 +98,7 @@ def _untouchable(moving: list[tuple[Body, Joint]]) -> Iterator[Finding]:
         yield _at(link, Severity.INFO, "missing-collision", sentence, mover)
 
 
-def _looks_like_a_mesh(link: Link) -> bool:
+def _seems_a_mesh(link: Link) -> bool:
     return any(isinstance(visual.geometry, Mesh) for visual in link.visuals)
 
 

@@ -203,7 +203,7 @@ def parse_floats(text: str) -> NDArray[np.float64]:
     try:
         return np.array(_FLOATS.decode(f"[{text.strip().replace(' ', ',')}]"), dtype=np.float64)
     except (msgspec.DecodeError, UnicodeError):
-        with _no_word_skipped():
+        with _no_text_skipped():
             return np.fromstring(text, dtype=np.float64, sep=" ")
 
 
@@ -213,12 +213,12 @@ def parse_integers(text: str) -> NDArray[np.int64]:
     Raises:
         ValueError: A part is no whole number.
     """
-    with _no_word_skipped():
+    with _no_text_skipped():
         return np.fromstring(text, dtype=np.int64, sep=" ")
 
 
 @contextlib.contextmanager
-def _no_word_skipped() -> Generator[None]:
+def _no_text_skipped() -> Generator[None]:
     """Raise where numpy only warns: it stops at the first part that is no number."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", DeprecationWarning)

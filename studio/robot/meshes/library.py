@@ -42,7 +42,7 @@ class MeshLibrary:
     def __init__(self, cache_folder: Path, pool: WorkerPool) -> None:
         self._cache, self._pool = MeshCache(cache_folder), pool
         self._memory = _Memory(_MEMORY_LIMIT_BYTES)
-        self._under_way: dict[Hashable, asyncio.Task[LoadedMesh]] = {}
+        self._loading: dict[Hashable, asyncio.Task[LoadedMesh]] = {}
         self._has_grown = False
         """The cache, since it was trimmed."""
 
@@ -108,18 +108,18 @@ class MeshLibrary:
         self, key: Hashable, start: Callable[[], Coroutine[None, None, LoadedMesh]]
     ) -> LoadedMesh:
         """Wait for the load of a key, and start it if it does not run."""
-        task = self._under_way.get(key)
+        task = self._loading.get(key)
         if task is None:
             task = asyncio.create_task(start())
-            self._under_way[key] = task
+            self._loading[key] = task
             task.add_done_callback(lambda done: self._finish(key, done))
         return await asyncio.shield(task)  # one caller that gives up must not end it for the others
 
     def _finish(self, key: Hashable, task: asyncio.Task[LoadedMesh]) -> None:
-        del self._under_way[key]
+        del self._loading[key]
         if not task.cancelled():
             task.exception()  # seen, even when every asker gave up
-        if not self._under_way and self._has_grown:
+        if not self._loading and self._has_grown:
             self._has_grown = False
             asyncio.get_running_loop().run_in_executor(None, self._cache.trim)
 

@@ -61,8 +61,8 @@ def _with(appearance: Appearance | None, key: str, rest: str, files: MeshFiles) 
 
 
 def _three(rest: str) -> list[str]:
-    words = rest.split()
-    return words[:3] if len(words) >= 3 else [words[0]] * 3
+    parts = rest.split()
+    return parts[:3] if len(parts) >= 3 else [parts[0]] * 3
 
 
 def _file_name(rest: str) -> str:
@@ -127,7 +127,7 @@ def _sort_lines(text: str) -> _Lines:
             case "vn":
                 lines.normals.append(rest)
             case "f":
-                lines.faces.setdefault(material, []).append(_corner_words(rest, lines))
+                lines.faces.setdefault(material, []).append(_corners(rest, lines))
             case "usemtl":
                 material = rest.strip()
             case "mtllib":
@@ -137,13 +137,13 @@ def _sort_lines(text: str) -> _Lines:
     return lines
 
 
-def _corner_words(rest: str, lines: _Lines) -> list[str]:
+def _corners(rest: str, lines: _Lines) -> list[str]:
     """The corners of a face; those counted from the end are counted from the start instead."""
-    words = rest.partition("#")[0].split()
+    parts = rest.partition("#")[0].split()
     if "-" not in rest:
-        return words
+        return parts
     counts = (len(lines.positions), len(lines.uvs), len(lines.normals))
-    return ["/".join(map(_from_start, word.split("/"), counts)) for word in words]
+    return ["/".join(map(_from_start, corner.split("/"), counts)) for corner in parts]
 
 
 def _from_start(index: str, count: int) -> str:
@@ -176,8 +176,8 @@ class _Tables:
     def surface(self, faces: list[list[str]], appearance: Appearance | None) -> Surface:
         """The triangles of these faces."""
         numbers: dict[str, int] = {}
-        distinct = [numbers.setdefault(word, len(numbers)) for face in faces for word in face]
-        table = np.array([_indices(word) for word in numbers], dtype=np.int64).reshape(-1, 3)
+        distinct = [numbers.setdefault(corner, len(numbers)) for face in faces for corner in face]
+        table = np.array([_indices(corner) for corner in numbers], dtype=np.int64).reshape(-1, 3)
         rows = table[np.array(distinct, dtype=np.int64)]
         points = self._pick(self._positions, rows[:, 0])
         if points is None:
@@ -217,8 +217,8 @@ def _table(rows: list[str], width: int) -> Floats:
 
 def _ragged_table(rows: list[str], width: int) -> Floats:
     """The first numbers of lines that differ in length."""
-    words = [row.partition("#")[0].split()[:width] for row in rows]
-    filled = [[*map(float, one), *[0.0] * (width - len(one))] for one in words]
+    parts = [row.partition("#")[0].split()[:width] for row in rows]
+    filled = [[*map(float, one), *[0.0] * (width - len(one))] for one in parts]
     with np.errstate(over="ignore"):
         return np.array(filled, dtype=np.float64).astype(np.float32)
 
@@ -232,7 +232,7 @@ def _colors(table: Floats) -> NDArray[np.uint8] | None:
     return np.round(colors * 255).astype(np.uint8)
 
 
-def _indices(word: str) -> tuple[int, int, int]:
+def _indices(corner: str) -> tuple[int, int, int]:
     """Rows of position, texture and normal from 0; -1 where none is given."""
-    position, uv, normal = [*word.split("/"), "", ""][:3]
+    position, uv, normal = [*corner.split("/"), "", ""][:3]
     return int(position) - 1, int(uv or 0) - 1, int(normal or 0) - 1

@@ -30,9 +30,9 @@ def read_stl(files: MeshFiles) -> list[Surface]:
         if not _is_text(data):
             return [_read_binary(files)]
     elif not _is_text(data):
-        told = _declared_count(data) if len(data) >= _HEADER_BYTES else 0
+        declared = _declared_count(data) if len(data) >= _HEADER_BYTES else 0
         raise files.fault(
-            f"its header promises {told} triangles, which its {len(data)} bytes cannot hold: "
+            f"its header promises {declared} triangles, which its {len(data)} bytes cannot hold: "
             "it is cut off or no STL."
         )
     return [_read_text(files)]
@@ -56,13 +56,13 @@ def _read_binary(files: MeshFiles) -> Surface:
 
 
 def _read_text(files: MeshFiles) -> Surface:
-    words = _VERTEX.findall(files.data)
-    if len(words) % 3:
+    numbers = _VERTEX.findall(files.data)
+    if len(numbers) % 3:
         raise files.fault("a facet of it has not three corners: it is cut off or no STL.")
-    files.count_triangles(len(words) // 3)
+    files.count_triangles(len(numbers) // 3)
     try:
         with np.errstate(over="ignore"):  # beyond float32 is infinite, and not drawn
-            positions = np.array(words, dtype=np.float64).astype(np.float32).reshape(-1, 3)
+            positions = np.array(numbers, dtype=np.float64).astype(np.float32).reshape(-1, 3)
     except ValueError as error:
         raise files.fault("a vertex of it is not three numbers.") from error
     return Surface(positions)

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ActionType
 
-LOOK_S = 0.5
+CHECK_EVERY_S = 0.5
 RETURNS_WITHIN_S = 10.0
 """A server whose router is back shows itself again before long."""
 TRIES_MAX = 20
@@ -280,7 +280,7 @@ class ActionClient:
             if asked.cancelled():
                 answer.cancel()
             elif error is not None:
-                answer.set_exception(self._said(client, error))
+                answer.set_exception(self._in_terms_of_action(client, error))
             else:
                 answer.set_result(follow(asked.result()))
 
@@ -288,7 +288,7 @@ class ActionClient:
         answer.listen(asked.cancel)
         return answer
 
-    def _said(self, client: Client, error: BaseException) -> BaseException:
+    def _in_terms_of_action(self, client: Client, error: BaseException) -> BaseException:
         """Return an error in terms of the action."""
         if not isinstance(error, NotServedError):
             return error
@@ -356,7 +356,7 @@ class ResultWait:
         self._follow = follow
         self._gone = ActionServerGoneError(action_name)
         self._asked: Future[Any] | None = None
-        self._looking: Timer | None = None
+        self._timer: Timer | None = None
         self._router_was_away = False
         self._patience_until_s = 0.0
         self._tries_left = TRIES_MAX
@@ -379,32 +379,32 @@ class ResultWait:
         if asked.cancelled():
             self.answer.cancel()
         elif isinstance(error, NotServedError):
-            self._look_for_server()
+            self._wait_for_server()
         elif error is not None:
             self.answer.set_exception(error)
         else:
             self.answer.set_result(self._follow(asked.result()))
 
-    def _look_for_server(self) -> None:
+    def _wait_for_server(self) -> None:
         self._tries_left -= 1
         if self._tries_left <= 0:
             self.answer.set_exception(self._gone)
             return
         self._stay_patient()
-        self._looking = self._node.create_timer(
-            LOOK_S, self._look, callback_group=ReentrantCallbackGroup()
+        self._timer = self._node.create_timer(
+            CHECK_EVERY_S, self._check_server, callback_group=ReentrantCallbackGroup()
         )
 
-    def _look(self) -> None:
+    def _check_server(self) -> None:
         if self.answer.done():  # it was given up before this check
-            self._stop_looking()
+            self._stop_waiting()
         if self.answer.done() or not self._stay_patient():
             return
         if self._client.service_is_ready():
-            self._stop_looking()
+            self._stop_waiting()
             self._ask()
         elif not self._router_was_away or time.monotonic() > self._patience_until_s:
-            self._stop_looking()
+            self._stop_waiting()
             self.answer.set_exception(self._gone)
 
     def _stay_patient(self) -> bool:
@@ -415,13 +415,13 @@ class ResultWait:
             self._patience_until_s = time.monotonic() + RETURNS_WITHIN_S
         return is_there
 
-    def _stop_looking(self) -> None:
-        looking, self._looking = self._looking, None
-        if looking is not None:
-            self._node.destroy_timer(looking)
+    def _stop_waiting(self) -> None:
+        timer, self._timer = self._timer, None
+        if timer is not None:
+            self._node.destroy_timer(timer)
 
     def _end(self) -> None:
-        self._stop_looking()
+        self._stop_waiting()
         if self._asked is not None:
             self._asked.cancel()
 

@@ -298,14 +298,14 @@ class ActionServer:
         try:
             return await call_or_await(callback, about)
         except _RAISED as error:
-            self._say_raised(callback, error)
+            self._log_raised(callback, error)
             return None
 
     async def _begin(self, goal: ServerGoalHandle) -> None:
         try:
             await call_or_await(self._accepted_callback, goal)
         except _RAISED as error:
-            self._say_raised(self._accepted_callback, error)
+            self._log_raised(self._accepted_callback, error)
             if goal.status is GoalStatus.ACCEPTED:
                 goal.change(GoalEvent.EXECUTE)
                 self._end(goal, None)
@@ -316,7 +316,7 @@ class ActionServer:
         try:
             result = await call_or_await(callback, goal)
         except _RAISED as error:
-            self._say_raised(callback, error)
+            self._log_raised(callback, error)
             self._end(goal, None)
             return
         if goal.is_active:
@@ -339,12 +339,12 @@ class ActionServer:
         self._goals.end(goal)
         goal.result.set_result(given)
 
-    def _say_raised(self, callback: Callable[..., Any], error: BaseException) -> None:
+    def _log_raised(self, callback: Callable[..., Any], error: BaseException) -> None:
         if self._destroyed:  # what it met then is the end of the node
             return
         name = getattr(callback, "__name__", "a callback")
-        said = "".join(traceback.format_exception(error)[-2:]).strip()
-        self._node.get_logger().error(f"Error raised in {name} of the action: {said}")
+        text = "".join(traceback.format_exception(error)[-2:]).strip()
+        self._node.get_logger().error(f"Error raised in {name} of the action: {text}")
 
 
 class CoroutineQueue(Work):

@@ -28,7 +28,7 @@ _STARTING_S: Final = 1.0
 """Tokens of a process that starts may come so much later than its first publisher."""
 _ASKED_MAX: Final = 5
 _STRANGE: Final = ""
-LOOK_TIMEOUT_S = 3.0
+QUERY_TIMEOUT_S = 3.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +104,7 @@ class DistroHashes:
         return PROFILES[distro].type_hash(computed)
 
 
-def why_not_heard(found: ForeignHashes, profile: WireProfile) -> str:
+def why_not_received(found: ForeignHashes, profile: WireProfile) -> str:
     """Return a sentence with the types that differ, and what to do."""
     named = ", ".join(found.types[:_NAMED_MAX])
     more = len(found.types) - _NAMED_MAX
@@ -202,15 +202,15 @@ def _zid(token: str) -> str:
 
 def _versions(session: Session, keys: Iterable[str]) -> tuple[str, ...]:
     found = {
-        _version(said) for key in keys for _, said in admin_answers(session, key, _ADMIN_TIMEOUT_S)
+        _version(data) for key in keys for _, data in admin_answers(session, key, _ADMIN_TIMEOUT_S)
     }
     return tuple(sorted(found - {_STRANGE}))
 
 
-def _version(said: bytes) -> str:
+def _version(data: bytes) -> str:
     """Return `1.8.0` of `v1.8.0-2687c51 built with rustc 1.95.0`; empty if there is none."""
     try:
-        answer: object = json.loads(said)
+        answer: object = json.loads(data)
     except ValueError:
         return _STRANGE
     version = cast("dict[str, object]", answer).get("version") if isinstance(answer, dict) else None
@@ -220,7 +220,7 @@ def _version(said: bytes) -> str:
     return number if len(number) <= 20 and number.replace(".", "").isalnum() else _STRANGE
 
 
-def nodes_by_domain(wire: WireSession, timeout_s: float = LOOK_TIMEOUT_S) -> dict[int, int]:
+def nodes_by_domain(wire: WireSession, timeout_s: float = QUERY_TIMEOUT_S) -> dict[int, int]:
     """Ask the router for the nodes of every domain, once; lasts `timeout_s` at most."""
     return count_nodes(standing_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", timeout_s))
 

@@ -128,10 +128,10 @@ class Taken(Enum):
 
 @dataclass(slots=True)
 class _Standing:
-    """A node with its endpoints; `said` are its own tokens, of which it may have none."""
+    """A node with its endpoints; `own_tokens` are its own tokens, of which it may have none."""
 
     node: GraphNode
-    said: set[str] = field(default_factory=set[str])
+    own_tokens: set[str] = field(default_factory=set[str])
     endpoints: dict[str, GraphEndpoint] = field(default_factory=dict[str, GraphEndpoint])
 
 
@@ -204,10 +204,10 @@ class GraphTable:
         if endpoint is not None:
             self._forget(endpoint)
         else:
-            standing.said.discard(token)
-            if not standing.said:
+            standing.own_tokens.discard(token)
+            if not standing.own_tokens:
                 self._forget_all(standing)
-        if not (standing.said or standing.endpoints):
+        if not (standing.own_tokens or standing.endpoints):
             del self._standing[key]
         return Taken.CHANGED
 
@@ -253,7 +253,7 @@ class GraphTable:
 
     def _put_node(self, text: str, token: NodeToken) -> None:
         standing = self._standing_of(token)
-        standing.said.add(text)
+        standing.own_tokens.add(text)
         self._tokens[text] = _key(token)
 
     def _put_endpoint(self, text: str, token: EndpointToken) -> None:

@@ -21,7 +21,7 @@ _GOAL = "/_action/send_goal"
 _GOAL_TYPE = "_SendGoal"
 NamesAndTypes = list[tuple[str, list[str]]]
 """What rclpy returns for topics, services and actions: names in order, each with its types."""
-DOUBT_TIMEOUT_S = 1.0
+CHECK_TIMEOUT_S = 1.0
 SETTLE_TIMEOUT_S = 3.0
 NamesAndType = list[tuple[str, str]]
 """Names in order, each with its type."""
@@ -202,7 +202,7 @@ class Graph:
         return self._table.put(token) if stands else self._table.delete(token)
 
     def _stands(self, token: str) -> bool:
-        return token in standing_tokens(self._wire.zenoh, token, DOUBT_TIMEOUT_S)
+        return token in standing_tokens(self._wire.zenoh, token, CHECK_TIMEOUT_S)
 
 
 class NodeParts(NamedTuple):

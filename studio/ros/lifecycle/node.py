@@ -336,8 +336,8 @@ class LifecycleNode(Node, ManagedEntity):
         try:
             result = getattr(self, callback)(LifecycleState.of(before))
         except Exception as error:  # noqa: BLE001  # of a callback of the user's
-            said = "".join(traceback.format_exception(error)[-2:]).strip()
-            self.get_logger().error(f"Error raised in {callback}: {said}")
+            text = "".join(traceback.format_exception(error)[-2:]).strip()
+            self.get_logger().error(f"Error raised in {callback}: {text}")
             return TransitionCallbackReturn.ERROR
         if isinstance(result, TransitionCallbackReturn):
             return result

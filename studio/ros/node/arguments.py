@@ -106,7 +106,7 @@ class NodeArguments:
         return [(rule.source, rule.target) for rule in self.parameters]
 
 
-def parse_arguments(words: Sequence[str]) -> RosArguments:
+def parse_arguments(arguments: Sequence[str]) -> RosArguments:
     """Read command-line arguments; those outside of `--ros-args ... --` are left.
 
     Raises:
@@ -117,7 +117,7 @@ def parse_arguments(words: Sequence[str]) -> RosArguments:
     parameters: list[Rule] = []
     files: list[str] = []
     levels: list[tuple[str, LoggingSeverity]] = []
-    for option, value in _options(words, rest):
+    for option, value in _options(arguments, rest):
         match option:
             case "-r" | "--remap":
                 remaps.append(_rule(option, value))
@@ -132,23 +132,23 @@ def parse_arguments(words: Sequence[str]) -> RosArguments:
     return RosArguments(tuple(rest), tuple(remaps), tuple(parameters), tuple(files), tuple(levels))
 
 
-def _options(words: Sequence[str], rest: list[str]) -> Iterator[tuple[str, str]]:
+def _options(arguments: Sequence[str], rest: list[str]) -> Iterator[tuple[str, str]]:
     of_ros = False
-    waiting = iter(words)
-    for word in waiting:
-        if word == BEGIN:
+    waiting = iter(arguments)
+    for argument in waiting:
+        if argument == BEGIN:
             of_ros = True
         elif not of_ros:
-            rest.append(word)
-        elif word == END:
+            rest.append(argument)
+        elif argument == END:
             of_ros = False
-        elif word in _WITH_VALUE:
+        elif argument in _WITH_VALUE:
             value = next(waiting, None)
             if value is None:
-                raise RosArgumentError(word, "a value follows it")
-            yield word, value
-        elif not _SWITCHES.fullmatch(word):
-            raise RosArgumentError(word, "it is none of the arguments that follow --ros-args")
+                raise RosArgumentError(argument, "a value follows it")
+            yield argument, value
+        elif not _SWITCHES.fullmatch(argument):
+            raise RosArgumentError(argument, "it is none of the arguments that follow --ros-args")
 
 
 def _rule(option: str, text: str) -> Rule:

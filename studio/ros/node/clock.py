@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from studio.ros.node.context import Context
     from studio.ros.types.classes import MessageValue
 
-_LOOK_S = 0.1
+_CHECK_S = 0.1
 CLOCK_TOPIC = "/clock"
 CLOCK_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -139,7 +139,7 @@ class Clock:
 
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         self._clock_type = clock_type
-        self._told_ns: int | None = None
+        self._ros_time_ns: int | None = None
         self._moved = threading.Condition()
         self._handles: list[JumpHandle] = []
         self._watchers: list[Callable[[], None]] = []
@@ -152,7 +152,7 @@ class Clock:
     @property
     def ros_time_is_active(self) -> bool:
         """Whether /clock sets the time."""
-        return self._told_ns is not None
+        return self._ros_time_ns is not None
 
     def now(self) -> Time:
         """Return this instant."""
@@ -160,9 +160,9 @@ class Clock:
 
     def now_ns(self) -> int:
         """Return this instant in nanoseconds."""
-        told_ns = self._told_ns
-        if told_ns is not None:
-            return told_ns
+        ros_time_ns = self._ros_time_ns
+        if ros_time_ns is not None:
+            return ros_time_ns
         steady = self._clock_type is ClockType.STEADY_TIME
         return time.monotonic_ns() if steady else time.time_ns()
 
@@ -200,7 +200,7 @@ class Clock:
             if handle.before is not None:
                 handle.before()
         with self._moved:
-            self._told_ns = now_ns
+            self._ros_time_ns = now_ns
             watchers = tuple(self._watchers)
             self._moved.notify_all()
         for handle in met:
@@ -248,7 +248,7 @@ class Clock:
                 if not context.ok():
                     return False
                 is_set = self.ros_time_is_active
-                self._moved.wait(_LOOK_S if is_set else min(_LOOK_S, left_ns / NANOSECONDS))
+                self._moved.wait(_CHECK_S if is_set else min(_CHECK_S, left_ns / NANOSECONDS))
         return True
 
     def _wake(self) -> None:
@@ -256,12 +256,12 @@ class Clock:
             self._moved.notify_all()
 
     def _jump_to(self, now_ns: int | None) -> TimeJump:
-        before_ns, was_told = self.now_ns(), self._told_ns is not None
+        before_ns, was_set = self.now_ns(), self._ros_time_ns is not None
         if now_ns is None:
             delta_ns, change = time.time_ns() - before_ns, ClockChange.ROS_TIME_DEACTIVATED
         else:
             delta_ns = now_ns - before_ns
-            change = ClockChange.ROS_TIME_NO_CHANGE if was_told else ClockChange.ROS_TIME_ACTIVATED
+            change = ClockChange.ROS_TIME_NO_CHANGE if was_set else ClockChange.ROS_TIME_ACTIVATED
         return TimeJump(change, Duration(nanoseconds=delta_ns))
 
 
@@ -353,7 +353,7 @@ class TimeSource:
 
     def _follow(self) -> None:
         self._clock.set_ros_time(0)
-        self._unsubscribe = self._subscribe(self._told)
+        self._unsubscribe = self._subscribe(self._set)
 
     def _leave(self) -> None:
         unsubscribe, self._unsubscribe = self._unsubscribe, None
@@ -361,6 +361,6 @@ class TimeSource:
             unsubscribe()
         self._clock.set_ros_time(None)
 
-    def _told(self, clock: MessageValue) -> None:
+    def _set(self, clock: MessageValue) -> None:
         if self._unsubscribe is not None:
             self._clock.set_ros_time(max(0, stamp_ns(clock.clock)))

@@ -36,7 +36,7 @@ class Context:
         self._graph: Graph | None = None
         self._owns_wire = True
         self.arguments = RosArguments()
-        self._ok = self._told_to_end = False
+        self._ok = self._was_ended = False
         self._closed = threading.Event()
         self._ending: list[Callable[[], None]] = []
         self._closing: list[Callable[[], None]] = []
@@ -112,14 +112,14 @@ class Context:
             drain.remove(source)
 
     def arguments_of(
-        self, node_name: str, words: Sequence[str] | None, *, use_global: bool
+        self, node_name: str, arguments: Sequence[str] | None, *, use_global: bool
     ) -> NodeArguments:
         """Return the arguments of a node: its own, then those of the process.
 
         Raises:
             RosArgumentError: One of them is no argument of ROS.
         """
-        own = parse_arguments(words or ())
+        own = parse_arguments(arguments or ())
         if not use_global:
             return own.of_node(node_name)
         return own.before(self.arguments).of_node(node_name)
@@ -154,7 +154,7 @@ class Context:
 
     def end(self) -> None:
         """End all spinning; the session stays open. Safe in a handler of signals."""
-        self._told_to_end = True
+        self._was_ended = True
         self._ok = False
         while self._ending:
             with contextlib.suppress(IndexError):
@@ -172,7 +172,7 @@ class Context:
             # What takes in data may ask who is there: it stops before the session is given up.
             drain.stop()
             self._leave()
-        self._told_to_end = False
+        self._was_ended = False
         self._closed.set()
 
     def wait_closed(self, timeout_s: float) -> bool:
@@ -192,7 +192,7 @@ class Context:
         self._wire, self._owns_wire = wire, owns_wire
         self._drain = Drain()
         self._closed.clear()
-        self._ok = not self._told_to_end
+        self._ok = not self._was_ended
 
 
 _default = Context()

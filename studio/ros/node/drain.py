@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-PROMPT_LOOK_S = 0.0005
+PROMPT_PAUSE_S = 0.0005
 """Between two reads of rings that somebody waits for, while data flows."""
-LOOK_S = 0.002
+PAUSE_S = 0.002
 """Between two reads while data flows, or of rings that somebody waits for."""
-STREAM_LOOK_S = 0.004
+STREAM_PAUSE_S = 0.004
 """Between two reads while so many samples come that each is one of many."""
-IDLE_LOOK_S = 0.01
+IDLE_PAUSE_S = 0.01
 """Between two reads when nothing came for a while."""
-_IDLE_S = (LOOK_S, IDLE_LOOK_S)
+_IDLE_S = (PAUSE_S, IDLE_PAUSE_S)
 _FLOWS_S = 0.25
 _REST = 5
 _MANY = 8
@@ -98,28 +98,28 @@ class Drain:
             self._thread.join()
 
     def _run(self) -> None:
-        look_at_all_s = look_s = rest_s = 0.0
+        read_all_s = read_s = rest_s = 0.0
         taken = 0
         while not self._stopped.is_set():
-            prompt_s, pause_s = (PROMPT_LOOK_S, _pause_s(taken)) if self._flowing else _IDLE_S
+            prompt_s, pause_s = (PROMPT_PAUSE_S, _pause_s(taken)) if self._flowing else _IDLE_S
             # To wait for the event would take twice the processor of a plain sleep.
             time.sleep(min(max(prompt_s, rest_s), pause_s) if self._prompt else pause_s)
             now_s = time.monotonic()
-            if self._prompt and now_s < look_s:
-                self._look_into(self._prompt, now_s)
+            if self._prompt and now_s < read_s:
+                self._read(self._prompt, now_s)
                 rest_s = _REST * (time.monotonic() - now_s)
                 continue
-            look_s = now_s + pause_s
-            if now_s < look_at_all_s:
-                taken = self._look_into(tuple(self._flowing), now_s)
+            read_s = now_s + pause_s
+            if now_s < read_all_s:
+                taken = self._read(tuple(self._flowing), now_s)
             else:
-                taken = self._look_into(self._sources, now_s)
+                taken = self._read(self._sources, now_s)
                 self._calm_down(now_s)
                 # With ten thousand rings, reads are less frequent, so that they do not take a core.
                 took_s = time.monotonic() - now_s
-                look_at_all_s = now_s + max(IDLE_LOOK_S, _REST * took_s)
+                read_all_s = now_s + max(IDLE_PAUSE_S, _REST * took_s)
 
-    def _look_into(self, sources: Iterable[Source], now_s: float) -> int:
+    def _read(self, sources: Iterable[Source], now_s: float) -> int:
         """Empty rings, and return how much was in them."""
         taken = 0
         for source in sources:
@@ -146,4 +146,4 @@ class Drain:
 
 def _pause_s(taken: int) -> float:
     """Return how long to sleep after so many samples were read."""
-    return STREAM_LOOK_S if taken >= _MANY else LOOK_S
+    return STREAM_PAUSE_S if taken >= _MANY else PAUSE_S

@@ -85,12 +85,12 @@ class CountEvent(Work):
         super().__init__(group)
         self.callback = callback
         self._lock = threading.Lock()
-        self._total = self._told = 0
+        self._total = self._reported = 0
 
     @property
     def is_ready(self) -> bool:
         """Whether there is something to call back with."""
-        return self._total != self._told
+        return self._total != self._reported
 
     def count(self, more: int) -> None:
         """Count that it happened so many times more; from any thread."""
@@ -101,8 +101,8 @@ class CountEvent(Work):
     def take(self) -> Callable[[], object] | None:
         """Return what calls back."""
         with self._lock:
-            total, change = self._total, self._total - self._told
-            self._told = total
+            total, change = self._total, self._total - self._reported
+            self._reported = total
         return partial(self.callback, CountInfo(total, change)) if change else None
 
 
@@ -127,15 +127,15 @@ class MatchEvent(Work):
         self._same_type = same_type
         self._lock = threading.Lock()
         self._there: frozenset[str] = frozenset()
-        self._total = self._told_total = self._told_current = 0
-        self._stop = self._graph.on_change(self._look)
-        self._look()
+        self._total = self._reported_total = self._reported_current = 0
+        self._stop = self._graph.on_change(self._check)
+        self._check()
 
     @property
     def is_ready(self) -> bool:
         """Whether there is something to call back with."""
-        came = self._total != self._told_total
-        return came or (self._same_type and len(self._there) != self._told_current)
+        came = self._total != self._reported_total
+        return came or (self._same_type and len(self._there) != self._reported_current)
 
     def take(self) -> Callable[[], object] | None:
         """Return what calls back."""
@@ -143,8 +143,8 @@ class MatchEvent(Work):
             if not self.is_ready:
                 return None
             total, current = self._total, len(self._there)
-            came, change = total - self._told_total, current - self._told_current
-            self._told_total, self._told_current = total, current
+            came, change = total - self._reported_total, current - self._reported_current
+            self._reported_total, self._reported_current = total, current
         if self._same_type:
             return partial(self.callback, MatchedInfo(total, came, current, change))
         return partial(self.callback, CountInfo(total, came))
@@ -153,7 +153,7 @@ class MatchEvent(Work):
         """Look no more."""
         self._stop()
 
-    def _look(self) -> None:
+    def _check(self) -> None:
         found = frozenset(one.token for one in self._others() if self._is_meant(one))
         with self._lock:
             self._total += len(found - self._there)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from studio.ros.node.task import Future
 
 _WAIT_MAX_S = 3_600.0
-_LOOK_S = 0.05
+_CHECK_EVERY_S = 0.05
 
 
 class ExecutorNode(Home, Protocol):
@@ -370,7 +370,7 @@ class MultiThreadedExecutor(Executor):
                     return False
                 if end_s is not None and time.monotonic() >= end_s:
                     return False
-                self._changed.wait(_LOOK_S)
+                self._changed.wait(_CHECK_EVERY_S)
         return True
 
     def _hand_over(self, piece: Piece) -> None:

@@ -88,7 +88,7 @@ class Logger:
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._lock = threading.Lock()
-        self._said: dict[_Place, float] = {}
+        self._logged_s: dict[_Place, float] = {}
 
     def get_child(self, name: str) -> Logger:
         """Return the logger of a part."""
@@ -154,23 +154,23 @@ class Logger:
             place, bool(once), bool(skip_first), throttle_duration_sec or 0.0
         ):
             return False
-        _say(_entry(severity, self.name, str(message), frame))
+        _write(_entry(severity, self.name, str(message), frame))
         return True
 
     def _is_due(self, place: _Place, once: bool, skip_first: bool, throttle_s: float) -> bool:  # noqa: FBT001
         """Whether a place in the code that does not always log may log now."""
         now_s = time.monotonic()
         with self._lock:
-            last_s = self._said.get(place)
+            last_s = self._logged_s.get(place)
             if last_s is None:
                 # A first one that is skipped does not count for throttling, as in rclpy.
-                self._said[place] = -throttle_s if skip_first else now_s
+                self._logged_s[place] = -throttle_s if skip_first else now_s
                 return not skip_first
             if once and last_s > 0:
                 return False
             if now_s - last_s < throttle_s:
                 return False
-            self._said[place] = now_s
+            self._logged_s[place] = now_s
             return True
 
 
@@ -220,7 +220,7 @@ def _entry(severity: LoggingSeverity, name: str, text: str, frame: FrameType) ->
     )
 
 
-def _say(entry: Entry) -> None:
+def _write(entry: Entry) -> None:
     line = line_of(entry)
     colour = _COLOURS.get(entry.severity) if sys.stderr.isatty() else None
     sys.stderr.write(f"{colour}{line}{_PLAIN}\n" if colour else f"{line}\n")
@@ -279,7 +279,7 @@ class RosoutPublisher:
 
     def _publish(self, entry: Entry) -> None:
         seconds, rest_ns = divmod(entry.time_ns, NANOSECONDS)
-        said = self._log(
+        message = self._log(
             stamp=self._stamp(sec=seconds, nanosec=rest_ns),
             level=int(entry.severity),
             name=entry.name,
@@ -289,7 +289,7 @@ class RosoutPublisher:
             line=entry.line,
         )
         try:
-            self._send(said)
+            self._send(message)
         except DestroyedError:
             self.stop()
 

@@ -169,10 +169,10 @@ class Service(Work):
         return None
 
     def _refuse(self, query: Query, reason: str) -> None:
-        self._say(reason)
+        self._count_refused(reason)
         query.drop()
 
-    def _say(self, reason: str) -> None:
+    def _count_refused(self, reason: str) -> None:
         """Count a request that was not taken, and log the first."""
         if not self.refused:
             get_logger("studio.ros").warning(f"A request to {self.srv_name} was dropped. {reason}")
@@ -183,7 +183,7 @@ class Service(Work):
         try:
             asked = self._request_codec.decode(request.payload)
         except CdrError as error:
-            self._say(str(error))
+            self._count_refused(str(error))
             self._finish(request)
             return None
         try:
@@ -200,7 +200,7 @@ class Service(Work):
         try:
             self._reply(request, await given)
         except asyncio.CancelledError:
-            self._say("What its callback awaited was cancelled.")
+            self._count_refused("What its callback awaited was cancelled.")
             raise
         finally:
             self._finish(request)

@@ -45,9 +45,9 @@ if TYPE_CHECKING:
 
 SERVICE_TIMEOUT_S = 600.0
 """rmw_zenoh's limit for the duration of a call."""
-_LOOK_S = 0.1
-_LOST_LOOK_S = 0.25
-_LOST_LOOKS = 4
+_CHECK_EVERY_S = 0.1
+_CHECK_LOST_EVERY_S = 0.25
+_LOST_CHECKS = 4
 _SILENCE = b"Timeout"
 
 
@@ -59,7 +59,7 @@ class _Call:
     replies: Replies
     answered: bool = False
     was_served: bool = False
-    looks_without_server: int = 0
+    checks_without_server: int = 0
     failure: WireError | None = None
 
 
@@ -87,8 +87,8 @@ class Client(Work):
         self._codecs = codec_of(srv_type.Request), codec_of(srv_type.Response)
         self._request = definition_of(srv_type.Request)
         self._sequence = 0
-        self._said_several = False
-        self._look_at_s = 0.0
+        self._warned_of_several = False
+        self._check_at_s = 0.0
         self._lock = threading.Lock()
         self._calls: dict[int, _Call] = {}
         self._done: deque[tuple[Future[Any], bytes | WireError]] = deque()
@@ -127,12 +127,12 @@ class Client(Work):
         end_s = None if timeout_sec is None else time.monotonic() + timeout_sec
         graph = self._node.graph
         while not self.service_is_ready():
-            left_s = _LOOK_S if end_s is None else end_s - time.monotonic()
+            left_s = _CHECK_EVERY_S if end_s is None else end_s - time.monotonic()
             if not self._node.context.ok():
                 raise ExternalShutdownException
             if left_s <= 0:
                 return False
-            graph.wait_for(self.service_is_ready, min(left_s, _LOOK_S))
+            graph.wait_for(self.service_is_ready, min(left_s, _CHECK_EVERY_S))
         return True
 
     def call(self, request: MessageValue, timeout_sec: float | None = None) -> Any:  # noqa: ANN401
@@ -183,8 +183,8 @@ class Client(Work):
         with self._lock:
             calls = list(self._calls.items())
         came = sum(self._drain_call(number, call) for number, call in calls)
-        if calls and time.monotonic() > self._look_at_s:
-            self._look_for_lost(calls)
+        if calls and time.monotonic() > self._check_at_s:
+            self._end_lost(calls)
         if self._done:
             self.announce()
         return came
@@ -232,8 +232,8 @@ class Client(Work):
         elif sample is not None and not call.answered:
             call.answered = True
             self._done.append((call.future, sample.payload.to_bytes()))
-        elif not self._said_several:
-            self._said_several = True
+        elif not self._warned_of_several:
+            self._warned_of_several = True
             self._node.get_logger().warning(
                 f"The service {self.srv_name} is served by more than one node: each did what "
                 "was asked, and the first answer was taken."
@@ -256,17 +256,17 @@ class Client(Work):
             failure = call.failure or NotServedError("service", self.srv_name)
             self._done.append((call.future, failure))
 
-    def _look_for_lost(self, calls: list[tuple[int, _Call]]) -> None:
+    def _end_lost(self, calls: list[tuple[int, _Call]]) -> None:
         """End calls whose server has been gone for a while, and that Zenoh did not end.
 
         Zenoh forgets a request that arrives while its server ends.
         """
-        self._look_at_s = time.monotonic() + _LOST_LOOK_S
+        self._check_at_s = time.monotonic() + _CHECK_LOST_EVERY_S
         is_served = self.service_is_ready()
         for number, call in calls:
             call.was_served |= is_served
-            call.looks_without_server = 0 if is_served else call.looks_without_server + 1
-            if call.was_served and call.looks_without_server >= _LOST_LOOKS:
+            call.checks_without_server = 0 if is_served else call.checks_without_server + 1
+            if call.was_served and call.checks_without_server >= _LOST_CHECKS:
                 call.replies.cancel()
                 self._ended(number, call)
 
@@ -295,5 +295,5 @@ class Client(Work):
 def _failure(name: str, payload: bytes, timeout_s: float) -> WireError:
     if payload == _SILENCE:
         return NoAnswerError("service", name, timeout_s)
-    said = payload[:200].decode(errors="replace")
-    return CallRefusedError(name, said)
+    text = payload[:200].decode(errors="replace")
+    return CallRefusedError(name, text)

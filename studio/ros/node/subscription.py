@@ -132,7 +132,7 @@ class Subscription(Work):
         came = [raw for sample in samples if (raw := self._received(sample, now_ns)) is not None]
         if came:
             self._inbox.post(came)
-            self._tell()
+            self._notify()
         return len(samples)
 
     def take(self) -> Callable[[], object] | None:
@@ -145,7 +145,7 @@ class Subscription(Work):
         incoming, self._incoming = self._incoming, None
         if incoming is not None:
             self.endpoint.hide(incoming)
-            self._tell()
+            self._notify()
 
     def __aiter__(self) -> Self:
         return self
@@ -167,7 +167,7 @@ class Subscription(Work):
             else:
                 await arrived
 
-    def _tell(self) -> None:
+    def _notify(self) -> None:
         arrived = self._arrived
         if arrived is not None:
             arrived.set_result(None)
@@ -180,7 +180,7 @@ class Subscription(Work):
             unpacked = unpack(None if attachment is None else attachment.to_bytes())
         except AttachmentError as error:
             self._losses.refused += 1
-            self._say(str(error))
+            self._log_dropped(str(error))
             return None
         missing = self._gaps.count(unpacked)
         if missing and self.lost_event is not None:
@@ -194,7 +194,7 @@ class Subscription(Work):
         try:
             message: Any = sample.payload if self.raw else self._codec.decode(sample.payload)
         except CdrError as error:
-            self._say_malformed(error)
+            self._count_malformed(error)
             return None
         if self._wants_info:
             return callback(message, message_info(sample))
@@ -204,14 +204,14 @@ class Subscription(Work):
         try:
             return self._codec.decode(sample.payload)
         except CdrError as error:
-            self._say_malformed(error)
+            self._count_malformed(error)
             return None
 
-    def _say_malformed(self, error: CdrError) -> None:
+    def _count_malformed(self, error: CdrError) -> None:
         self._losses.malformed += 1
-        self._say(str(error))
+        self._log_dropped(str(error))
 
-    def _say(self, reason: str) -> None:
+    def _log_dropped(self, reason: str) -> None:
         """Keep why a sample was lost, and log the first of a kind: a flood is no flood of lines."""
         if self._losses.reason is None:
             get_logger("studio.ros").warning(f"A sample on {self.topic_name} was dropped. {reason}")

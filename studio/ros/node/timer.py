@@ -52,7 +52,7 @@ class Timer(Work):
         self._jumps = clock.create_jump_callback(
             JumpThreshold(min_backward=Duration(nanoseconds=-1)), post_callback=self._jumped
         )
-        clock.watch(self._told)
+        clock.watch(self._time_was_set)
 
     @property
     def timer_period_ns(self) -> int:
@@ -122,7 +122,7 @@ class Timer(Work):
         """Stop for good."""
         self.cancel()
         self._jumps.unregister()
-        self.clock.unwatch(self._told)
+        self.clock.unwatch(self._time_was_set)
 
     def _after(self, now_ns: int) -> int:
         """Return the end of the running period: periods that were missed are left out."""
@@ -137,7 +137,7 @@ class Timer(Work):
             return time.monotonic_ns()
         return self.clock.now_ns()
 
-    def _told(self) -> None:
+    def _time_was_set(self) -> None:
         if self.is_ready:
             self.announce()
 

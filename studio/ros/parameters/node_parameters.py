@@ -148,14 +148,14 @@ class ParameterServices:
         except ParameterError as error:
             return self._refusal(str(error))
         except Exception as error:  # noqa: BLE001  # of a callback of the user's
-            said = f"a callback of the node failed: {type(error).__name__}: {error}"
-            self._host.get_logger().error(f"A parameter was not set: {said}")
-            return self._refusal(said)
+            text = f"a callback of the node failed: {type(error).__name__}: {error}"
+            self._host.get_logger().error(f"A parameter was not set: {text}")
+            return self._refusal(text)
         if result.successful:
-            self._tell_set(parameters)
+            self._publish_set(parameters)
         return result
 
-    def _tell_set(self, parameters: list[Parameter]) -> None:
+    def _publish_set(self, parameters: list[Parameter]) -> None:
         """Call back after parameters were set: whatever that raises, they are."""
         try:
             self._store.callbacks.after(parameters)

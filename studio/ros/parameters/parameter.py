@@ -54,7 +54,7 @@ class ParameterType(IntEnum):
         return _CHECKS[self](plain(value))
 
     @property
-    def words(self) -> str:
+    def label(self) -> str:
         """Name the type as `ros2 param describe` does."""
         return self.name.lower().replace("_", " ")
 
@@ -249,7 +249,7 @@ class Parameter:
         self._value: Any = plain(value)
         self._type = type_of(name, value) if type_ is None else ParameterType(type_)
         if not self._type.check(value):
-            raise InvalidParameterTypeError(name, f"{shown(value)} is no {self._type.words}")
+            raise InvalidParameterTypeError(name, f"{shown(value)} is no {self._type.label}")
 
     @property
     def name(self) -> str:

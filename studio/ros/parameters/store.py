@@ -383,7 +383,7 @@ class ParameterStore:
         deletes = parameter.type_ is ParameterType.NOT_SET
         if deletes and not descriptor.dynamic_typing:
             raise InvalidParameterTypeError(
-                parameter.name, f"it keeps the type {_words(descriptor)} and cannot be taken away"
+                parameter.name, f"it keeps the type {_label(descriptor)} and cannot be taken away"
             )
         self._check(parameter, descriptor)
 
@@ -392,7 +392,7 @@ class ParameterStore:
         unset = kind is ParameterType.NOT_SET
         if not (descriptor.dynamic_typing or unset) and kind != descriptor.type:
             raise InvalidParameterTypeError(
-                parameter.name, f"it is {_words(descriptor)}, {kind.words} was given"
+                parameter.name, f"it is {_label(descriptor)}, {kind.label} was given"
             )
         reason = range_violation(parameter, descriptor)
         if reason is not None:
@@ -421,8 +421,8 @@ def _default(name: str, value: object) -> Parameter:
     return Parameter(name, value=value)
 
 
-def _words(descriptor: MessageValue) -> str:
-    return ParameterType(descriptor.type).words
+def _label(descriptor: MessageValue) -> str:
+    return ParameterType(descriptor.type).label
 
 
 def _check_name(name: str) -> None:

@@ -72,7 +72,7 @@ class MessageValue(metaclass=MessageKind):
         return all(_same(getattr(self, name), getattr(other, name)) for name in self._attributes)
 
     def __repr__(self) -> str:
-        fields = ", ".join(f"{name}={_said(getattr(self, name))}" for name in self._attributes)
+        fields = ", ".join(f"{name}={_shown(getattr(self, name))}" for name in self._attributes)
         return f"{self._definition.name.replace('/', '.')}({fields})"
 
 
@@ -244,7 +244,7 @@ def _same(one: object, other: object) -> bool:
     return one == other
 
 
-def _said(value: object) -> str:
+def _shown(value: object) -> str:
     if isinstance(value, np.ndarray):
         return repr(value.tolist())
     return repr(cast("Any", value).item() if isinstance(value, np.generic) else value)

@@ -159,7 +159,7 @@ def _fitted(kind: FieldType, value: object) -> object:
             return str(value)
         return float(value) if kind.base in FLOATS else value
     if kind.base in FLOATS and isinstance(value, str):
-        return _float_word(value)
+        return _float_of(value)
     return _byte(value) if kind.base == "byte" else value
 
 
@@ -170,12 +170,12 @@ def _byte(value: object) -> object:
     return value[0] if isinstance(value, bytes) and len(value) == 1 else value
 
 
-def _float_word(word: str) -> object:
+def _float_of(text: str) -> object:
     """Read `1e-3`, `nan` and `-inf`, which YAML takes for texts."""
     try:
-        return float(word)
+        return float(text)
     except ValueError:
-        return word
+        return text
 
 
 def _plain(kind: FieldType, value: Any, brevity: Brevity) -> Any:  # noqa: ANN401

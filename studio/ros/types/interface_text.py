@@ -154,15 +154,15 @@ class _Draft:
         if len(self.fields) + len(self.constants) >= MEMBERS_MAX:
             raise ValueError(f"a type has at most {MEMBERS_MAX} fields and constants")
         kind = _field_type(found["type"], self.package)
-        said = "\n".join([*self.above, *([comment] if comment else [])])
+        comments = "\n".join([*self.above, *([comment] if comment else [])])
         self.above.clear()
         rest = found["rest"].strip()
         if rest.startswith("="):
-            self.constants.append(_constant(found["name"], kind, rest[1:].strip(), said))
+            self.constants.append(_constant(found["name"], kind, rest[1:].strip(), comments))
         elif rest and not found["rest"][0].isspace():
             raise ValueError(f'"{found["name"]}{rest[:20]}" is no name of a field')
         else:
-            self.fields.append(_field(found["name"], kind, rest, said))
+            self.fields.append(_field(found["name"], kind, rest, comments))
         first = self.lines.setdefault(found["name"], number)
         if first != number:
             raise _HintedError(

@@ -166,16 +166,16 @@ class TypeLibrary:
         Raises:
             InterfaceTextError: There are too many.
         """
-        news = {one: text for one, text in found.texts.items() if self.text_of(one) != text}
+        new = {one: text for one, text in found.texts.items() if self.text_of(one) != text}
         with self._lock:
-            self._check_count(news)
-            read, faults = self._parsed(news)
+            self._check_count(new)
+            read, faults = self._parsed(new)
             before = self._own
             unsound = self._take(read)
             if unsound:
                 self._own = before.with_more(one for one in read if one[0].name not in unsound)
             faults |= unsound
-            if len(faults) < len(news):
+            if len(faults) < len(new):
                 self._changed()
             found_faults = {**found.placed(faults), **found.faults}
             kept = {name: one for name, one in self._faults.items() if name not in found.texts}

@@ -28,7 +28,7 @@ _OTHER_NAMES: Final = {
     **{base.upper(): base for base in PRIMITIVES},
 }
 """What other languages call a type, and what a text calls it."""
-_WORDS: Final = re.compile(r"(?P<type>[\w./]+)(?P<array>\[[^\]]*\])?\s+(?P<name>\w+)(?P<rest>.*)")
+_MEMBER: Final = re.compile(r"(?P<type>[\w./]+)(?P<array>\[[^\]]*\])?\s+(?P<name>\w+)(?P<rest>.*)")
 _CAPITAL: Final = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 _CHARACTERS_MAX: Final = 200
 """A longer line is not guessed at."""
@@ -53,11 +53,11 @@ def hint_for(code: str) -> str:
         return "a comment begins with #"
     if ";" in code:
         return "leave the ; out" if code.endswith(";") else "leave the ; out, one field a line"
-    found = _WORDS.fullmatch(code)
-    return _hint_for_words(found) if found else _hint_for_order(code)
+    found = _MEMBER.fullmatch(code)
+    return _hint_for_member(found) if found else _hint_for_order(code)
 
 
-def _hint_for_words(found: re.Match[str]) -> str:
+def _hint_for_member(found: re.Match[str]) -> str:
     kind, array, name = found["type"], found["array"] or "", found["name"]
     rest = found["rest"].strip()
     if name in PRIMITIVES:

@@ -42,12 +42,12 @@ def _reason(error: Exception) -> str:
         return "it is nested too deeply"
     if isinstance(error, yaml.reader.ReaderError):
         return f"the letter at place {error.position + 1} is none that YAML allows"
-    said = str(error)
+    text = str(error)
     if isinstance(error, yaml.MarkedYAMLError):
         mark = error.problem_mark or error.context_mark
         problem = error.problem or error.context or "it cannot be read"
-        said = f"line {mark.line + 1}, column {mark.column + 1}: {problem}" if mark else problem
-    return " ".join(said.replace("'<stream end>'", "the end").split())
+        text = f"line {mark.line + 1}, column {mark.column + 1}: {problem}" if mark else problem
+    return " ".join(text.replace("'<stream end>'", "the end").split())
 
 
 def write_yaml(value: object, *, flow: bool = False) -> str:

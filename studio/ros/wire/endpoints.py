@@ -105,7 +105,7 @@ def probe(endpoint: Endpoint) -> ProbeResult:
     if not endpoint.is_stream:
         return ProbeResult.UNKNOWN
     for left in reversed(range(_HANG_UPS_MAX)):
-        answer = _knock(endpoint)
+        answer = _probe_once(endpoint)
         if answer is not None:
             return answer
         if left:
@@ -113,7 +113,7 @@ def probe(endpoint: Endpoint) -> ProbeResult:
     return ProbeResult.OTHER
 
 
-def _knock(endpoint: Endpoint) -> ProbeResult | None:
+def _probe_once(endpoint: Endpoint) -> ProbeResult | None:
     """Connect once; None when the other side closed at once, as a router does that is ending."""
     try:
         link = socket.create_connection((endpoint.host, endpoint.port), CONNECT_TIMEOUT_S)

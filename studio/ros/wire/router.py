@@ -46,11 +46,11 @@ _TOKENS: Final = (f"{ADMIN_SPACE}/**", "**/@adv/**", "@/*/@ros2_lv/**")
 _USERS: Final = "transport/auth/usrpwd"
 _SETTLE_S: Final = 0.5
 """After this the router has every token that it takes from the peers themselves."""
-_LOOK_TIMEOUT_S: Final = 3.0
+_QUERY_TIMEOUT_S: Final = 3.0
 _RETRY: Final = {"period_init_ms": 250, "period_max_ms": 4_000, "period_increase_factor": 2}
 _ACCEPT_TIMEOUT_MS = 5_000
 """A peer that begins a handshake and falls silent is let go after this."""
-_LOOK_AGAIN_S = 0.25
+_CHECK_EVERY_S = 0.25
 _OF_SESSIONS = frozenset({"mode", "connect", "listen", "scouting", "open"})
 """Keys of an override about how nodes find routers, which do not concern a router here."""
 
@@ -169,7 +169,7 @@ def run_router(
     with start_router(parse_endpoint(listen), overrides, config_file) as router:
         ready(router.endpoint.text)
         # A signal that comes while a wait begins does not end that wait: check again.
-        while not asked_to_end.wait(_LOOK_AGAIN_S):
+        while not asked_to_end.wait(_CHECK_EVERY_S):
             pass
 
 
@@ -285,7 +285,7 @@ class TokenRelay:
         known = {
             token
             for key in _TOKENS
-            for token in standing_tokens(self._router, key, _LOOK_TIMEOUT_S)
+            for token in standing_tokens(self._router, key, _QUERY_TIMEOUT_S)
         }
         with self._lock:
             refused = self._shown - known - self._declared.keys()

@@ -9,7 +9,7 @@ from studio.course.rover.round_trip import RoundTrip
 
 
 def test_the_way_is_closed_and_keeps_clear_of_walls():
-    way = RoundTrip().way_m
+    way = RoundTrip().path_m
     gaps = np.hypot(*(np.roll(way, -1, axis=0) - way).T)
     assert gaps.max() < 0.15
     assert min(clearance_m(x, y) for x, y in way) > REACH_M + 0.1
@@ -18,7 +18,7 @@ def test_the_way_is_closed_and_keeps_clear_of_walls():
 def test_the_plan_begins_where_the_rover_is():
     trip = RoundTrip()
     plan = trip.plan_from(2.6, 0.0)
-    assert plan.shape == trip.way_m.shape
+    assert plan.shape == trip.path_m.shape
     assert plan[0] == pytest.approx([2.6, 0.0], abs=0.06)
 
 
@@ -32,8 +32,8 @@ def test_the_rover_goes_round_from_anywhere_and_stays_near_the_way(
     for step in range(round(100 / 0.02)):
         rover.command(*trip.steer(rover.x, rover.y, rover.yaw))
         assert rover.step(0.02)
-        gaps = np.hypot(*(trip.way_m - (rover.x, rover.y)).T)
+        gaps = np.hypot(*(trip.path_m - (rover.x, rover.y)).T)
         seen.add(int(gaps.argmin()))
         off += [gaps.min()] if step > 1000 else []
-    assert len(seen) > 0.95 * len(trip.way_m)
+    assert len(seen) > 0.95 * len(trip.path_m)
     assert max(off) < 0.25

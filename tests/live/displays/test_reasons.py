@@ -27,7 +27,7 @@ WELL = Facts(
     SPEC,
     types=(SCAN,),
     topic=topic("receiving", SCAN),
-    heard=7,
+    received=7,
     draws=True,
 )
 NEAREST = UnconnectedFramesError("odom", "laser", "base")
@@ -51,12 +51,12 @@ def test_a_display_that_draws_nothing_for_no_other_reason_says_so():
     (remark,) = remarks_on(replace(WELL, draws=False))
     assert (remark.level, remark.reason) == ("warn", "empty")
     assert remark.sentence == "Messages come on /scan, and there is nothing in them to draw."
-    (remark,) = remarks_on(replace(WELL, draws=False, types=(), heard=0))
+    (remark,) = remarks_on(replace(WELL, draws=False, types=(), received=0))
     assert remark.sentence == "There is nothing to draw."
 
 
 def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
-    (remark,) = remarks_on(replace(WELL, topic=topic("connection_lost"), heard=0))
+    (remark,) = remarks_on(replace(WELL, topic=topic("connection_lost"), received=0))
     assert (remark.reason, remark.mend) == ("connection_lost", None)
 
 
@@ -65,24 +65,24 @@ def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
     [
         (replace(WELL, spec=replace(SPEC, topic="")), "no_topic", "choose one"),
         (replace(WELL, topic=topic("not_connected")), "not_connected", "no connection"),
-        (replace(WELL, topic=topic("refused"), heard=0), "not_heard", "No type x."),
+        (replace(WELL, topic=topic("refused"), received=0), "not_heard", "No type x."),
         (replace(WELL, topic=topic("no_publisher")), "no_publisher", "Nobody publishes /scan"),
         (
-            replace(WELL, topic=topic("other_type", CLOUD), fitting_kind="PointCloud2", heard=0),
+            replace(WELL, topic=topic("other_type", CLOUD), fitting_kind="PointCloud2", received=0),
             "other_type",
             "is published as sensor_msgs/msg/PointCloud2",
         ),
         (
-            replace(WELL, topic=topic("other_type", "a/msg/B"), heard=0),
+            replace(WELL, topic=topic("other_type", "a/msg/B"), received=0),
             "other_type",
             "another topic",
         ),
         (
-            replace(WELL, topic=topic("other_form", SCAN), heard=0),
+            replace(WELL, topic=topic("other_form", SCAN), received=0),
             "other_hash",
             "of another form",
         ),
-        (replace(WELL, heard=0), "no_message", "yet"),
+        (replace(WELL, received=0), "no_message", "yet"),
         (replace(WELL, silent_s=12.3), "silent", "12 s ago"),
         (replace(WELL, frames=(NEAREST,)), "not_connected_frame", "No chain"),
         (replace(WELL, frames=(UnknownFrameError("laser"),)), "no_frame", "tells of the frame"),

@@ -170,11 +170,11 @@ def test_when_those_who_told_of_the_robots_links_are_gone_they_follow_its_joints
     frames, source = receiving()
     moved = message_of(Told("upper", "tip", S, (2.0, 0.0, 0.0)), Told("odom", "base", S))
     source.say("/tf", moved, KNOWN)
-    frames.look()
+    frames.drop_gone()
     frames.step()
     assert x_m(frames, "tip") == 2.0
     source.speakers("/tf")[0].leave()
-    frames.look()
+    frames.drop_gone()
     frames.step()
     assert x_m(frames, "tip") == 0.5
     assert "odom" in frames.buffer.frames()

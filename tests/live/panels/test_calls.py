@@ -101,7 +101,7 @@ def test_what_cannot_be_asked_is_refused_and_not_begun(
         async with bridged(endpoint) as page:
             with pytest.raises(StudioError, match=words):
                 await page.do(CallService(name=name, service_type=kind, text=text))
-            assert page.ros.calls.operations.under_way() == []
+            assert page.ros.calls.operations.unfinished() == []
 
     asyncio.run(run())
 

@@ -15,10 +15,10 @@ def test_lines_come_whole_however_the_bytes_are_cut():
 def test_the_last_words_count_without_an_end_of_line():
     printed = PrintedLines()
     printed.take(b"why\n\n  \nbecause")
-    assert printed.last_words == "why"
+    assert printed.last_text == "why"
     printed.end()
     printed.end()
-    assert printed.last_words == "because"
+    assert printed.last_text == "because"
     assert printed.after(3) == (("because",), 4)
 
 

@@ -36,7 +36,7 @@ def test_only_the_last_that_are_over_are_kept_and_so_many_may_run():
             one.is_over = True
         made.add(Operation(made.next_number()))
         assert [one.operation for one in made.all()] == [2, 3, 4]
-        assert [one.operation for one in made.under_way()] == [4]
+        assert [one.operation for one in made.unfinished()] == [4]
         with pytest.raises(CommandError, match="number 1"):
             made.get(1)
         await made.close()

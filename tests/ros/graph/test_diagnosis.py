@@ -7,7 +7,7 @@ from studio.ros.graph.diagnosis import (
     ForeignHashes,
     foreign_hashes,
     why_nobody,
-    why_not_heard,
+    why_not_received,
 )
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
 from studio.ros.profiles import HUMBLE, JAZZY, NO_HASH, PROFILES
@@ -55,7 +55,7 @@ def test_types_of_the_distribution_that_is_spoken_are_no_foreigners():
 def test_keys_without_hashes_are_of_humble():
     found = foreign_hashes([publisher(STRING, NO_HASH)], JAZZY, HASHES)
     assert found == [ForeignHashes((STRING,), ("humble",))]
-    assert why_not_heard(found[0], JAZZY) == (
+    assert why_not_received(found[0], JAZZY) == (
         f"Others have {STRING} as of humble, where jazzy is spoken, and neither hears the other: "
         "choose --distro humble."
     )
@@ -70,7 +70,7 @@ def test_a_form_that_no_distribution_has_asks_for_its_package():
     types = [publisher(name, "RIHS01_00") for name in (STRING, RANGE)]
     found = foreign_hashes(types, JAZZY, HASHES)
     assert found == [ForeignHashes((RANGE, STRING), ())]
-    assert "--interfaces" in why_not_heard(found[0], JAZZY)
+    assert "--interfaces" in why_not_received(found[0], JAZZY)
 
 
 def test_a_type_that_is_unknown_here_is_no_foreign_form():
@@ -79,7 +79,7 @@ def test_a_type_that_is_unknown_here_is_no_foreign_form():
 
 def test_many_types_are_named_in_part():
     found = ForeignHashes(tuple(f"a/msg/B{at}" for at in range(9)), ("kilted",))
-    assert "a/msg/B2 and 6 more" in why_not_heard(found, JAZZY)
+    assert "a/msg/B2 and 6 more" in why_not_received(found, JAZZY)
 
 
 def test_every_distribution_has_its_hashes():

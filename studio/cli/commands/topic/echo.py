@@ -88,7 +88,7 @@ def _run(options: argparse.Namespace) -> int:
 
         def is_done() -> bool:
             if not options.no_lost_messages:
-                printing.say_lost(subscription.losses)
+                printing.print_lost(subscription.losses)
             return options.once and count > 0
 
         came = own.work_until(is_done, options.timeout)

@@ -11,7 +11,7 @@ from studio.cli.graph import (
     full_name,
     opened_graph,
     print_listing,
-    say_unknown,
+    print_unknown,
     visible_names,
 )
 from studio.cli.terminal import harmless
@@ -68,10 +68,10 @@ def _info(options: argparse.Namespace) -> int:
     with opened_graph(options) as graph:
         types = dict(graph.topics()).get(name)
         if types is None:
-            return say_unknown("topic", options.topic_name)
-        said = types[0] if len(types) == 1 else f"[{', '.join(types)}]"
+            return print_unknown("topic", options.topic_name)
+        text = types[0] if len(types) == 1 else f"[{', '.join(types)}]"
         end = "\n\n" if options.verbose else "\n"
-        print(f"Type: {said}", end=end)
+        print(f"Type: {text}", end=end)
         sides = (("Publisher", graph.publishers(name)), ("Subscription", graph.subscriptions(name)))
         for side, ends in sides:
             print(f"{side} count: {len(ends)}", end=end)

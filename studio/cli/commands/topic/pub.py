@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 _KEEP_ALIVE_S = 0.1
-_NEWS_S = 1.0
+_PRINT_EVERY_S = 1.0
 
 
 def add(verbs: Verbs) -> None:
@@ -113,7 +113,7 @@ def _wait_for_listeners(own: OwnNode, name: str, wanted: int, timeout_s: float |
     end_s = None if timeout_s is None else time.monotonic() + timeout_s
     while not own.graph.wait_for(lambda: len(own.graph.subscriptions(name)) >= wanted, 0.01):
         print(f"Waiting for at least {wanted} matching subscription(s)...", flush=True)
-        left_s = _NEWS_S if end_s is None else min(_NEWS_S, end_s - time.monotonic())
+        left_s = _PRINT_EVERY_S if end_s is None else min(_PRINT_EVERY_S, end_s - time.monotonic())
         if left_s <= 0:
             print(f"Timed out waiting for subscriptions of {name}.", file=sys.stderr)
             return False
@@ -132,13 +132,13 @@ def _publish(
     beats: Iterator[None],
     messages: Iterator[MessageValue],
     publisher: Publisher,
-    said_every: int,
+    printed_every: int,
 ) -> None:
     print("publisher: beginning loop", flush=True)
     for number in numbers:
         next(beats)
         message = next(messages)
-        if number % said_every == 0:
+        if number % printed_every == 0:
             print(f"publishing #{number}: {message!r}\n", flush=True)
         publisher.publish(message)
 

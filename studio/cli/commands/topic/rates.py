@@ -101,15 +101,15 @@ def _bw(options: argparse.Namespace) -> int:
 
 def _delay(options: argparse.Namespace) -> int:
     delay = Delay(options.window)
-    said = False
+    has_warned = False
 
     def take(_name: str, message: MessageValue) -> None:
-        nonlocal said
+        nonlocal has_warned
         stamp = getattr(getattr(message, "header", None), "stamp", None)
         if stamp is not None:
             delay.add(time.time_ns() / 1e9 - stamp.sec - stamp.nanosec / 1e9)
-        elif not said:
-            said = True
+        elif not has_warned:
+            has_warned = True
             print("msg does not have header", file=sys.stderr)
 
     _measure(options, [options.topic_name], take, delay.report, raw=False)
@@ -131,16 +131,16 @@ def _measure(
     """
     with own_node(options) as own:
         listening = _Listening(own, options, take, raw=raw)
-        said_count = 0
+        printed_count = 0
 
         def each_second() -> None:
-            nonlocal said_count
+            nonlocal printed_count
             for name in listening.join():
                 begin(name)
-            text = report() if listening.count > said_count else None
+            text = report() if listening.count > printed_count else None
             if text is not None:
                 print(text, flush=True)
-                said_count = listening.count
+                printed_count = listening.count
 
         listening.awaited = list(topics)
         each_second()

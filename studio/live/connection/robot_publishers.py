@@ -37,7 +37,7 @@ class RobotOut:
         self.place = self._publisher.place
         self._turn = threading.Lock()
         """Held while the robot or the prefix changes."""
-        self._told: tuple[str, Robot, Kinematics] | None = None
+        self._described: tuple[str, Robot, Kinematics] | None = None
         node.declare_parameter(_DESCRIPTION, "")
         node.declare_parameter(_PREFIX, "")
         node.add_post_set_parameters_callback(self._take)
@@ -46,7 +46,7 @@ class RobotOut:
         """Tell this robot from now on, by topics and as a parameter."""
         self._node.set_parameters([Parameter(_DESCRIPTION, value=urdf)])
         with self._turn:
-            self._told = urdf, robot, kinematics
+            self._described = urdf, robot, kinematics
             self._publisher.describe(urdf, robot, kinematics)
 
     def _take(self, parameters: Sequence[Parameter]) -> None:
@@ -55,8 +55,8 @@ class RobotOut:
         with self._turn:
             for prefix in prefixes:
                 self._publisher.set_prefix(prefix)
-            if prefixes and self._told is not None:
-                self._publisher.describe(*self._told)
+            if prefixes and self._described is not None:
+                self._publisher.describe(*self._described)
 
     def close(self) -> None:
         """Publish it no more."""
@@ -70,7 +70,7 @@ class JointsOut:
         self, node: Node, rivals: Callable[[], list[str]], end: Callable[[Node], object]
     ) -> None:
         self._node, self.rivals, self._end = node, rivals, end
-        self.tell = JointStatePublisher(node).tell
+        self.publish = JointStatePublisher(node).publish
 
     def close(self) -> None:
         """Publish them no more."""
