@@ -32,7 +32,7 @@ class Debouncer:
         self._task: asyncio.Task[None] | None = None
 
     def trigger(self) -> None:
-        """Begin the quiet time anew."""
+        """Begin the quiet time again."""
         self.cancel()
         self._task = asyncio.create_task(self._run())
 
@@ -80,7 +80,7 @@ class Throttle:
         self._task: asyncio.Task[None] | None = None
 
     def trigger(self) -> None:
-        """Have it run soon."""
+        """Run it soon."""
         self._triggered = True
         if self._task is None or self._task.done():
             self._task = asyncio.create_task(self._run())

@@ -352,7 +352,7 @@ class UnconnectedFramesError(FrameError):
         """`nearest` is the frame that everything around `source` hangs on, if one is known."""
         missing = "publish the one that is missing between their trees"
         if nearest == source:
-            missing = f'publish where "{source}" is, which nothing tells'
+            missing = f'publish the pose of "{source}", which no transform has'
         instead = "" if nearest is None else f', or look from "{nearest}" instead'
         super().__init__(
             f'No chain of transforms connects "{source}" with "{target}": {missing}{instead}.'
@@ -420,7 +420,7 @@ class RouterGoneError(WireError):
 
     def __init__(self, endpoint: str) -> None:
         super().__init__(
-            f"The router at {endpoint} is gone, so nobody can be asked or told anything: start it "
+            f"The router at {endpoint} is gone, so no node can be reached: start it "
             "there again (studio router), then try once more."
         )
         self.endpoint = endpoint
@@ -496,7 +496,7 @@ class InterfaceTextError(InterfaceError):
         self.name, self.line, self.reason = name, line, reason
 
     def at(self, path: str) -> InterfaceTextError:
-        """Give the same error of the file that the text stands in."""
+        """Return the same error with the file of the text."""
         return InterfaceTextError(path, self.line, self.reason)
 
 
@@ -606,7 +606,7 @@ class NotServedError(CallError):
 
 
 class ServedOtherwiseError(CallError):
-    """Somebody serves what was asked for, with another type or another form of it."""
+    """There is a server, with another type or another form of it."""
 
     def __init__(self, what: str, name: str, asked: str, types: tuple[str, ...]) -> None:
         served = " and ".join(types)
@@ -750,7 +750,7 @@ class UnsupportedEventTypeError(NodeError):
 
     def __init__(self, event: str) -> None:
         super().__init__(
-            f"The event {event} is not told on Zenoh, nor by rmw_zenoh: leave its callback out."
+            f"The event {event} does not exist on Zenoh, nor in rmw_zenoh: leave its callback out."
         )
         self.event = event
 
@@ -804,7 +804,7 @@ class WorkerDiedError(WorkerError):
 
 
 class AccessError(StudioError):
-    """Somebody asked for what is not theirs."""
+    """A person asked for something that is not allowed."""
 
 
 class NotAllowedError(AccessError):

@@ -71,7 +71,7 @@ class Outlet:
         Args:
             data: One whole message, or what makes it; the same bytes may go to many outlets.
             key: Of one key only the newest is kept; a message that is yet to be made needs one.
-            late: With a key: makes the message anew when it goes out late, instead of `data`.
+            late: With a key: makes the message again when it goes out late, instead of `data`.
         """
         if self.closed:
             return False

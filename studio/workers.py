@@ -58,7 +58,7 @@ class Worker:
 
     @contextlib.asynccontextmanager
     async def turn(self) -> AsyncGenerator[None]:
-        """Have the pipe; who waits gets it in the order of asking.
+        """Hold the pipe; those waiting get it in the order of asking.
 
         Raises:
             WorkerDiedError: The worker was closed meanwhile.
@@ -320,7 +320,7 @@ class WorkerPool:
             raise
 
     def _hand_out(self) -> None:
-        """Give workers to those who wait, as far as there are any."""
+        """Assign free workers to waiting requests."""
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None

@@ -45,7 +45,7 @@ def opened_graph(options: argparse.Namespace) -> Generator[Graph]:
 
 
 def why_empty(wire: WireSession) -> str:
-    """Say why no node is seen: the router shows none, they are in other domains, or none is."""
+    """Return why no node is seen: the router shows none, or they are in other domains."""
     from studio.ros.graph.diagnosis import nodes_by_domain, unseen_nodes, why_nobody, why_unseen
 
     unseen = unseen_nodes(wire)
@@ -65,14 +65,14 @@ def settle(graph: Graph, options: argparse.Namespace) -> None:
     seen = -1
     while seen != graph.version:
         seen = graph.version
-        graph.settle()  # asked anew: the answer of the first time may have been a part of it
+        graph.settle()  # asked again: the answer of the first time may have been a part of it
         graph.wait_for(lambda: graph.version != seen, _QUIET_S)  # noqa: B023 - done within
     if options.spin_time > 0:
         graph.wait_for(lambda: False, options.spin_time)
 
 
 def full_name(text: str) -> str:
-    """Give a topic, service, action or node by its full name, the first slash added if missing.
+    """Return a topic, service, action or node by its full name, the first slash added if missing.
 
     Raises:
         RosNameError: It breaks a rule.
@@ -144,7 +144,7 @@ def print_listing(found: list[tuple[str, list[str]]], options: argparse.Namespac
 
 
 def print_other_types(name: str, wanted: str, found: Iterable[tuple[str, list[str]]]) -> None:
-    """Say on stderr that a name has other types than the one that is meant: they never meet."""
+    """Print on stderr that a name has other types than the one given: they never match."""
     types = dict(found).get(name)
     if types and wanted not in types:
         print(f"WARNING: {name} has the type {', '.join(types)}, not {wanted}", file=sys.stderr)

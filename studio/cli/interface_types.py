@@ -127,13 +127,13 @@ def known_types(options: argparse.Namespace, distro: str) -> TypeLibrary:
 
 
 def print_faults(faults: Iterable[InterfaceTextError]) -> None:
-    """Say on stderr which texts define no type, and why."""
+    """Print on stderr which texts define no type, and why."""
     for fault in faults:
         print(f"WARNING: {harmless(str(fault))}", file=sys.stderr)
 
 
 def environment_with(paths: Sequence[Path]) -> dict[str, str]:
-    """Give an environment in which the nodes of other processes know the types at paths, too.
+    """Return an environment in which the nodes of other processes know the types at paths, too.
 
     Raises:
         UnreadableFileError: Nothing is there, or it holds no types.

@@ -33,7 +33,7 @@ examples:
   studio xacro robot.urdf.xacro > robot.urdf
                                            expand as the xacro command does
   studio demos talker listener             start two nodes of the course
-  studio topic echo /chatter               see what they say: the lines of ros2, without ROS
+  studio topic echo /chatter               see its messages: the lines of ros2, without ROS
 """
 
 

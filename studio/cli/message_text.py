@@ -111,7 +111,7 @@ class Printing:
         return head + self._message(message)
 
     def print_lost(self, losses: Losses) -> None:
-        """Say on stderr that messages were lost, and why, when that is news."""
+        """Print on stderr that more messages were lost, and why."""
         lost = losses.lost + losses.overwritten
         broken = losses.refused + losses.malformed
         if lost + broken <= self._printed_lost:

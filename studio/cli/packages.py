@@ -103,7 +103,7 @@ def _last(data: Path) -> tuple[Path, ...]:
 
 
 def executables_of_all(index: PackageIndex) -> dict[str, dict[str, str]]:
-    """Give by package and name the file or module of all that can be started."""
+    """Return by package and name the file or module of all that can be started."""
     found = demo_executables()
     for name in index.names:
         own = executables_of(index.best(name, Path.cwd()), name)
@@ -115,7 +115,7 @@ def executables_of_all(index: PackageIndex) -> dict[str, dict[str, str]]:
 
 
 def workspace_folder(index: PackageIndex, name: str) -> Path | None:
-    """Give the folder of a package that the user's workspace holds: it comes before a demo's.
+    """Return the folder of a package that the user's workspace holds: it comes before a demo's.
 
     None where the name is unknown, or known only of a ROS that was installed as a whole.
     """
@@ -133,7 +133,7 @@ def demo_packages() -> set[str]:
 
 
 def demo_executables() -> dict[str, dict[str, str]]:
-    """Give the modules of the studio's own nodes by package and executable."""
+    """Return the modules of the studio's own nodes by package and executable."""
     from studio.course.demos import executables
 
     found: dict[str, dict[str, str]] = {}
@@ -143,7 +143,7 @@ def demo_executables() -> dict[str, dict[str, str]]:
 
 
 def demo_folder(package: str) -> Path:
-    """Give the folder that holds the code of a package of demos, which is one of the studio's."""
+    """Return the folder that holds the code of a package of demos, which is one of the studio's."""
     module = next(iter(demo_executables()[package].values()))
     found = importlib.util.find_spec(module.rpartition(".")[0])
     return Path(next(iter((found and found.submodule_search_locations) or [""])))

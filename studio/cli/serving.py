@@ -37,7 +37,7 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
         "--no-token", action="store_true", help="ask nobody for the token; this machine only"
     )
     parser.add_argument(
-        "--viewer-link", action="store_true", help="print an address for those who only look, too"
+        "--viewer-link", action="store_true", help="print an address for viewers, too"
     )
     wire = parser.add_argument_group(JOINING)
     add_joining_options(

@@ -68,7 +68,7 @@ def join_topic(
 def _form_of(
     own: OwnNode, name: str, type_name: str, *, raw: bool
 ) -> tuple[type[MessageValue] | None, GraphEndpoint | None]:
-    """Give the class of a type, and who has it in the form that is meant if that is not ours.
+    """Return the class of a type, and who has it in the form that is meant if that is not ours.
 
     Raises:
         UnknownTypeError: It is not known, and its bytes are not enough.

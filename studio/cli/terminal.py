@@ -10,7 +10,7 @@ _STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u
 
 
 def shown(text: str) -> str:
-    """Give a text as it may be printed: whole into a file or pipe, harmless on a terminal."""
+    """Return a text as it may be printed: whole into a file or pipe, harmless on a terminal."""
     return harmless(text) if sys.stdout.isatty() else text
 
 

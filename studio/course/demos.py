@@ -98,7 +98,7 @@ COMPANIONS = {
 
 
 def executables() -> dict[tuple[str, str], str]:
-    """Give the module of every executable by package and name."""
+    """Return the module of every executable by package and name."""
     demos = {pair: demo.module for demo in DEMOS for pair in demo.executables}
     return demos | COMPANIONS
 

@@ -46,7 +46,7 @@ class JerryRobot(Node):
     def distance_callback(
         self, request: Distance.Request, response: Distance.Response
     ) -> Distance.Response:
-        """Tell how far a place is, as the crow flies."""
+        """Return how far a place is, as the crow flies."""
         response.distance = math.hypot(request.x - self.x, request.y - self.y)
         return response
 

@@ -32,7 +32,7 @@ class DemoProcesses:
 
     @classmethod
     def at(cls, settings: WireSettings) -> Self:
-        """Have all of them join the same routers and domain."""
+        """Return processes that all join the same routers and domain."""
         return cls(environment_for(settings))
 
     def start(self, module: str, arguments: Iterable[str] = ()) -> None:
@@ -97,7 +97,7 @@ def rover_call(package: Path, arguments: Mapping[str, str], router: str) -> tupl
 def environment_for(
     settings: WireSettings, environment: Mapping[str, str] = os.environ
 ) -> dict[str, str]:
-    """Give an environment in which nodes join the same routers and domain, as the same ROS."""
+    """Return an environment in which nodes join the same routers and domain, as the same ROS."""
     routers = f"connect/endpoints={json.dumps(settings.connect)}"
     override = environment.get(_OVERRIDE, "")
     return {

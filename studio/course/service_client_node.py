@@ -26,7 +26,7 @@ class ServiceClientNode(Node):
         self.get_logger().info("Service Client Node initialized")
 
     def send_request(self, a: int, b: int) -> AddTwoInts.Response:
-        """Give the answer, once it is there."""
+        """Return the answer, once it is there."""
         self.req.a = a
         self.req.b = b
         self.future = self.cli.call_async(self.req)

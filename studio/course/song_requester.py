@@ -26,7 +26,7 @@ class SongRequester(Node):
         self.send_request()
 
     def send_request(self) -> None:
-        """Wish the song."""
+        """Send the goal."""
         goal = ChooseSong.Goal(song_name=self._song)
         self._send_future = self._action_client.send_goal_async(
             goal, feedback_callback=self.feedback_cb
@@ -56,7 +56,7 @@ class SongRequester(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Wish one song."""
+    """Request one song."""
     with until_stopped(args):
         song = sys.argv[1] if len(sys.argv) > 1 else "Bohemian Rhapsody"
         rclpy.spin(SongRequester(song))

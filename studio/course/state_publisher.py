@@ -78,7 +78,7 @@ class StatePublisher(Node):
 
 
 def euler_to_quaternion(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Give the quaternion of roll, pitch and yaw, radians."""
+    """Return the quaternion of roll, pitch and yaw, radians."""
     qx = sin(roll / 2) * cos(pitch / 2) * cos(yaw / 2) - cos(roll / 2) * sin(pitch / 2) * sin(
         yaw / 2
     )

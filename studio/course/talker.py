@@ -21,7 +21,7 @@ class PublisherNode(Node):
         self.timer = self.create_timer(0.5, self.timer_callback)
 
     def timer_callback(self) -> None:
-        """Say it once more."""
+        """Publish it once more."""
         msg = String()
         msg.data = "Hello World"
         self.pub.publish(msg)

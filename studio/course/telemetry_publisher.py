@@ -37,7 +37,7 @@ class TelemetryPublisher(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Tell until stopped."""
+    """Publish until stopped."""
     with until_stopped(args):
         rclpy.spin(TelemetryPublisher())
 

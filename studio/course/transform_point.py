@@ -46,7 +46,7 @@ class TransformPointNode(Node):
     def transform_callback(
         self, request: TransformPoint.Request, response: TransformPoint.Response
     ) -> TransformPoint.Response:
-        """Tell the point in the target frame, or what is missing for it."""
+        """Return the point in the target frame, or what is missing for it."""
         point, result = request.point, response.result
         try:
             wxyz, xyz, _ = self.buffer.fixed_from(request.target_frame, request.source_frame)

@@ -67,7 +67,7 @@ class TurtleSim(Node):
         return response
 
     def on_reset(self, request: Empty.Request, response: Empty.Response) -> Empty.Response:
-        """Begin anew, with one turtle in the middle."""
+        """Begin again, with one turtle in the middle."""
         for name in list(self.endpoints):
             self.endpoints.pop(name).destroy()
         self.flock.clear()

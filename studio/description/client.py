@@ -96,7 +96,7 @@ class DescriptionWorker:
         """End the process; safe to call twice. Whoever waits for a reply is cancelled."""
         self.needs_reopen = True
         for question in self._questions:
-            question.cancel()  # else one that waits its turn would start a process anew
+            question.cancel()  # else one that waits its turn would start a process again
         await self._worker.close()
 
     async def _question(self, query: Query) -> Reply:

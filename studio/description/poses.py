@@ -10,7 +10,7 @@
   (`!degrees 90`) hold here too.
 - A person's own poses are a small YAML beside the robot's, read as hostile. Poses that did not
   change keep their lines, comments included. A text that reads back as anything else than what was
-  to be written is written anew as a whole.
+  to be written is written again as a whole.
 """
 
 from __future__ import annotations

@@ -121,7 +121,7 @@ class Session:
         self._origins: Origins | None = None
         """Answers questions about the last good run, once there was one."""
         self._touched: set[str] = set()
-        """Files edited or read anew since the last full run, whose sites the other side moved."""
+        """Files edited or read again since the last full run, whose sites the other side moved."""
         self._answered: Expansion | None = None
         """The last good answer."""
         self._live: LiveRun | None = None
@@ -266,7 +266,7 @@ class Session:
             return Failure(_problem_of_error(error, self._entry), tuple(self._store.asked))
 
     def _check(self) -> Reply:
-        """Look at the texts as they are, broken or not."""
+        """Check the texts as they are, broken or not."""
         if self._fault in RECOVERABLE:
             broken = recovered_run(self._store, self._policy, self._arguments, self._entry)
             return checked_broken(broken)
@@ -275,7 +275,7 @@ class Session:
         return checked_good(self._good, self._chain_to)
 
     def _failed(self, fault: Fault) -> Answer:
-        """Say all that is wrong; of a first robot whose texts are broken, draw what can be read."""
+        """Return all faults; of a first robot with broken texts, return what can be read."""
         self._fault = fault.code
         problem, files = problem_of(fault, self._entry), tuple(self._store.asked)
         if fault.code not in RECOVERABLE or fault.place is None:

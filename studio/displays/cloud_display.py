@@ -316,7 +316,7 @@ class CloudDisplay(Display):
         self._drawing = None
 
     def changed(self, name: str) -> None:
-        """Look different from now on."""
+        """Take new settings."""
         if name == "Decay Time" and not self._decay_ns():
             self._keep_newest()
         if name == POINTS_AT_MOST:
@@ -405,7 +405,7 @@ class CloudDisplay(Display):
         self._hold_limits()
 
     def _free_path(self) -> str:
-        """A path is used again, so that what is there is changed and not made anew."""
+        """A path is used again, so that what is there is changed and not made again."""
         taken = {one.path for one in self._kept}
         return next(str(n) for n in range(len(taken) + 1) if str(n) not in taken)
 

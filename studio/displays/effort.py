@@ -31,10 +31,10 @@ if TYPE_CHECKING:
 _DESCRIPTION: Final = "description"
 _DESCRIPTION_LETTERS_MAX: Final = 4_000_000
 _NO_DESCRIPTION: Final = (
-    "No robot description has come, which tells the axes of the joints: it is expected on the "
+    "No robot description has come, which has the axes of the joints: it is expected on the "
     "topic robot_description beside the joint states."
 )
-_OTHER_JOINTS: Final = "The robot description has none of the joints whose efforts are told."
+_OTHER_JOINTS: Final = "The robot description has none of the joints in the joint states."
 RINGS_MAX: Final = 1000
 """Limit for one message: more would make the view slow."""
 _JOINTS: Final = "Joints"
@@ -214,7 +214,7 @@ def _about(axis: Floats, around_z: Floats) -> NDArray[np.float32]:
 
 def _why_none(names: int, efforts: int) -> tuple[Reason, str]:
     if not efforts:
-        return "empty", "The joint states carry no efforts: their publisher tells positions alone."
+        return "empty", "The joint states carry no efforts: their publisher sends positions only."
     sentence = (
         f"The joint states carry {names:,} names and {efforts:,} efforts: as many are needed."
     )

@@ -117,7 +117,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         self._remarks = (*self._remarks, Status("warn", reason, sentence, mend))
 
     def changed(self, name: str) -> None:
-        """Draw anew, with the new value."""
+        """Draw again, with the new value."""
         self._groups.clear()
         self._drop_oldest()
         super().changed(name)

@@ -89,7 +89,7 @@ class ImageDisplay(StillDisplay):
         self.redraw()
 
     def changed(self, name: str) -> None:
-        """Look different from now on; the picture itself only when its shades change."""
+        """Take new settings; the picture itself is drawn again only when its shades change."""
         if name in _OF_SHADES:
             self._shaded = None
         self.redraw()
@@ -175,7 +175,7 @@ class ImageDisplay(StillDisplay):
 
     def _no_view(self) -> Status | None:
         if self._view is None:
-            found = "says no focal length" if self._has_info else "has not come"
+            found = "has no focal length" if self._has_info else "has not come"
             degrees = round(math.degrees(_GUESSED_FOV_Y_RAD))
             sentence = (
                 f"The camera info {found}: the angle of view is guessed as {degrees} degrees."

@@ -36,7 +36,7 @@ _PARTS = {
     _HAS_RATE[0]: (f"{_RATE}/Vector scale",),
 }
 """What can be shown, by its switch, with the properties of its size."""
-_NO_ATTITUDE = "This unit says that it measures no orientation: it is drawn as no turn."
+_NO_ATTITUDE = "This unit reports that it measures no orientation: it is drawn without a rotation."
 
 
 class Motion(NamedTuple):

@@ -259,7 +259,7 @@ class MapDisplay(StillDisplay):
         self.redraw()
 
     def changed(self, name: str) -> None:
-        """Look different from now on."""
+        """Take new settings."""
         if name != "Use Timestamp":
             self._tiles.repaint()
         self.redraw()

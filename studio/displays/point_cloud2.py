@@ -112,7 +112,7 @@ class CloudFields:
         return np.rint(whole * 255).astype(np.uint8)
 
     def _add(self, field: Any) -> None:  # noqa: ANN401 - a sensor_msgs/PointField
-        """Know a field by its name; of two with one name the first counts, as in RViz.
+        """Return a field by its name; of two with one name the first counts, as in RViz.
 
         One that cannot be read is as if it were not there, until it is needed for a place.
         """

@@ -73,8 +73,7 @@ COVARIANCE_PROPERTIES: Final = (
 )  # fmt: skip
 
 NOT_POSITIVE: Final = (
-    "The covariance is none: it says that a variance is below zero; what it says of the rest is "
-    "drawn."
+    "The covariance is not valid, for a variance is below zero: the rest of it is drawn."
 )
 _THIN_M = 0.001
 # Beyond it the spread of an axis would be a plane.
@@ -301,7 +300,7 @@ class PoseWithCovarianceDisplay(SpreadDisplay):
     """Draws the newest pose."""
 
     KIND = "PoseWithCovariance"
-    DOC = "A pose and how sure it is, as a localisation tells it."
+    DOC = "A pose and how sure it is, as localisation publishes it."
     ICON = "pose"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/PoseWithCovarianceStamped",)),)
     PROPERTIES = (*pose_properties(), *COVARIANCE_PROPERTIES)

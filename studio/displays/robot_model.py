@@ -22,7 +22,7 @@ PARTS_MAX: Final = 10_000
 """Shapes of all links."""
 _NAME_MAX: Final = 300
 _SENTENCE_MAX: Final = 600
-"""Whoever describes a robot may write texts of any length into it."""
+"""Limit of texts in a description, which may be of any length."""
 DESCRIPTION_MAX: Final = 16_000_000
 """Letters of a description."""
 _LINKS: Final = "Links/"
@@ -66,7 +66,7 @@ class RobotModelDisplay(StillDisplay):
     )
     FIRST_TOPIC = "/robot_description"
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
-        Property("Visual Enabled", "switch", default=True, doc="Shows what the robot looks like."),
+        Property("Visual Enabled", "switch", default=True, doc="Shows the robot's visuals."),
         Property("Collision Enabled", "switch", default=False, doc="Shows its collision shapes."),
         UPDATE_INTERVAL,
         Property("Alpha", "number", 1.0, "How opaque it is: 0 is not seen.", low=0.0, high=1.0),
@@ -189,7 +189,7 @@ class RobotModelDisplay(StillDisplay):
             sentence = "Alpha is 0, so nothing of the robot is seen."
             return (Status("warn", "transparent", sentence, ("Alpha", 1.0)),)
         if not any(self.values[part] for part in _PARTS):
-            sentence = "Neither looks nor collision shapes of the robot are switched on."
+            sentence = "Neither visuals nor collision shapes of the robot are switched on."
             return (Status("warn", "empty", sentence, ("Visual Enabled", True)),)
         links = self.robot.links
         if links and not self._shown():

@@ -129,7 +129,7 @@ class Shades(NamedTuple):
 def shades_of(ages_s: Floats, timeout_s: float, steps: int = 32) -> Shades:
     """RViz's fading: a third of the time as they are, a third to grey, and a third to nothing.
 
-    It goes in steps, so that what fades slowly is not drawn anew all the time.
+    It goes in steps, so that what fades slowly is not drawn again all the time.
     """
     thirds = ages_s * 3.0 / timeout_s
     grey = np.round((thirds - 1.0).clip(0.0, 1.0) * steps) / steps
@@ -321,7 +321,7 @@ class TfDisplay(Display):
         return (*self.PROPERTIES, *self._checks[2])
 
     def changed(self, name: str) -> None:
-        """Draw anew; switching all is switching each, as in RViz."""
+        """Draw again; switching all is switching each, as in RViz."""
         if name == FRAMES:
             for each in [one for one in self.values if one.startswith(f"{FRAMES}/")]:
                 del self.values[each]

@@ -236,7 +236,7 @@ class TwistDisplay(VectorDisplay):
     """Draws the last twists."""
 
     KIND = "TwistStamped"
-    DOC = "A velocity and a turning rate, as a robot is told to drive."
+    DOC = "A linear and an angular velocity, as sent to drive a robot."
     ICON = "arrow"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/TwistStamped",), newest_only=False),)
     PROPERTIES = SCREW_PROPERTIES

@@ -175,7 +175,7 @@ class _Run:
         return list(await asyncio.gather(*map(self._check_in_turn, entries)))
 
     def ended(self, count: int) -> None:
-        """Say that all is checked, and how many robots it was."""
+        """Report that all is checked, and the number of robots."""
         self._progress("Checked", count, count)
 
     async def _check_in_turn(self, entry: Path) -> CheckedFile:

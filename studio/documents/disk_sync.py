@@ -137,7 +137,7 @@ COMMANDS.presenter(Reload, lambda disk, _, __: disk.reload())
 
 
 def changed_on_disk(file: str) -> Problem:
-    """Somebody else wrote a file in the very places that have unsaved edits here."""
+    """Another program wrote a file in the very places that have unsaved edits here."""
     sentence = (
         "This file was changed on disk where it has unsaved edits: "
         "choose whose text stands (undo brings the other back)."

@@ -249,7 +249,7 @@ class Document:
         self.drafts.note()
 
     def texts_changed(self) -> None:
-        """Tell the sites that changed, the undo list and what is unsaved."""
+        """Send the sites that changed, the undo list and what is unsaved."""
         self.sites.send()
         self.audience.send(history_event(self.sources))
         self.texts.follow()
@@ -260,7 +260,7 @@ class Document:
             self.on_unsaved()
 
     def arguments_changed(self) -> None:
-        """Tell the arguments, with the rest of the state."""
+        """Send the arguments, with the rest of the state."""
         self.audience.send(self._state_event())
 
     async def _take_types(self) -> None:

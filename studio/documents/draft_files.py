@@ -153,7 +153,7 @@ class DraftFile:
             raise DraftError(str(self._path), _reason(error)) from error
 
     def remove(self) -> None:
-        """Have no draft."""
+        """Remove the draft."""
         with contextlib.suppress(OSError):
             self._path.unlink(missing_ok=True)
 
@@ -199,7 +199,7 @@ def _hold_soon(path: Path) -> IO[bytes] | None:
 
 
 def forget_drafts(data_folder: Path, entries: Iterable[Path]) -> None:
-    """Have no drafts of these files, but for those that are open now."""
+    """Remove the drafts of these files, except those that are open now."""
     folder = data_folder / FOLDER
     for path in (slot for entry in entries for slot in _slots(folder, entry)):
         if path.exists() and (lock := hold_file(path.with_suffix(".lock"))):

@@ -125,7 +125,7 @@ class Drafts:
         self._file.close()
 
     async def discard(self) -> None:
-        """Give up what was restored: the files as the disk has them, which undo takes back."""
+        """Discard what was restored: the files as on disk; undo takes it back."""
         self._restored = Restored(at="", files=())
         self._audience.send(self._restored)
         await self._disk.discard(self._opened_with)

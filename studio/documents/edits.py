@@ -144,7 +144,7 @@ class Edits:
         await self.timed(self._run(edits, in_gesture=in_gesture))
 
     def disk_changed(self) -> None:
-        """Tell what differs after files were read again, or written."""
+        """Send what differs after files were read again, or written."""
         self._sites.invalidate()
         self._observer.texts_changed()
 

@@ -92,7 +92,7 @@ class FileWatch:
         await asyncio.gather(*tasks, return_exceptions=True)
 
     def _catch_up(self, since_ns: int) -> None:
-        """Tell what changed before the watch stood; it stands as soon as its task has begun."""
+        """Report what changed before the watch began, which it does with its task."""
 
         async def report() -> None:
             paths = self._files | self._beside
@@ -138,7 +138,7 @@ class FileWatch:
             self._troubled(trouble)
 
     async def _report(self, paths: set[str]) -> None:
-        """Tell of changes; who cannot take them does not end the watch."""
+        """Report changes; an error of the callback does not end the watch."""
         try:
             await self._changed(paths)
         except Exception:  # noqa: BLE001 - a bug of ours must not leave the files unwatched

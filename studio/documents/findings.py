@@ -50,7 +50,7 @@ class Findings:
         return tuple(sorted(kept, key=lambda problem: _RANK[problem.severity]))
 
     def send(self) -> None:
-        """Tell all problems."""
+        """Send all problems."""
         self._audience.send(self.event())
 
     def event(self) -> Problems:

@@ -35,7 +35,7 @@ class LeftDrafts:
         self._throttle = Throttle(self._refresh)
 
     def attach(self, listener: Listener) -> None:
-        """Tell a presenter of them, now and whenever they change."""
+        """Send a presenter the list, now and whenever it changes."""
         if listener.role is Role.PRESENTER:
             self._presenters.add(listener)
             if self._latest is not None:
@@ -46,7 +46,7 @@ class LeftDrafts:
         self._presenters.discard(listener)
 
     def trigger(self) -> None:
-        """Look again soon: documents were opened or closed."""
+        """Search again soon: documents were opened or closed."""
         self._throttle.trigger()
 
     async def forget(self, path: str) -> None:

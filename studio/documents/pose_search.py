@@ -53,7 +53,7 @@ async def read_poses_around(
     robot_name: str,
     take_worker: Callable[[], DescriptionWorker],
 ) -> FoundPoses:
-    """Look for poses around the entry of a location.
+    """Search for poses around the entry of a location.
 
     Args:
         location: Of the robot; it has an entry.
@@ -154,7 +154,7 @@ class PoseSearch:
         self._model, self._take_worker = model, take_worker
         self.found = FoundPoses()
         self._made_from: object = None
-        """Arguments, packages and robot that they were found with; None: search anew."""
+        """Arguments, packages and robot that they were found with; None: search again."""
 
     def invalidate(self) -> None:
         """Read the files again at the next search: one of them changed."""

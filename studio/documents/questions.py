@@ -34,7 +34,7 @@ class Waiting:
         self._answers: dict[asyncio.Future[Reply], Listener] = {}
 
     def join(self, asker: Listener) -> asyncio.Future[Reply]:
-        """Have the answer go to one more."""
+        """Add an asker; the future gets the answer."""
         answer: asyncio.Future[Reply] = asyncio.get_running_loop().create_future()
         self._answers = {one: by for one, by in self._answers.items() if not one.done()}
         self._answers[answer] = asker
@@ -46,7 +46,7 @@ class Waiting:
         return {asker for answer, asker in self._answers.items() if not answer.done()}
 
     def supersede(self, asker: Listener) -> None:
-        """Tell one of them that there are newer questions."""
+        """End the wait of an asker who has newer questions."""
         for answer, one in self._answers.items():
             if one is asker and not answer.done():
                 answer.set_exception(SupersededError())
@@ -87,7 +87,7 @@ class QuestionQueue:
         return len(self._waiting)
 
     def add(self, query: Query, asker: Listener) -> asyncio.Future[Reply]:
-        """Have a question wait; the future gets its reply."""
+        """Add a question; the future gets its reply."""
         self._forget_those_left()
         waiting = next((one for one in self._waiting if one.query == query), None)
         if waiting is None:

@@ -34,7 +34,7 @@ class RobotView:
         self._joints_sent: JointPositions | None = None
 
     def send(self) -> bool:
-        """Tell the robot's tree and where its joints stand, as far as that is news.
+        """Send the robot's tree and its joint positions, as far as they changed.
 
         Returns:
             Whether the tree is another one.

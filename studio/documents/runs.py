@@ -146,7 +146,7 @@ class Runs:
         await self._next_run()
 
     async def reload(self, files: Iterable[str]) -> None:
-        """Run with these files read anew."""
+        """Run with these files read again."""
         self._reload.update(files)
         await self._next_run()
 
@@ -292,7 +292,7 @@ class Runs:
         self._take(outcome, version)
 
     async def _run_saved(self) -> None:
-        """Have the files taken as they are saved: unsaved work of an earlier run gives no robot.
+        """Take the files as saved: unsaved work of an earlier run gives no robot.
 
         With its arguments where they give one, else with those that the document was opened with.
         """
@@ -310,7 +310,7 @@ class Runs:
                 return
 
     async def _run_changes(self) -> Outcome:
-        """Send what changed; more than one kind of change opens anew."""
+        """Send what changed; more than one kind of change opens again."""
         edits, reload = tuple(self._edits), tuple(self._reload)
         arguments, is_whole = self._arguments_changed, self._open or self._worker.needs_reopen
         self._forget_changes()

@@ -108,7 +108,7 @@ class SiteTable:
         try:
             return self._sources.saved_text(site.id)
         except EditError:
-            return None  # typed over since the last run: the next one has the site anew
+            return None  # typed over since the last run: the next one has the site again
 
     def _text_now(self, site: Site) -> str:
         try:

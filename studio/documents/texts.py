@@ -136,7 +136,7 @@ class Texts:
         await self._edits.run(edits, in_gesture=bool(command.gesture))
 
     def follow(self) -> None:
-        """Tell what changed in the texts that somebody has."""
+        """Send the changes of the texts that somebody has."""
         for file, sent in self._sent.items():
             data = self._sources.text(file)
             if typed := self._typed.pop(file, None):

@@ -83,7 +83,7 @@ class Uploads:
             raise
 
     def _choose(self, workspace: Path, chosen: Mapping[str, Path]) -> None:
-        """Have packages without a package.xml found; what a person chose before stays."""
+        """Add packages without a package.xml to the index; earlier choices of a user stay."""
         if not chosen:
             return
         try:

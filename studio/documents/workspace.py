@@ -44,7 +44,7 @@ class Workspace:
         self._trusted = trusted
         self.location, self.policy = location, read_policy(location, trusted=trusted)
         self.sources = Sources(
-            # Asked anew each time: a package that is chosen later is served from then on.
+            # Asked again each time: a package that is chosen later is served from then on.
             lambda path: self.served.read(path),  # noqa: PLW0108
             lambda path: self.served.resolve(path),  # noqa: PLW0108
             lambda path: self.served.may_write(path),  # noqa: PLW0108

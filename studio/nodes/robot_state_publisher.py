@@ -56,7 +56,7 @@ class StatePace:
     def is_due(self, joints: Iterable[str], stamp_ns: int, now_ns: int) -> bool:
         """Return whether a message is to be published; it counts as published then.
 
-        A clock that went back, as a simulation's does when it begins anew, forgets all before.
+        A clock that went back, as a simulation's does when it begins again, forgets all before.
         """
         if now_ns < self._last_now_ns:
             self._published_ns.clear()
@@ -102,7 +102,7 @@ class RobotStatePublisher:
     def describe(
         self, urdf: str, robot: Robot | None = None, kinematics: Kinematics | None = None
     ) -> None:
-        """Tell this robot from now on; what the text comes to may be at hand already.
+        """Publish this robot from now on; the parsed text may be given, too.
 
         Raises:
             RobotError: The text is no robot that ROS would take; then nothing changed.
@@ -113,7 +113,7 @@ class RobotStatePublisher:
         self._static_out.publish(self._written(self._transforms.fixed(), self._now_ns()))
 
     def place(self, positions: Mapping[str, float], stamp_ns: int | None = None) -> None:
-        """Tell where links are, by the positions of joints in rad or m; stamp None: now."""
+        """Publish the poses of links, by joint positions in rad or m; stamp None: now."""
         if self._transforms is None:
             return
         moved = self._transforms.moved(positions)
@@ -139,7 +139,7 @@ class RobotStatePublisher:
         if len(names) != len(state.position):
             if len(state.position):
                 self._node.get_logger().warning(
-                    f"A joint state names {len(names)} joints and tells {len(state.position)} "
+                    f"A joint state names {len(names)} joints and has {len(state.position)} "
                     "positions: it was left out.",
                     throttle_duration_sec=1.0,
                 )

@@ -25,7 +25,7 @@ _CMAKE_KEYWORDS: Final = frozenset({"TARGETS", "PROGRAMS", "DESTINATION", "RUNTI
 
 
 def executables_of(folder: Path, package: str) -> dict[str, str]:
-    """Give what a package starts by name.
+    """Return what a package starts by name.
 
     It is `module:function` of Python sources, the source file that a CMakeLists.txt names, and
     the file itself where it is installed. What cannot be read is left out.
@@ -66,7 +66,7 @@ def _of_cmake(folder: Path, package: str) -> dict[str, str]:
 
 
 def _named(arguments: list[str]) -> list[str]:
-    """Give what stands behind TARGETS or PROGRAMS, as far as the next keyword."""
+    """Return what stands behind TARGETS or PROGRAMS, as far as the next keyword."""
     named: list[str] = []
     is_named = False
     for argument in arguments:
@@ -102,7 +102,7 @@ def _lines_of_setup_py(folder: Path) -> list[str]:
 
 
 def _scripts_of(node: ast.AST) -> Iterator[str]:
-    """Give the texts of a list behind the key `console_scripts`."""
+    """Return the texts of a list behind the key `console_scripts`."""
     if not isinstance(node, ast.Dict):
         return
     for key, value in zip(node.keys, node.values, strict=True):

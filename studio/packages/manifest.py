@@ -71,7 +71,7 @@ def _refuse_entity(*_declaration: object) -> None:
 
 
 def texts_of_tag(manifest: bytes, tag: str) -> list[str]:
-    """Give the text of each such element of a manifest, without blanks around it.
+    """Return the text of each such element of a manifest, without blanks around it.
 
     Raises:
         UnreadableFileError: It is no XML, or declares entities.

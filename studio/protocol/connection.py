@@ -34,7 +34,7 @@ class ConnectWire(WirePlace):
 
 
 class ExamineWire(WirePlace):
-    """Look what there is at a place; nothing is joined or started by it."""
+    """Ask what there is at a router; nothing is joined or started."""
 
     type: Literal["examine_wire"] = "examine_wire"
 
@@ -67,7 +67,7 @@ class PublishJoints(Command):
 
 
 class FindWireRobots(Command):
-    """Look which robot descriptions there are on the wire."""
+    """Ask for the robot descriptions in the ROS system."""
 
     type: Literal["find_wire_robots"] = "find_wire_robots"
 

@@ -108,7 +108,7 @@ class GetTf(Command):
 
 
 class FollowFrame(Command):
-    """Have a frame that is no link stand in the scene for some seconds, for a camera to go with."""
+    """Keep a frame that is no link in the scene for some seconds, for a camera to follow."""
 
     type: Literal["follow_frame"] = "follow_frame"
     frame: RosName

@@ -130,7 +130,7 @@ class ManagedNodes(Event):
 
 
 class ChangeState(Command):
-    """Have a managed node take a transition; done when it has, refused with what became of it."""
+    """Trigger a transition of a managed node; done when it was made, else refused."""
 
     type: Literal["change_state"] = "change_state"
     node: str = Field(max_length=300)

@@ -25,7 +25,7 @@ class GetParameters(Command):
 
 
 class SetParameter(Command):
-    """Have a node set a parameter; refused with its reason when it does not."""
+    """Set a parameter of a node; refused with the node's reason when it does not."""
 
     type: Literal["set_parameter"] = "set_parameter"
     node: Name

@@ -13,7 +13,7 @@ class Role(StrEnum):
 
 
 class Person(Protocol):
-    """Somebody with a role; `person` is the same for all of one browser, or of one token."""
+    """A person with a role; `person` is the same for all of one browser, or of one token."""
 
     @property
     def role(self) -> Role:

@@ -44,7 +44,7 @@ class Unsubscribe(Message):
 
 
 class AskBulk(Message):
-    """Tell the key of the bulk lane that goes with this data lane."""
+    """Ask for the key of this data lane's bulk lane."""
 
     type: Literal["ask_bulk"] = "ask_bulk"
 

@@ -135,7 +135,7 @@ def learn_from_any(node: Node, endpoints: Iterable[GraphEndpoint], report: Repor
     for endpoint in endpoints:
         path = endpoint.node.path
         if not node.graph.has_server(f"{path}/{DESCRIPTION_SERVICE}"):  # asking would wait for it
-            report(f"{path} does not tell what its types are made of.")
+            report(f"{path} does not describe its types.")
             continue
         try:
             learn_from(node, endpoint)

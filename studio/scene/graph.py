@@ -154,7 +154,7 @@ def _quoted(part: str) -> str:
 
 
 class PoseWriter:
-    """Remembers what was sent last for each link; `forget` what was removed or made anew."""
+    """Remembers what was sent last for each link; `forget` what was removed or made again."""
 
     def __init__(self, graph: Graph, node_of: Callable[[str], str] = link_node) -> None:
         self._graph, self._node_of = graph, node_of

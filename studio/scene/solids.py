@@ -143,7 +143,7 @@ def linear(colors: NDArray[np.uint8]) -> NDArray[np.uint8]:
 def many_of(shape: Solids, stream: str) -> dict[str, Node]:
     """A node for each opacity that is there, in steps of 1/32; what cannot be seen is not drawn.
 
-    viser's page could take an opacity for each, but would then make its mesh anew with each
+    viser's page could take an opacity for each, but would then make its mesh again with each
     message, and never give back what the one before took of the graphics processor.
     """
     if len(shape.positions) == 0:

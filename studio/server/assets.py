@@ -144,7 +144,7 @@ class Assets:
         self._tree = Tree("none", {}, _WITHOUT_INDEX, Modules({}))
 
     def current(self) -> Tree:
-        """The tree as the folder is now; read anew only when a stamp changed."""
+        """The tree as the folder is now; read again only when a stamp changed."""
         stamp = _stamp(self._folder)
         if stamp != self._stamp:
             self._tree, self._stamp = _read(self._folder, stamp, self._more), stamp

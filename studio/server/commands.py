@@ -125,7 +125,7 @@ class Answers:
 _RUNNING_LIMIT: Final = 64
 """Commands of one browser that may wait for the engine; then its socket is not read."""
 _TOO_SLOW: Final = 1013
-"""Close code `try again later`: the page connects anew and gets the whole state."""
+"""Close code `try again later`: the page connects again and gets the whole state."""
 
 
 class ControlLane:

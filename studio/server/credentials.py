@@ -78,7 +78,7 @@ class Credentials:
 
         Raises:
             DataFolderError: The new key cannot be written; the cookies are invalid all the same,
-                until the studio is started anew.
+                until the studio is started again.
         """
         self._key = secrets.token_bytes(_KEY_BYTES)
         if self._key_folder is None:

@@ -91,7 +91,7 @@ class Crowd:
             self.refuse("too many connections without a request")
 
     def recognise(self, connection: Connection, visitor: Visitor) -> bool:
-        """Count it as somebody's; False when they have as many as they may have."""
+        """Assign a connection to a person; False when they have too many."""
         if self._known.get(connection) == visitor:
             return True
         self.leave(connection)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from studio.server.websocket import Lane
 
 _TOO_SLOW: Final = 1013
-"""Close code `try again later`: the page connects anew and subscribes all again."""
+"""Close code `try again later`: the page connects again and subscribes all again."""
 _COMMAND_LIMIT_BYTES: Final = 4_096
 _TICK: Final = "tick"
 

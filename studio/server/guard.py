@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _SAFE_METHODS = frozenset({"GET", "HEAD"})
 _PUBLIC_PREFIXES = ("/a/", "/favicon.ico")
 _BEARER = "bearer "
-_CROWDED = "As many look on as this studio lets in: close a tab, or try again later."
+_CROWDED = "This studio has as many viewers as it takes: close a tab, or try again later."
 
 
 class Guard:
@@ -144,7 +144,7 @@ class Guard:
 
 
 def _recognise(scope: Scope, visitor: Visitor | None) -> bool:
-    """Tell the connection whose it is; False when they have as many as they may have."""
+    """Assign the connection to a person; False when they have too many."""
     connection = connection_of(scope) if scope["type"] == "http" else socket_of(scope)
     return connection.recognise(visitor)
 

@@ -73,7 +73,7 @@ class StudioConnection(HttpToolsProtocol):
         super().connection_lost(exc)
 
     def recognise(self, visitor: Visitor | None) -> bool:
-        """Say whose connection this is; False when they have as many as they may have."""
+        """Assign the connection to a person; False when they have too many."""
         if visitor is None:
             self._crowd.leave(self)
             self._crowd.arrive(self)

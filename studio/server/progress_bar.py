@@ -23,7 +23,7 @@ class ProgressBar:
         self._drawn = False
 
     def show(self, label: str, done: int, total: int) -> None:
-        """Say how far it is; `total` 0 when it is not known: then only how many."""
+        """Show the progress; with `total` 0, unknown, only how many."""
         if not self._stream.isatty() or self._clock() - self._begin_s < _DELAY_S:
             return
         filled = _CELLS * min(done, total) // total if total else 0

@@ -85,7 +85,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
         super().connection_lost(exc)
 
     def recognise(self, visitor: Visitor | None) -> bool:
-        """Say whose websocket this is; False when they have as many as they may have."""
+        """Assign the websocket to a person; False when they have too many."""
         if visitor is None:
             return True
         if visitor.role is not Role.PRESENTER:

@@ -237,7 +237,7 @@ class Intake:
         return None
 
     def _time_jumped(self, row: _Row, frame: int, newest_ns: int) -> bool:
-        """Whether a stamp behind the newest means that time began anew.
+        """Whether a stamp behind the newest means that time began again.
 
         It does when it comes from the publisher of the newest, or from another one after a pause; a
         stamp of 0 is one that was never set.
@@ -250,7 +250,7 @@ class Intake:
         return row.stamp_ns > 0 and (is_own or is_silent)
 
     def _jump(self, row: _Row, frame: int, newest_ns: int) -> Notice:
-        """Forget what a publisher sent of later times: its clock went back."""
+        """Forget what a publisher sent recentlyr times: its clock went back."""
         self.jump_back(
             self._arrivals.frames_of(self._arrivals.publisher_number(frame)), row.stamp_ns
         )
@@ -259,8 +259,8 @@ class Intake:
         else:
             self._store(row, frame)
         sentence = (
-            f'Time went back by {(newest_ns - row.stamp_ns) / 1e9:.3f} s for "{row.child}": what '
-            "its publisher had told of later times was forgotten."
+            f'Time went back by {(newest_ns - row.stamp_ns) / 1e9:.3f} s for "{row.child}": its '
+            "publisher's transforms of later times were dropped."
         )
         return Notice("time_jumped", *row[:2], row.publisher, sentence, left_out=False)
 
@@ -284,7 +284,7 @@ class Intake:
         if is_old or (moves_own and has_rested):
             return None
         parent = self._forest.names[self._forest.parents[frame]]
-        who = "its publisher tells of both" if moves_own else "another publisher tells of that"
+        who = "its publisher sends both" if moves_own else "another publisher sends that"
         return row.refused("other_parent", f'"{row.child}" hangs on "{parent}", and {who}')
 
     def _is_own(self, row: _Row, frame: int) -> bool:

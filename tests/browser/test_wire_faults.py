@@ -245,7 +245,7 @@ def the_router_is_killed(tab: StudioPage, endpoint: str, router: RunningDemo) ->
         assert "Connected." not in shown.inner_text()
     services = panel(tab, "services")
     services.get_by_role("button", name="Call", exact=True).click()
-    services.get_by_text("so nobody can be asked or told anything").wait_for()
+    services.get_by_text("so no node can be reached").wait_for()
 
 
 def the_router_is_back(tab: StudioPage, robot: FaultyRobot) -> None:

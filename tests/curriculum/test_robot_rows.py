@@ -228,7 +228,7 @@ def test_the_rover_tells_its_model_and_its_links_until_somebody_else_does(endpoi
             ),
         )
         other = node.create_publisher(message("std_msgs/msg/String"), "/robot_description", KEPT)
-        rover.wait_for("Somebody else tells the model of the robot.")
+        rover.wait_for("Another node publishes the robot's description.")
         wait_until("it has left", lambda: tellers(node) == ["tester"])
         node.destroy_publisher(other)
         wait_until("it is back", lambda: "robot_state_publisher" in tellers(node))

@@ -99,7 +99,7 @@ def test_a_camera_info_without_a_focal_length_is_told_and_the_angle_is_guessed(w
     (status,) = display.statuses()
     assert (status.level, status.reason) == ("warn", "no_camera_info")
     assert status.sentence == (
-        "The camera info says no focal length: the angle of view is guessed as 45 degrees."
+        "The camera info has no focal length: the angle of view is guessed as 45 degrees."
     )
     assert shown(display).fov_y_rad == pytest.approx(math.pi / 4)
     assert shown(display).aspect == 2.0

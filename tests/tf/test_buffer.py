@@ -170,7 +170,7 @@ def test_frames_of_other_trees_and_unknown_ones_are_told_apart():
     with pytest.raises(UnconnectedFramesError, match='look from "base"') as caught:
         buffer.fixed_from("map", "hand")
     assert caught.value.nearest == "base"
-    with pytest.raises(UnconnectedFramesError, match='publish where "base" is, which nothing'):
+    with pytest.raises(UnconnectedFramesError, match='publish the pose of "base"'):
         buffer.fixed_from("map", "base")
     with pytest.raises(UnknownFrameError, match='"wheel"'):
         buffer.fixed_from("map", "wheel")

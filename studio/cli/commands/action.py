@@ -34,12 +34,12 @@ if TYPE_CHECKING:
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `action`."""
+    """Add the verbs of `action` to the parser."""
     verbs = Verbs(parser)
     listing = verbs.add("list", _list, "name the actions that somebody serves")
     add_listing_options(listing, "actions")
     add_graph_options(listing)
-    info = verbs.add("info", _info, "say who serves an action and who may send goals")
+    info = verbs.add("info", _info, "print the servers and clients of an action")
     info.add_argument("action_name", metavar="ACTION")
     info.add_argument("-t", "--show-types", action="store_true", help="with its type")
     info.add_argument("-c", "--count", action="store_true", help="how many there are, alone")
@@ -233,7 +233,7 @@ class _Feedback:
             self._early.append(message)
 
     def begin(self) -> None:
-        """Say what came too early, and from now on what comes."""
+        """Print what came too early, and from now on what comes."""
         early, self._early = self._early or [], None
         for message in early:
             self.take(message)
@@ -258,7 +258,7 @@ class _ServerLog:
         self._actor.work_until(lambda: self._warning is not None, _LOG_PATIENCE_S)
         server = ", ".join(self._servers)
         if self._warning is None:
-            text = f"The answer holds no reason; what {server} prints may tell it."
+            text = f"The answer holds no reason; the output of {server} may."
         else:
             text = f"The answer holds no reason; meanwhile {server} logged: {self._warning.msg}"
         print(text, file=sys.stderr)

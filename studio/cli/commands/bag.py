@@ -17,4 +17,4 @@ def add(parser: argparse.ArgumentParser) -> None:
     verbs = Verbs(parser)
     verbs.add_unserved("record", "record topics", "bag record", f"record {_WITH}")
     verbs.add_unserved("play", "play what was recorded", "bag play", f"play it {_WITH}")
-    verbs.add_unserved("info", "say what was recorded", "bag info", f"look at it {_WITH}")
+    verbs.add_unserved("info", "print what was recorded", "bag info", f"look at it {_WITH}")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the options of `check`."""
+    """Add the options of `check` to the parser."""
     parser.add_argument("path", metavar="PATH", type=Path, help="a file, a folder or a .zip")
     parser.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
     parser.add_argument("--json", action="store_true", help="print a JSON list of the findings")

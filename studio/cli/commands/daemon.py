@@ -21,7 +21,7 @@ _SENTENCES = {
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `daemon`."""
+    """Add the verbs of `daemon` to the parser."""
     verbs = Verbs(parser)
     for name, sentence in _SENTENCES.items():
         summary = sentence[0].lower() + sentence[1:].rstrip(".")

@@ -14,14 +14,14 @@ _PACKAGE = "rover_description"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the options of `demo`."""
+    """Add the options of `demo` to the parser."""
     parser.add_argument(
         "--fresh", action="store_true", help="renew the working copy; its changes are lost"
     )
     parser.add_argument(
         "--no-graph",
         action="store_true",
-        help="without the ROS 2 node that drives the rover and tells of it (see: studio demos)",
+        help="without the ROS 2 node that drives the rover (see: studio demos)",
     )
     parser.set_defaults(run=run, takes_mappings=True)
     add_server_options(parser)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 _DETAILS = """\
-Without names: lists them. With names: starts them, all until Ctrl-C, and says what to try.
+Without names: lists them. With names: starts them, all until Ctrl-C, and prints what to try.
 Their names and the course's, as in `studio run`, are both understood.
 
 examples:
@@ -32,7 +32,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     """Give the parser the names of demos, and how they reach each other."""
     parser.epilog = _DETAILS
     parser.add_argument("names", metavar="NAME", nargs="*", help="which to start")
-    parser.add_argument("--about", action="store_true", help="say what to try, and start nothing")
+    parser.add_argument("--about", action="store_true", help="print what to try, and start nothing")
     parser.add_argument(
         "--ros-args",
         nargs=argparse.REMAINDER,
@@ -92,5 +92,5 @@ def _list(demos: Sequence[Demo]) -> None:
     for demo in demos:
         print(f"{demo.name:{width}}  {demo.shows}")
     print(
-        "\nStart some with `studio demos NAME ...`; `studio demos --about NAME` says what to try."
+        "\nStart some with `studio demos NAME ...`; `studio demos --about NAME` prints what to try."
     )

@@ -31,11 +31,11 @@ _Section = tuple[str, list[tuple[str, object]]]
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the options of `doctor`."""
+    """Add the options of `doctor` to the parser."""
     parser.description = "Look for what keeps nodes apart; exit code 1 when something does."
-    parser.add_argument("-r", "--report", action="store_true", help="say all, also what is well")
+    parser.add_argument("-r", "--report", action="store_true", help="print all, also what is well")
     parser.add_argument(
-        "-rf", "--report-failed", action="store_true", help="say all, but only of what is not well"
+        "-rf", "--report-failed", action="store_true", help="print only what is not well"
     )
     parser.add_argument(
         "-iw", "--include-warnings", action="store_true", help="as is: warnings are shown"
@@ -97,7 +97,7 @@ def _sections(wire: WireSession, graph: Graph) -> list[_Section]:
                 ("middleware name", "rmw_zenoh's wire, spoken by the studio"),
                 ("distribution", wire.profile.distro),
                 ("router", ", ".join(wire.settings.connect) or "of the configuration"),
-                ("router's Zenoh", ", ".join(router_versions(wire)) or "not told"),
+                ("router's Zenoh", ", ".join(router_versions(wire)) or "unknown"),
                 ("domain", wire.domain),
                 ("session", wire.zid),
             ],

@@ -28,7 +28,7 @@ _TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `interface`."""
+    """Add the verbs of `interface` to the parser."""
     verbs = Verbs(parser)
     for name, run, summary in (
         ("list", _list, "name every type that is known"),
@@ -115,7 +115,7 @@ def _hash(options: argparse.Namespace) -> None:
 
 
 def _type_name(options: argparse.Namespace) -> str:
-    """Give the type that is meant: `topic type` may be piped into these verbs.
+    """Return the type that is meant: `topic type` may be piped into these verbs.
 
     Raises:
         RosNameError: It names no type.
@@ -171,7 +171,7 @@ class _Writer:
         self._library, self._comments = library, comments
 
     def lines(self, text: str, nested: list[dict[str, str]], level: int) -> Iterator[str]:
-        """Give the lines of a text; below each field of a message, those of that message."""
+        """Return the lines of a text; below each field of a message, those of that message."""
         part = 0
         keeps = self._comments is _Comments.ALL or (self._comments is _Comments.OWN and not level)
         for line in text.strip("\n").split("\n"):

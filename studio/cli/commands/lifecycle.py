@@ -24,7 +24,7 @@ _TYPES = "lifecycle_msgs/srv"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `lifecycle`."""
+    """Add the verbs of `lifecycle` to the parser."""
     verbs = Verbs(parser)
     nodes = verbs.add("nodes", _nodes, "name the managed nodes")
     nodes.add_argument("-a", "--all", action="store_true", dest="hidden", help="hidden ones, too")

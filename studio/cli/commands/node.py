@@ -28,13 +28,13 @@ _DUPLICATES = (
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `node`."""
+    """Add the verbs of `node` to the parser."""
     verbs = Verbs(parser)
     listing = verbs.add("list", _list, "name the nodes that are there")
     listing.add_argument("-a", "--all", action="store_true", dest="hidden", help="hidden ones, too")
     listing.add_argument("-c", "--count-nodes", action="store_true", dest="count")
     add_graph_options(listing)
-    info = verbs.add("info", _info, "say what a node publishes, subscribes to, serves and calls")
+    info = verbs.add("info", _info, "print what a node publishes, subscribes to, serves and calls")
     info.add_argument("node_name", metavar="NODE")
     info.add_argument("--include-hidden", action="store_true", dest="hidden")
     add_graph_options(info)

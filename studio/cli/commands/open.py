@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the options of `open`."""
+    """Add the options of `open` to the parser."""
     parser.add_argument("path", metavar="PATH", type=Path, nargs="?", help="default: the last one")
     parser.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
     parser.set_defaults(run=run, takes_mappings=True)

@@ -27,7 +27,7 @@ _LIST_TYPE = "rcl_interfaces/srv/ListParameters"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `param`."""
+    """Add the verbs of `param` to the parser."""
     verbs = Verbs(parser)
     listing = verbs.add("list", _list, "name the parameters of a node, or of all")
     listing.add_argument("node_name", metavar="NODE", nargs="?")
@@ -52,7 +52,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     load.add_argument("--no-use-wildcard", action="store_true", help="not what * stands for")
     delete = _add_of_node(verbs, "delete", _delete, "take a parameter away from a node")
     delete.add_argument("parameter_name", metavar="NAME")
-    describe = _add_of_node(verbs, "describe", _describe, "say what parameters are for")
+    describe = _add_of_node(verbs, "describe", _describe, "print what parameters are for")
     describe.add_argument("parameter_names", metavar="NAME", nargs="+")
 
 
@@ -125,7 +125,7 @@ def _get(remote: ParameterClient, options: argparse.Namespace) -> int:
 
 
 def _label(parameter: Parameter) -> str:
-    """Say the type as `ros2 param get` does: `Integer value is:`, `Double values are:`."""
+    """Return the type as `ros2 param get` prints it: `Integer value is:`, `Double values are:`."""
     prefix, _, is_array = parameter.type_.name.partition("_")
     noun = {"BOOL": "Boolean"}.get(prefix, prefix.capitalize())
     return f"{noun} values are:" if is_array else f"{noun} value is:"
@@ -147,7 +147,7 @@ def _delete(remote: ParameterClient, options: argparse.Namespace) -> int:
 
 
 def _report(result: MessageValue | None, done: str, failed: str) -> int:
-    """Say what became of it, and the node's reason; None when it did not answer that."""
+    """Return the result, with the node's reason; None when it did not answer."""
     reason = f": {harmless(result.reason)}" if result is not None and result.reason else ""
     if result is not None and result.successful:
         print(f"{done}{reason}")

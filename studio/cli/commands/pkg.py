@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `pkg`."""
+    """Add the verbs of `pkg` to the parser."""
     verbs = Verbs(parser)
     _add_common(verbs.add("list", _list, "name the packages of opened folders"))
     xml = verbs.add("xml", _xml, "print the package.xml of a package")

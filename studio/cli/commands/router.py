@@ -12,7 +12,7 @@ _LOOPBACK = "tcp/127.0.0.1:7447"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the options of `router`."""
+    """Add the options of `router` to the parser."""
     parser.description = "Run a Zenoh router until Ctrl-C, so that nodes find each other."
     parser.add_argument(
         "--listen",

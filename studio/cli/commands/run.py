@@ -30,7 +30,7 @@ _COMMANDS = {("rviz2", "rviz2"): "open", ("xacro", "xacro"): "xacro"}
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the options of `run`."""
+    """Add the options of `run` to the parser."""
     parser.description = (
         "Start a node: one of the studio's own under the name that the course gives it "
         "(studio pkg executables lists them). Where no router answers, the node brings one. "
@@ -135,7 +135,7 @@ def _module_of(options: argparse.Namespace, package_path: list[str]) -> str:
 
 
 def _workspace_sentence(folder: Path, package: str, name: str, *, is_ours: bool) -> str:
-    """Say what the workspace holds under a name, and how to start what the studio has under it."""
+    """Return what the workspace has under a name, and how to start the studio's own."""
     known = executables_of(folder, package)
     if name in known:
         text = (
@@ -159,7 +159,7 @@ def _workspace_sentence(folder: Path, package: str, name: str, *, is_ours: bool)
 
 
 def _program(folder: Path, place: str) -> str:
-    """Say what an executable is: its file, and the function in it."""
+    """Return what an executable is: its file, and the function in it."""
     path = file_of(folder, place)
     module, colon, function = place.partition(":")
     if not colon:

@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `service`."""
+    """Add the verbs of `service` to the parser."""
     verbs = Verbs(parser)
     listing = verbs.add("list", _list, "name the services that somebody serves")
     add_listing_options(listing, "services")
     add_graph_options(listing)
-    info = verbs.add("info", _info, "say the type of a service and how many serve and call it")
+    info = verbs.add("info", _info, "print the type of a service and how many serve and call it")
     info.add_argument("service_name", metavar="SERVICE")
     add_graph_options(info)
     add_type_and_find(verbs, "service", "srv", lambda graph: graph.services())

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the options of `xacro`."""
+    """Add the options of `xacro` to the parser."""
     parser.add_argument("file", metavar="FILE")
     parser.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
     parser.add_argument("-o", dest="output", metavar="FILE", type=Path, help="write to FILE")

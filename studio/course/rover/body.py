@@ -45,7 +45,7 @@ class Body:
         self._still.sendTransform(map_from_odom)
 
     def publish(self, stamp: Time, drive: Drive, seconds: float) -> None:
-        """Tell all of it, as it is `seconds` after the start."""
+        """Publish the state `seconds` after the start."""
         if self.publishes_joints:
             self._publish_joints(stamp, drive, seconds)
         self._publish_odometry(stamp, drive)

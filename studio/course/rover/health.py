@@ -25,7 +25,7 @@ class Health:
         self._motor_c = 25.0
 
     def publish(self, stamp: Time, drive: Drive, seconds: float, *, is_blocked: bool) -> None:
-        """Tell how the rover does, once a second."""
+        """Publish the rover's health, once a second."""
         charge = 1.0 - seconds % _LASTS_S / _LASTS_S
         volts = EMPTY_V + (FULL_V - EMPTY_V) * charge
         self._motor_c += 0.02 * (25.0 + 40.0 * abs(drive.forward_m_s) - self._motor_c)

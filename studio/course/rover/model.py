@@ -29,7 +29,7 @@ class OwnModel:
         """Start to publish, or leave it to others who do; called every second."""
         if is_published_by_others(rover, "/robot_description"):
             if self._publisher is not None:
-                rover.get_logger().info("Somebody else tells the model of the robot.")
+                rover.get_logger().info("Another node publishes the robot's description.")
                 self._publisher.destroy_node()
                 self._publisher = None
         elif self._publisher is None:

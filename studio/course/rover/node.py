@@ -36,7 +36,7 @@ class RoverNode(Node):
         self.get_logger().info("The rover is on its way: /cmd_vel takes the wheel.")
 
     def stamp(self) -> Time:
-        """Give the time that messages of now carry."""
+        """Return the stamp of messages sent now."""
         return self.get_clock().now().to_msg()
 
     def on_command(self, msg: Twist) -> None:

@@ -32,7 +32,7 @@ POSTS_M: Floats = np.array([[3.9, 1.3, 0.18], [3.9, -1.3, 0.18], [-2.4, -3.4, 0.
 
 
 def cast_rays(x: float, y: float, angles_rad: Floats) -> tuple[Floats, NDArray[np.intp]]:
-    """Look from a place in given directions.
+    """Measure distances from a place in given directions.
 
     Returns:
         How far the nearest wall or post is, metres, inf where none is, and its number (walls

@@ -46,7 +46,7 @@ class TurtleEndpoints:
         self._rotating: ServerGoalHandle | None = None
 
     def publish(self, background: tuple[int, int, int]) -> None:
-        """Tell where the turtle is, and the colour below it."""
+        """Publish the turtle's pose, and the colour below it."""
         turtle = self._turtle
         pose = Pose(x=turtle.x, y=turtle.y, theta=turtle.theta)
         pose.linear_velocity = turtle.forward_m_s

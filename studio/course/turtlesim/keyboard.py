@@ -19,13 +19,13 @@ _sent: list[SimpleQueue[str]] = []
 
 
 def take_keys_from(sent: SimpleQueue[str]) -> None:
-    """Have the keys of this process come from a queue, not from a terminal."""
+    """Read the keys of this process from a queue, not from a terminal."""
     _sent[:] = [sent]
 
 
 @contextmanager
 def key_presses() -> Generator[Callable[[], str]]:
-    """Give a function that waits for a key; Ctrl-C still interrupts.
+    """Return a function that waits for a key; Ctrl-C still interrupts.
 
     Raises:
         SettingsError: Nobody types: the input is no terminal.

@@ -126,7 +126,7 @@ class Paper:
             self._dot(round(float(column)), round(float(row)), pen)
 
     def color_at(self, x: float, y: float) -> tuple[int, int, int] | None:
-        """Give the colour that was drawn at a place in metres; None for the background."""
+        """Return the colour that was drawn at a place in metres; None for the background."""
         column, row = (round(value) for value in _pixel((x, y)))
         if not self._drawn[row, column]:
             return None
@@ -183,11 +183,11 @@ class Flock:
         return stopped
 
     def color_below(self, turtle: Turtle, background: tuple[int, int, int]) -> tuple[int, int, int]:
-        """Give the colour of the ground where a turtle is."""
+        """Return the colour of the ground where a turtle is."""
         return self.paper.color_at(turtle.x, turtle.y) or background
 
     def clear(self) -> None:
-        """Take all turtles away and wipe the paper; counting begins anew."""
+        """Take all turtles away and wipe the paper; counting begins again."""
         self.turtles.clear()
         self.paper.clear()
         self._count = 0

@@ -63,7 +63,7 @@ def _differing_materials(run: CheckedRun) -> Iterator[Problem]:
             reported.add(name)
             sentence = (
                 f"The material {quoted(name)} is defined in line {known.origin.line} with "
-                "another look, which counts for both: give one of them a name of its own."
+                "another appearance, which counts for both: give one of them a name of its own."
             )
             short = shorten(sentence, 480)
             yield run.problem(Severity.INFO, "duplicate-material", short, element)
@@ -132,7 +132,7 @@ def _unused(run: CheckedRun, found: Sequence[Binding]) -> Problem:
     what = f"the {one} {shown}" if len(found) == 1 else f"{len(found)} {several} ({shown}{more})"
     it = "it" if len(found) == 1 else "them"
     sentence = (
-        f"Nothing reads {what}: remove {it}, or look whether what should read {it} is misspelt."
+        f"Nothing reads {what}: remove {it}, or check whether what should read {it} is misspelt."
     )
     removed = [ElementMends(each.element).gone() for each in found[:_MENDED]]
     label = f"Remove {first.name}" if len(found) == 1 else f"Remove {len(removed)} {several}"

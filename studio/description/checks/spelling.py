@@ -84,7 +84,7 @@ def misspelt_names(run: CheckedRun) -> Iterator[Problem]:
 def _within(
     run: CheckedRun, parent: str, element: OutputElement, parts: tuple[str, ...]
 ) -> Iterator[tuple[Problem, tuple[SourceElement, str]]]:
-    """Look at an element in one that is, or was meant to be, a `parent`."""
+    """Check an element in one that is, or was meant to be, a `parent`."""
     siblings, tag = _URDF[parent].children, element.tag
     if tag not in siblings:
         tag = _near(tag, siblings, _TAG_LIKENESS)

@@ -364,7 +364,7 @@ class Sources:
         return tuple(one.file for one in changed)
 
     def refresh(self, file: str) -> DiskChange:
-        """Look at the disk after somebody may have written a file that is held.
+        """Read a held file again, after another program may have written it.
 
         What the disk changed is taken, as a step to take back, and unsaved edits stay unsaved
         against the new text; where both changed the same place nothing is taken.

@@ -190,7 +190,7 @@ class SpanTable:
         self._shifts.clear()
 
     def _move(self, spans: dict[str, Span | None], notes: list[_Noted]) -> None:
-        """Have the sites of a file stand where edits left them."""
+        """Move the sites of a file to where edits left them."""
         shifts = _Shifts(notes)
         for name, span in spans.items():
             if span is None:
@@ -220,7 +220,7 @@ class SpanTable:
         return tuple(name for name, one in self._sites.items() if one.kind is SiteKind.LITERAL)
 
     def wrote(self, site_id: str) -> None:
-        """Say that the edit noted last wrote a site's text as its place spells it."""
+        """Note that the last edit wrote a site's text as its place spells it."""
         self._since[-1] = replace(self._since[-1], site=site_id)
         self._shifts.clear()
 

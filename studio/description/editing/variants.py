@@ -9,7 +9,7 @@ bytes: a variant can be applied to files that the last run did not read.
 
 The file is a small YAML beside the robot's, read as hostile, written for people. What a person
 wrote stays: variants that did not change keep their lines, comments above each one and around the
-list included. A text that reads back as anything else than what was to be written is written anew
+list included. A text that reads back as anything else than what was to be written is written again
 as a whole.
 """
 
@@ -97,7 +97,7 @@ class TextName:
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """A named set of arguments and texts, on top of those in the files."""
+    """A named set of arguments and texts, on top of what the files say."""
 
     name: str
     note: str = ""

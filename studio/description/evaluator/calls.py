@@ -60,7 +60,7 @@ def call_by_name(
 def call_macro(run: Walk, node: Node, out: OutputElement, macros: MacroTable, scope: Scope) -> None:
     """Evaluate a macro's body in a new scope, whose parent is the caller's."""
     macro, macros_in, scope_in = _resolve(node.tag[6:], macros, scope)
-    written = macro.body  # what stands inside the call may define the macro anew
+    written = macro.body  # what stands inside the call may define the macro again
     outer_frame = run.frame
     frame = CallFrame(macro.name, node.origin, outer_frame)
     run.budget.depth(frame.depth, macro.name)
@@ -160,7 +160,7 @@ def _bind_blocks(
 
 
 def _bind_defaults(run: Walk, macro: Macro, left: list[str], inner: Scope, scope: Scope) -> None:
-    """Give what the call left out its default, evaluated where the call stands."""
+    """Set the defaults of parameters that the call left out, evaluated at the call."""
     for name in [one for one in left if one in macro.defaults and not one.startswith("*")]:
         default = macro.defaults[name]
         binding = run.binding(

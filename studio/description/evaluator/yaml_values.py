@@ -176,7 +176,7 @@ class YamlSequence(list[Any]):
         return self._plain()
 
     def pop(self, index: Any = -1) -> Any:  # noqa: ANN401
-        """Take an item out of this copy; paths of later reads are no longer known."""
+        """Take an item out of this copy; paths recentlyr reads are no longer known."""
         value = super().pop(index)
         self._read_whole()
         self.reader = None
@@ -236,7 +236,7 @@ METHODS[YamlSequence] = METHODS[list]
 
 
 def wrap(value: Any, reader: Reader | None, path: KeyPath, *, plain: bool = False) -> Any:  # noqa: ANN401
-    """Have reads of mappings and lists noted, their dotted access unless `plain`."""
+    """Note the reads of mappings and lists, and dotted access unless `plain`."""
     if isinstance(value, dict):
         return YamlMapping(cast("dict[Any, Any]", value), reader, path, plain=plain)
     if isinstance(value, list):
@@ -246,7 +246,7 @@ def wrap(value: Any, reader: Reader | None, path: KeyPath, *, plain: bool = Fals
 
 
 def rewrite(wrapped: Any, reads: YamlReads, path: KeyPath, value: Any) -> None:  # noqa: ANN401
-    """Have a value that a run read hold another scalar of its file, wherever it holds that one."""
+    """Replace a scalar in a value that a run read, wherever it occurs."""
     if isinstance(wrapped, YamlMapping | YamlSequence):
         reader = wrapped.reader
         if reader is not None and reader.reads is reads and wrapped.path == path[:-1]:

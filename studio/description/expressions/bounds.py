@@ -80,7 +80,7 @@ def made(value: Any) -> Any:  # noqa: ANN401 - any value of a description
 
 
 def _check_hashes(keys: Collection[Any]) -> None:
-    """See that keys differ by their hashes: else to compare two sets takes a second.
+    """Check that keys differ by their hashes: else to compare two sets takes a second.
 
     Raises:
         Refusal: They do not.
@@ -170,7 +170,7 @@ class Budget:
         self.restart()
 
     def restart(self) -> None:
-        """Count anew, for an edit of what came out."""
+        """Count again, for an edit of what came out."""
         self._elements = self._evaluations = self._characters = 0
         self._checked_s = perf_counter()
         self._began = self._checked_s, thread_time()
@@ -255,7 +255,7 @@ class Budget:
             )
 
     def _check_clock(self) -> None:
-        """See that the time is not over, of which a loaded machine gives a run little.
+        """Check that the time is not over, of which a loaded machine gives a run little.
 
         Raises:
             Refusal: It is, and the run had no small part of the processor meanwhile.

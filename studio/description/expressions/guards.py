@@ -189,7 +189,7 @@ def checked_format(template: str) -> Callable[..., str]:
 
 
 def check_template(template: str, values: Any) -> None:  # noqa: ANN401
-    """See that `template % values` does not grow too large; raises a Refusal."""
+    """Raise a Refusal if `template % values` grows too large."""
     if _WIDE_FIELD.search(template):
         raise too_large()
     given = cast("tuple[Any, ...]", values) if isinstance(values, tuple) else (values,)
@@ -198,7 +198,7 @@ def check_template(template: str, values: Any) -> None:  # noqa: ANN401
 
 
 def check_fields(fields: int, widths: int, values: Iterable[Any]) -> None:
-    """See that a format of so many fields does not grow too large; raises a Refusal."""
+    """Raise a Refusal if a format of so many fields grows too large."""
     longest = max(map(_printed_size, values), default=0)
     if fields > 1 and (widths + fields * longest) > SIZE_LIMIT:
         raise too_large()
@@ -374,7 +374,7 @@ def text_of(value: Any) -> str:  # noqa: ANN401
 
 
 def check_printable(value: Any) -> None:  # noqa: ANN401
-    """See that a value can be printed: a list of lists of lists may be short and print without end.
+    """Check that a value can be printed: a short list of lists may print without end.
 
     Raises:
         Refusal: It would print more than PRINTED_LIMIT items.

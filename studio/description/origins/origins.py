@@ -30,9 +30,7 @@ class Origins:
     def part(self, part: str) -> PartOrigin | NoReply:
         """Return where a part comes from, by its key."""
         if self._run.evaluator != "studio":
-            return NoReply(
-                "xacro itself expanded this robot: it does not tell where parts come from."
-            )
+            return NoReply("xacro itself expanded this robot: where parts come from is not known.")
         element = dict(part_keys(self._trace.root)).get(part)
         if element is None:
             return NoReply(f'The robot has no part "{part}": it may be gone since.')
@@ -41,7 +39,7 @@ class Origins:
     def effects(self, site: str) -> SiteEffects | NoReply:
         """Return the effects of a text, by its site id."""
         if self._run.evaluator != "studio":
-            return NoReply("xacro itself expanded this robot: it does not tell what a text shapes.")
+            return NoReply("xacro itself expanded this robot: what a text affects is not known.")
         if site not in self._run.sites:
             return NoReply("That text is no longer there: choose it again.")
         return self._readers.effects_of(site)

@@ -61,7 +61,7 @@ class Patch(NamedTuple):
     """What changed."""
 
     parts: tuple[OutputElement, ...]
-    """Parts, by their element, that are to be written anew."""
+    """Parts, by their element, that are to be written again."""
     sites: dict[str, str]
     """Sites that may be other ones, by id, with their file."""
 
@@ -149,7 +149,7 @@ class LiveRun:
         return {one: None for one in holders if isinstance(one.value, dict | list | tuple)}
 
     def note_containers(self, changed: Iterable[Cell | Argument]) -> None:
-        """Look at what has another value now."""
+        """Handle what has another value now."""
         if "containers" in vars(self):
             found = (one for one in changed if isinstance(one.value, dict | list | tuple))
             self.containers.update(dict.fromkeys(found))
@@ -291,12 +291,12 @@ class TextEdits:
         self._before.clear()
 
     def take_back(self) -> None:
-        """Give the store its bytes back; what was parsed of them is parsed anew."""
+        """Restore the bytes in the store; what was parsed of them is parsed again."""
         for path, data in self._before.items():
             self._store.restore(path, data)
 
     def distrust(self) -> None:
-        """Have the values of edited YAML files read anew: they may not follow the bytes."""
+        """Forget the values of edited YAML files: they may not match the bytes."""
         for path in self._before:
             if self._store.held(path)[1] is not None:
                 self._store.restore(path, self._store.read(path)[1])
@@ -450,7 +450,7 @@ def _spliced(data: bytes, start: int, end: int, edit: Edit) -> bytes:
 
 
 def _check_warnings(warnings: Sequence[Problem], path: str, line: int) -> None:
-    """See that no warning stands where columns moved.
+    """Check that there is no warning where columns moved.
 
     Raises:
         PatchRefused: One may.

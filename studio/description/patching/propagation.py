@@ -61,7 +61,7 @@ class Replay:
             PatchRefused: It fails, warns, or reads other things than it did.
         """
         if record.is_noisy:
-            raise PatchRefused(f"{record.text!r} says more than its value")
+            raise PatchRefused(f"{record.text!r} has another effect than its value")
         self._record, self._scratch.reads = record, []
         self._texts.replay_from(record.file, self._scratch)
         try:
@@ -94,7 +94,7 @@ class Replay:
         return scope.run.symbols[name]
 
     def refuse(self, reason: str) -> None:
-        """Give up.
+        """Raise.
 
         Raises:
             PatchRefused: Always.
@@ -244,7 +244,7 @@ class Detaching:
             PatchRefused: Only a full run knows what follows.
         """
         if record.is_noisy or _COMPARES.search(record.text):
-            raise PatchRefused(f"{record.text!r} says more than its value")
+            raise PatchRefused(f"{record.text!r} has another effect than its value")
         self.unlinked.update(dict.fromkeys(behind(record)))
         self._propagation.forget(record)
         for read in dict.fromkeys(record.reads):
@@ -265,9 +265,9 @@ class Detaching:
     def _move(self, cell: Cell, evaluated: Record, reader: Record) -> None:
         """Let a property be evaluated by its next reader."""
         if reader.order % 1 or any(_triggered(reader)):
-            raise PatchRefused("the order of evaluation cannot be told")
+            raise PatchRefused("the order of evaluation is not known")
         if any(cell in around.reads for around in _around(reader)):
-            raise PatchRefused("who reads it next cannot be told")
+            raise PatchRefused("its next reader is not known")
         moved = list(_with_nested(evaluated))
         for one in moved:
             self._check_meaning(one, evaluated, reader)
@@ -278,7 +278,7 @@ class Detaching:
             read.readers.sort(key=_order)
 
     def _check_meaning(self, one: Record, first: Record, reader: Record) -> None:
-        """See that a text comes to the same when `reader` reads it.
+        """Check that a text has the same value when `reader` reads it.
 
         Raises:
             PatchRefused: It may not.

@@ -139,7 +139,7 @@ class LiveSites:
         return self._sites[self.index_of[site_id]]
 
     def write(self, index: int, edit: Edit, text: str) -> None:
-        """Have another text stand at a site; those behind it move."""
+        """Replace the text of a site; those behind it move."""
         growth = len(edit.new) - (edit.end - edit.start)
         self._growth[index] = self._growth.get(index, 0) + growth
         self._sites[index] = self._sites[index].rewritten(text)

@@ -48,7 +48,7 @@ class Reach:
         self._consumers: dict[Input, tuple[Consumer, ...]] = {}
 
     def forget(self, one: Input) -> None:
-        """Look at an input anew: it, or what is made of it, got or lost readers."""
+        """Examine an input again: it, or what is made of it, got or lost readers."""
         self._links.pop(one, None)
         self._consumers.pop(one, None)
 
@@ -129,7 +129,7 @@ class RunReads:
                 self._bindings.setdefault(_key(binding), []).append(binding)
 
     def readers_changed(self, one: Input) -> None:
-        """Look at an input anew."""
+        """Examine an input again."""
         self._reach.forget(one)
 
     def bindings(self, path: str, site: FileSite) -> list[Binding]:

@@ -217,7 +217,7 @@ class TagReader:
         return end
 
     def check_ampersands(self, start: int, end: int) -> None:
-        """Tell of each & between two places that means itself."""
+        """Report each literal & between two places."""
         what = "An ampersand that means itself is written &amp;."
         self._escape(LONE_AMPERSAND, (start, end), "xml-ampersand", what, "&amp;")
 

@@ -102,7 +102,7 @@ class NamedList:
         return text
 
     def refuse_twins(self, node: yaml.Node, names: Iterable[str]) -> None:
-        """See that no name stands twice; errors as for `items`."""
+        """Check that no name occurs twice; errors as for `items`."""
         seen: set[str] = set()
         for name in names:
             if name in seen:

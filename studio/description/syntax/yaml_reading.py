@@ -78,7 +78,7 @@ def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  #
 
 
 def check_aliases(data: bytes) -> None:
-    """See that the aliases of a YAML text do not expand without bound; errors are left alone.
+    """Check that the aliases of a YAML text do not expand without bound; ignore errors.
 
     Raises:
         Refusal: They do.

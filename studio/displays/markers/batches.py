@@ -108,7 +108,7 @@ class MarkerBatches:
 
 
 class _Paths:
-    """Short paths that are used again, so that what is drawn anew takes the place of the old."""
+    """Short paths that are used again, so that what is drawn again takes the place of the old."""
 
     def __init__(self) -> None:
         self._of: dict[_Place, str] = {}

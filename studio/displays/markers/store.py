@@ -379,7 +379,7 @@ class MarkerStore:
     def _put_batches(
         self, sorted_in: tuple[list[BatchKey], Whole], rows: Whole, changed: Flags
     ) -> None:
-        """Put markers into their batches; those that hold what changed are to be drawn anew."""
+        """Put markers into their batches; those that hold what changed are to be drawn again."""
         keys, which = sorted_in
         numbers = np.array([self._number(key) for key in keys], dtype=np.int64)[which]
         moved = self.table.batch[rows] != numbers

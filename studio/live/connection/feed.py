@@ -125,7 +125,7 @@ class RobotFeed:
                 await self._sending.stop_joints()
 
     async def describe(self, description: ReceivedDescription, data_folder: Path) -> None:
-        """Let the description come from the wire: what comes anew is written into the file."""
+        """Let the description come from the wire: what comes again is written into the file."""
         async with self._switching():
             await self._sending.stop_robot()  # it would be its own echo
             before, self._described = self._described, _Described(description, data_folder)

@@ -173,7 +173,7 @@ class WireLink:
         return answer.values[0].string_value if answer.values else ""
 
     def shown_hash(self, type_name: str) -> str:
-        """Give the hash of a type as publishers show it who have it as it is known here.
+        """Return the hash of our definition of a type, as in tokens.
 
         Raises:
             UnknownTypeError: It is not known.

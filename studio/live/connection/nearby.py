@@ -37,12 +37,12 @@ class Nearby:
         """In the domain that would be joined; 0 while nothing is checked."""
 
     def check(self) -> None:
-        """Look from now on, if that is wanted and is not done yet."""
+        """Start to check, if that is wanted and not running."""
         if self._is_wanted() and (self._task is None or self._task.done()):
             self._task = asyncio.create_task(self._check())
 
     async def close(self) -> None:
-        """Look no more."""
+        """Stop checking."""
         if self._task is not None:
             self._task.cancel()
             await asyncio.gather(self._task, return_exceptions=True)

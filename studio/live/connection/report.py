@@ -134,7 +134,7 @@ def _starts(choice: WireChoice, settings: WireSettings) -> bool:
 
 
 def _judged(settings: WireSettings, census: Census, request: int) -> WireReport:
-    """Say what a count of those who are there means."""
+    """Return sentences on what a census means."""
     ends = census.endpoints.values()
     hashes = DistroHashes(types_of(settings.profile.distro))
     foreign = foreign_hashes(ends, settings.profile, hashes)

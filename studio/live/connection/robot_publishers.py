@@ -43,7 +43,7 @@ class RobotOut:
         node.add_post_set_parameters_callback(self._take)
 
     def describe(self, urdf: str, robot: Robot, kinematics: Kinematics) -> None:
-        """Tell this robot from now on, by topics and as a parameter."""
+        """Publish this robot from now on, on topics and as a parameter."""
         self._node.set_parameters([Parameter(_DESCRIPTION, value=urdf)])
         with self._turn:
             self._described = urdf, robot, kinematics

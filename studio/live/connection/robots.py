@@ -38,7 +38,7 @@ _FIRST_PATIENCE_S = 5.0
 
 
 class LetsGo(Protocol):
-    """Whoever uses the connection, and can do without."""
+    """A user of the connection that can be detached from it."""
 
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
@@ -150,7 +150,7 @@ class ConnectionCommands:
         text = await asyncio.to_thread(description.first, _FIRST_PATIENCE_S)
         if text is None:
             raise CommandError(
-                f"Nothing told a robot at {description.source} within {_FIRST_PATIENCE_S:.0f} s: "
+                f"No description came from {description.source} within {_FIRST_PATIENCE_S:.0f} s: "
                 "is robot_state_publisher running, in this domain?"
             )
         indexes = [one.location.index for one in self._opener.documents.values()]

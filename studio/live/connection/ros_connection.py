@@ -59,7 +59,7 @@ class RosConnection:
         """A connection is made once the one before is ended: their router has one place."""
 
     def attach(self, listener: Listener) -> None:
-        """Tell a page how it stands, now and whenever that changes."""
+        """Send a page the state, now and whenever it changes."""
         self._audience.add(listener)
         send(listener, self._state())
         self._nearby.check()
@@ -79,12 +79,12 @@ class RosConnection:
         return self._choice
 
     def choose(self, choice: WireChoice) -> None:
-        """Look elsewhere from the next connection on."""
+        """Choose the router of the next connection."""
         self._choice = choice
         self._send()
 
     async def link(self) -> WireLink:
-        """Give the connection; the first who asks has it opened.
+        """Return the connection; the first call opens it.
 
         Raises:
             StudioError: There is no router, and none may be started; or the settings are wrong.
@@ -159,7 +159,7 @@ class RosConnection:
         return WireLink(self._choice, changed)
 
     def _is_alone(self) -> bool:
-        """Whether a page is there that is not connected, and might like to be."""
+        """Whether there is a page but no connection."""
         is_idle = self._link is None and self._phase != "connecting"
         return is_idle and not self._closed and len(self._audience) > 0
 

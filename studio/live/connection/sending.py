@@ -89,7 +89,7 @@ class RobotSending:
         return tuple(dict.fromkeys(found))[:_RIVALS_SHOWN]
 
     async def start_robot(self, link: WireLink) -> None:
-        """Tell the description and TF from now on.
+        """Publish the description and TF from now on.
 
         Raises:
             StudioError: It cannot.
@@ -99,7 +99,7 @@ class RobotSending:
             self._description, self._values = None, None
 
     async def start_joints(self, link: WireLink) -> None:
-        """Tell the joints' positions from now on; errors as for `start_robot`."""
+        """Publish the joints' positions from now on; errors as for `start_robot`."""
         self._joints_link = link
         await self._fit_joints()
 
@@ -111,19 +111,19 @@ class RobotSending:
         self._stamp_ns = stamp_ns
 
     async def stop_robot(self) -> None:
-        """Tell the description and TF no more."""
+        """Stop publishing the description and TF."""
         async with self._turn:
             robot, self._robot = self._robot, None
         if robot is not None:
             await asyncio.to_thread(robot.close)
 
     async def stop_joints(self) -> None:
-        """Tell the joints' positions no more."""
+        """Stop publishing the joints' positions."""
         self._joints_link = None
         await self._fit_joints()
 
     async def pause_joints(self, *, paused: bool) -> None:
-        """Tell the joints' positions for a while not, or again; errors as for `start_robot`.
+        """Pause publishing the joints' positions, or resume; errors as for `start_robot`.
 
         The node is gone meanwhile: others that would make room for it need not.
         """
@@ -146,7 +146,7 @@ class RobotSending:
                 await asyncio.to_thread(joints.close)
 
     async def step(self, now_s: float) -> None:
-        """Tell what is due."""
+        """Publish what is due."""
         async with self._turn:
             await self._step(now_s)
 

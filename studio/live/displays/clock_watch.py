@@ -1,4 +1,4 @@
-"""ClockWatch: notices when the time on /clock begins anew, as of a simulation or a bag."""
+"""ClockWatch: notices when the time on /clock begins again, as of a simulation or a bag."""
 
 from __future__ import annotations
 

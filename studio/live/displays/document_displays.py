@@ -381,7 +381,7 @@ class DocumentDisplays:
         self._states.send(self._room.states(self._list, time.time_ns()))
 
     def _send_displays(self) -> None:
-        """Tell how all are set, if that is news: how they listen changes with who publishes."""
+        """Send all settings if they changed: the QoS changes with the publishers."""
         self._settings.send(self._displays())
 
     def _displays(self) -> LiveDisplays:

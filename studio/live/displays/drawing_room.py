@@ -142,12 +142,12 @@ class DrawingRoom:
             running.close()
 
     def renew(self) -> None:
-        """The fixed frame is another: everything is placed anew."""
+        """The fixed frame is another: everything is placed again."""
         for running in self._running.values():
             running.placing.renew()
 
     def follow(self, frame: str, now_ns: int, visitor: Visitor) -> str:
-        """Have a frame stand in the scene for a while; answers why it does not, or nothing."""
+        """Keep a frame in the scene for a while; return why it cannot be, or an empty text."""
         return self._followed.ask(frame, now_ns, visitor) or self.frames.trouble_of(frame)
 
     def step(self, displays: DisplayList, now_ns: int) -> None:

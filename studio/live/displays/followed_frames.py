@@ -94,7 +94,7 @@ class FollowedFrames:
         self._drawn: tuple[str, ...] = ()
 
     def ask(self, frame: str, now_ns: int, visitor: Visitor) -> str:
-        """Have a frame followed for a while; answers why it cannot be, else nothing."""
+        """Follow a frame for a while; return why it cannot be, or an empty text."""
         return self._asked[visitor.role].ask(frame, now_ns + FOLLOWED_FOR_NS, visitor)
 
     def step(self, lookup: Lookup, now_ns: int) -> None:

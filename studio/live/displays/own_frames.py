@@ -120,7 +120,7 @@ class OwnFrames:
             self._kinematics = self._edges = None
 
     def step(self) -> None:
-        """Tell what changed since the last step."""
+        """Set what changed since the last step."""
         kinematics, values = self._robot.kinematics, self._robot.joints.values
         if kinematics is self._kinematics and np.array_equal(values, self._values):
             return
@@ -141,7 +141,7 @@ class OwnFrames:
         self._children = children
 
     def _put(self, parent_from_links: Floats) -> None:
-        """Tell of the edges that moved: of a large robot few do."""
+        """Set the edges that moved: of a large robot few do."""
         edges = self._edges
         if edges is None or not edges.children:
             return

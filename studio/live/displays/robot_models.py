@@ -72,7 +72,7 @@ class RobotModels:
         self._tasks: set[asyncio.Task[None]] = set()
 
     def step(self, displays: Mapping[str, Display], link: ReadsParameters | None) -> None:
-        """Look at what is wanted now, and hand out what has come.
+        """Read what the displays want now, and pass on what has come.
 
         Args:
             displays: All there are by their ids.
@@ -137,7 +137,7 @@ class RobotModels:
         model.close_description()
 
     def _want(self, model: _Model, text: str) -> None:
-        """Have a text or file read, if it was not; the newest counts."""
+        """Read a text or file unless it was read; the newest counts."""
         model.wanted = text
         if text == model.done:
             model.done = text  # this very object, for it is long: no need to compare it again

@@ -116,7 +116,7 @@ class SceneFrames:
         self.unsubscribe()
 
     def has_jumped(self) -> bool:
-        """Whether time went back since this was asked last, as of a bag that begins anew."""
+        """Whether time went back since this was asked last, as of a bag that begins again."""
         if not self._jumped:
             return False  # a change during the notification is found the next time
         self._jumped = False
@@ -255,8 +255,8 @@ class SceneFrames:
         """Drop transforms from the future, as tf2 does."""
         self.buffer.jump_back(now_ns, before_ns)
         sentence = (
-            f"Time went back by {(before_ns - now_ns) / 1e9:.3f} s on /clock: what was told of "
-            "later times was forgotten."
+            f"Time went back by {(before_ns - now_ns) / 1e9:.3f} s on /clock: transforms of "
+            "later times were dropped."
         )
         self._note(Notice("time_jumped", "", "", "", sentence, left_out=False))
         self._jumped = True

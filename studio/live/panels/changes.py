@@ -37,7 +37,7 @@ class Changes:
         self._closed = False
 
     def follow(self, command: FollowChanges, listener: Listener) -> None:
-        """Tell a page of changes from now on, or no more."""
+        """Send a page the changes of a subject from now on, or no more."""
         self._loop = asyncio.get_running_loop()
         if command.following:
             self._followers[command.subject].add(listener)
@@ -54,12 +54,12 @@ class Changes:
         return bool(self._followers[subject])
 
     def all_changed(self) -> None:
-        """Tell all who follow anything soon: what they asked for was of another connection."""
+        """Notify all followers soon: their answers were of another connection."""
         for subject in _PAUSES_S:
             self.changed(subject)
 
     def changed(self, subject: Subject) -> None:
-        """Tell those who follow it soon."""
+        """Notify the followers of a subject soon."""
         if self._followers[subject] and not self._closed:
             self._throttles[subject].trigger()
 
@@ -76,7 +76,7 @@ class Changes:
             loop.call_soon_threadsafe(self._wake, subject)
 
     async def close(self) -> None:
-        """Tell nothing more."""
+        """Send nothing more."""
         self._closed = True
         await asyncio.gather(*(one.close() for one in self._throttles.values()))
 

@@ -117,7 +117,7 @@ class Driving:
                 self._end(topic, driver)
 
     async def let_go(self) -> None:
-        """Have all stand still: the connection is about to end."""
+        """Stop all: the connection is about to end."""
         for topic, driver in tuple(self._drivers.items()):
             self._end(topic, driver)
         self._leaves = True

@@ -53,7 +53,7 @@ class ActionClients:
         self._clients: dict[tuple[str, str], tuple[ActionClient, int]] = {}
 
     def take(self, kind: ActionType, name: str) -> ActionClient:
-        """Give the client of an action, to be given back."""
+        """Return the client of an action, to be given back."""
         with self._turn:
             client, users = self._clients.get((name, kind.name), (None, 0))
             made = client or ActionClient(self._link.node, kind, name)

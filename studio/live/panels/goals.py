@@ -156,7 +156,7 @@ class ActionGoals:
         return frozenset(one.goal_id for one in self.operations.all() if one.goal_id)
 
     async def let_go(self) -> None:
-        """Hear of no goal any more: the connection is about to end."""
+        """End all: the connection is about to end."""
         await self._running.end_all(
             "The connection with ROS 2 was ended: the goal may go on where it is carried out."
         )
@@ -177,7 +177,7 @@ class ActionGoals:
     async def _follow(
         self, goal: Goal, request: GoalRequest, timeout_s: float
     ) -> tuple[GoalState, str]:
-        """Give how it ended, and its result."""
+        """Return how it ended, and its result."""
         loop = asyncio.get_running_loop()
 
         def take(feedback: object) -> None:
@@ -225,7 +225,7 @@ class ActionGoals:
             await self._find_why(goal)
 
     async def _find_why(self, goal: Goal) -> None:
-        """Look for what its server logged: its answer holds no reason."""
+        """Find what its server logged, for its answer has no reason."""
         goal.server_said = await self._logs.newest_warning(
             goal.servers,
             after=goal.log_from,

@@ -34,7 +34,7 @@ class GraphViews:
         self._wire = wire
 
     async def graph(self, command: GetGraph) -> GraphAnswer:
-        """Tell who is there; nothing, if that is what is known."""
+        """Return the graph; nothing if it is the version known."""
         link = self._wire.current
         if link is None or link.graph.version == command.known:
             known = -1 if link is None else command.known
@@ -44,7 +44,7 @@ class GraphViews:
         return await asyncio.to_thread(_answer, link, command.request)
 
     async def node(self, command: GetNode) -> NodeAnswer:
-        """Tell what a node has."""
+        """Return the topics, services and actions of a node."""
         link = self._wire.current
         if link is None:
             return _node_answer(command, 0, {})

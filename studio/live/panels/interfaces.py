@@ -38,7 +38,7 @@ _REASONS_SHOWN: Final = 2
 _PAUSE_S: Final = 5.0
 """Before a node is asked again for a type that it did not describe."""
 _UNDESCRIBED_MAX: Final = 500
-_NOBODY: Final = "no known package defines it, and no node that is there tells it"
+_NOBODY: Final = "no known package defines it, and no running node describes it"
 _ADVICE: Final = "drop its .{kind} file, or its package's folder, on the page"
 
 
@@ -72,7 +72,7 @@ class TypeLearner:
             if time.monotonic() - asked_s < _PAUSE_S:
                 return {}
             texts = await asyncio.to_thread(_texts, self._wire.current, name)
-            self._keep(name, "" if texts else "nobody tells its text")
+            self._keep(name, "" if texts else "no node has its definition")
             return texts
 
     def _keep(self, name: str, why: str) -> None:
@@ -150,7 +150,7 @@ class InterfaceTypes:
         return await asyncio.to_thread(self._answer, command)
 
     async def names(self, command: ListInterfaces) -> InterfacesAnswer:
-        """Tell which types are known."""
+        """Return the known types."""
         return await asyncio.to_thread(self._names, command.request)
 
     async def add(self, command: AddInterfaces) -> InterfacesAdded:
@@ -166,7 +166,7 @@ class InterfaceTypes:
         return await asyncio.to_thread(self._add, command)
 
     def library(self) -> TypeLibrary:
-        """Give the types that are known; the first time in a thread, for it takes its time."""
+        """Return the known types; the first time in a thread, for it takes its time."""
         from studio.ros.messages import shared_types  # noqa: PLC0415 - takes its time
 
         link = self._wire.current

@@ -76,7 +76,7 @@ class PrintedLines:
         self.take(b"" if self._rest == "" else b"\n")
 
     def after(self, number: int) -> tuple[tuple[str, ...], int]:
-        """Give the lines after that one which are kept, and the number of the newest of all."""
+        """Return the kept lines after one, and the number of the newest of all."""
         missing = max(0, self._last - number)
         begin = max(0, len(self._lines) - missing)
         return tuple(islice(self._lines, begin, None)), self._last
@@ -162,7 +162,7 @@ class DemoRun:
             self._process.stdin.write(f"{key}\n".encode())
 
     async def stop(self) -> None:
-        """Tell it to end, and make it when it does not; returns once it has ended."""
+        """Send Ctrl-C, then kill it if it does not end; return once it has ended."""
         await self._spawned.wait()
         if self._life is None or self._process is None or self.is_over:
             return
@@ -230,7 +230,7 @@ class CourseDemos:
         self._closed = False
 
     def lessons(self, command: GetLessons) -> Lessons:
-        """Tell which demos there are, in the order in which they are taught."""
+        """Return the demos, in the order in which they are taught."""
         return Lessons(
             request=command.request,
             lessons=tuple(
@@ -241,7 +241,7 @@ class CourseDemos:
         )
 
     async def demos(self, command: GetDemos) -> Demos:
-        """Tell which demos run, those of others too."""
+        """Return the demos that run, also those started elsewhere."""
         elsewhere = await self._find_others()
         return Demos(
             request=command.request,
@@ -250,7 +250,7 @@ class CourseDemos:
         )
 
     def output(self, command: GetDemoOutput) -> DemoOutput:
-        """Tell what a demo printed after what is known; nothing of one that was never started."""
+        """Return what a demo printed after the lines known; nothing if it was never started."""
         run = self._runs.get(_lesson(command.demo).demo)
         if run is None:
             return DemoOutput(request=command.request, run=0, lines=(), last=0)
@@ -258,7 +258,7 @@ class CourseDemos:
         return DemoOutput(request=command.request, run=run.number, lines=lines, last=last)
 
     async def code(self, command: GetDemoCode) -> DemoCode:
-        """Give the source code of a demo.
+        """Return the source code of a demo.
 
         Raises:
             CommandError: It is none.
@@ -334,7 +334,7 @@ class CourseDemos:
         return run
 
     async def _find_others(self) -> tuple[str, ...]:
-        """See whose nodes are there; gives the demos that others started."""
+        """Read the graph, and return the demos that others started."""
         link = self._wire.current
         there = await self._sessions.by_node(link) if link else {}
         for run in self._runs.values():
@@ -361,7 +361,7 @@ class _Sessions:
         self._by_node: dict[str, frozenset[str]] = {}
 
     async def by_node(self, link: WireLink) -> dict[str, frozenset[str]]:
-        """Tell them for a connection."""
+        """Return the sessions of each node of a connection."""
         now = link.zid, link.graph.version
         if now != self._of:
             # Of thousands of nodes it takes its time.

@@ -62,7 +62,7 @@ class LifecycleNodes:
         )
 
     async def change(self, command: ChangeState) -> None:
-        """Have a node take a transition, and return when it did.
+        """Trigger a transition of a node, and return when it was made.
 
         Raises:
             CommandError: There is no connection, or the node did not get where it should.

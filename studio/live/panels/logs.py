@@ -50,7 +50,7 @@ class LogRing:
                 self._characters -= _size(self._lines.popleft())
 
     def after(self, number: int) -> tuple[tuple[LogLine, ...], int, int]:
-        """Give the oldest lines after that one, and the numbers of the oldest and newest kept."""
+        """Return the oldest lines after that one, and the numbers of the oldest and newest kept."""
         with self._lock:
             if not self._lines:
                 return (), 0, 0

@@ -61,7 +61,7 @@ class Operations(Generic[OperationT]):
         self._closed = False
 
     def next_number(self) -> int:
-        """Give a number for one that is about to begin.
+        """Return a number for one that is about to begin.
 
         Raises:
             CommandError: Too many run.

@@ -61,7 +61,7 @@ class NodeParameters:
         self._throttle = Throttle(self._send, pause_s=_PAUSE_S)
 
     async def nodes(self, command: GetParameterNodes) -> ParameterNodes:
-        """Tell which nodes have parameters."""
+        """Return the nodes that have parameters."""
         link = self._wire.current
         found = await asyncio.to_thread(_nodes, link) if link is not None else ()
         return ParameterNodes(request=command.request, nodes=found)
@@ -104,7 +104,7 @@ class NodeParameters:
         )
 
     async def follow(self, command: FollowParameters, listener: Listener) -> None:
-        """Tell a page when parameters of a node change; of one node at a time.
+        """Send a page the changes of a node's parameters; of one node at a time.
 
         Where a ROS system is connected, changes are received once this is done.
         """

@@ -26,7 +26,7 @@ _STAY_S: Final = 0.2
 """After a single publication, before the publisher closes."""
 _CHECK_EVERY_S: Final = 0.5
 _GRACE_S: Final = 3.0
-"""A page that is loaded anew is back within this time."""
+"""A page that is loaded again is back within this time."""
 
 _State: TypeAlias = Literal["running", "done", "stopped", "failed"]
 _STATES: Final[dict[str, _State]] = {"done": "done", "failed": "failed", "cancelled": "stopped"}

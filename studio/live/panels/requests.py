@@ -92,7 +92,7 @@ class ServiceRequest:
 
 
 def wire_name(text: str) -> str:
-    """Give the full name of a topic, a service or a node, its first slash added if missing.
+    """Return the full name of a topic, a service or a node, its first slash added if missing.
 
     Raises:
         RosNameError: It breaks a rule.

@@ -73,7 +73,7 @@ class RosSystem:
         }
 
     def _connection_changed(self) -> None:
-        """Have pages ask anew: for all that they follow, where it is another connection."""
+        """Notify pages; with another connection, of all that they follow."""
         if self._epoch == self.connection.topics.epoch:
             self.changes.changed("graph")
         else:

@@ -140,7 +140,7 @@ class _Browser:
         self._sent: dict[int, SubscriptionView] = {}
 
     def send_states(self) -> None:
-        """Tell how each subscription stands, where that is news."""
+        """Send the states that changed."""
         for subscription, channel in self.channels.items():
             view = channel.state(subscription)
             if self._sent.get(subscription) != view:
@@ -266,7 +266,7 @@ class BrowserTopics:
         self._hand_on((one for one in self._channels.values() if one.is_at_once), loop.time())
 
     def _hand_on(self, channels: Iterable[_Channel], now_s: float) -> None:
-        """Give every browser what came for it; those that want the same share one frame."""
+        """Send every browser its messages; browsers with the same channels share one frame."""
         chunks: dict[int, Chunk] = {}
         for channel in channels:
             if (chunk := channel.take(now_s)) is not None:

@@ -52,7 +52,7 @@ class SharedSource(ABC):
         self._streams: dict[_Key, Stream] = {}
         self.rates = TopicRates(self.measure)
         self.fitting = threading.Lock()
-        """Whoever changes what can be received holds it meanwhile."""
+        """Held while the source is attached, detached or fitted."""
         self._epoch = 0
 
     @property
@@ -67,7 +67,7 @@ class SharedSource(ABC):
 
     @abstractmethod
     def catalogue(self) -> list[Topic]:
-        """Give all topics by name."""
+        """Return all topics by name."""
 
     @abstractmethod
     def publishers(self, topic: str) -> Sequence[Endpoint]:
@@ -75,7 +75,7 @@ class SharedSource(ABC):
 
     @abstractmethod
     def sender(self, gid: bytes) -> str | None:
-        """Give the full name of the node that sent samples with a GID; None: it is not known."""
+        """Return the full name of the node that sent samples with a GID; None: it is not known."""
 
     @property
     @abstractmethod
@@ -84,11 +84,11 @@ class SharedSource(ABC):
 
     @abstractmethod
     def own_hash(self, type_name: str) -> str | None:
-        """Give what publishers show who have the type as it is known here; None: it is not."""
+        """Return the hash of our definition of a type, as in tokens; None: it is not known."""
 
     @abstractmethod
     def senders(self, topic: str) -> frozenset[bytes]:
-        """Give the GIDs of those who publish a topic."""
+        """Return the GIDs of a topic's publishers."""
 
     @abstractmethod
     def open(self, topic: str, fit: Fit, stream: Stream) -> WireSubscription:
@@ -111,7 +111,7 @@ class SharedSource(ABC):
 
     @abstractmethod
     def hand_over(self, subscription: Subscription) -> None:
-        """See to it that the subscription hands over what waits."""
+        """Make sure that the subscription hands over what waits."""
 
     def subscribe(
         self,
@@ -133,12 +133,12 @@ class SharedSource(ABC):
         return self.rates.flows(topics)
 
     def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:
-        """Give the newest sample of each topic at or before a time, of those that are latched."""
+        """Return the newest sample of each topic at or before a time, of those that are latched."""
         found = {topic: self._kept(topic, 0, at_ns + 1) for topic in topics}
         return {topic: samples[-1] for topic, samples in found.items() if samples}
 
     def window(self, topic: str, begin_ns: int, end_ns: int) -> list[RawSample]:
-        """Give the samples from a time on and before another, of those that are latched."""
+        """Return the latched samples in [begin_ns, end_ns)."""
         return self._kept(topic, begin_ns, end_ns)
 
     def fit_all(self) -> None:

@@ -53,7 +53,7 @@ class TopicSource(Protocol):
         ...
 
     def catalogue(self) -> list[Topic]:
-        """Give all topics by name."""
+        """Return all topics by name."""
         ...
 
     def publishers(self, topic: str) -> Sequence[Endpoint]:
@@ -61,7 +61,7 @@ class TopicSource(Protocol):
         ...
 
     def sender(self, gid: bytes) -> str | None:
-        """Give the full name of the node that sent samples with a GID; None: it is not known."""
+        """Return the full name of the node that sent samples with a GID; None: it is not known."""
         ...
 
     def subscribe(
@@ -96,7 +96,7 @@ class TopicSource(Protocol):
         ...
 
     def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:
-        """Give the newest sample of each topic at or before a time, of those that are kept.
+        """Return the newest sample of each topic at or before a time, of those that are kept.
 
         Args:
             topics: Full names.
@@ -105,7 +105,7 @@ class TopicSource(Protocol):
         ...
 
     def window(self, topic: str, begin_ns: int, end_ns: int) -> list[RawSample]:
-        """Give the samples of a topic from a time on and before another, of those that are kept."""
+        """Return the kept samples of a topic in [begin_ns, end_ns)."""
         ...
 
 

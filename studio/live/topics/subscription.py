@@ -70,7 +70,7 @@ class Subscription:
         return max(0, self._missed + missed) + self.dropped
 
     def rate_hz(self, now_ns: int) -> float:
-        """Return how many samples come in a second, of late; `now_ns` is since the Unix epoch."""
+        """Return how many samples come in a second, recently; `now_ns` is since the Unix epoch."""
         stream = self._stream
         return 0.0 if stream is None else stream.arrivals.rate_hz(now_ns)
 
@@ -191,11 +191,11 @@ class WireSubscription(Protocol):
         ...
 
     def read(self, *, newest_only: bool) -> None:
-        """Give of what comes together the newest alone, or all."""
+        """Take only the newest of samples that came together, or all."""
         ...
 
     def hurry(self, *, wanted: bool) -> None:
-        """Give what comes as soon as can be, or as all others."""
+        """Take samples as soon as possible, or as usual."""
         ...
 
     def deepen(self, depth: int, swapped: Callable[[], object]) -> None:
@@ -279,7 +279,7 @@ class Stream:
             self._notify((one,))
 
     def remove(self, one: Subscription) -> None:
-        """Give to this one no more."""
+        """Remove a subscriber."""
         self._remove(one)
 
     def close(self) -> None:
@@ -287,7 +287,7 @@ class Stream:
         self._wire.close()
 
     def take(self, samples: list[RawSample], count: int, _size: int) -> None:
-        """Give all their share of what came; in a thread of the source."""
+        """Pass samples to all subscribers; called in a thread of the source."""
         self.arrivals.add(samples[-1].received_ns, count)
         with self._lock:
             fresh = samples
@@ -401,7 +401,7 @@ class Cache:
             self.last = {sender: self.last[sender] for sender in self._kept}
 
     def samples(self, most_each: int) -> list[RawSample]:
-        """Give the newest of each sender, so many at most, in the order in which they came."""
+        """Return the newest of each sender, so many at most, in the order in which they came."""
         found = [one for kept in self._kept.values() for one in tuple(kept)[-most_each:]]
         return sorted(found, key=lambda one: one.received_ns)
 

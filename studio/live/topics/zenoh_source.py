@@ -59,7 +59,7 @@ class Link(Protocol):
         ...
 
     def shown_hash(self, type_name: str) -> str:
-        """Give the hash of a type as publishers show it; raises an UnknownTypeError."""
+        """Return the hash of a type as publishers show it; raises an UnknownTypeError."""
         ...
 
     def receive(self, topic: str, fit: Fit, stream: Stream) -> RawSubscription:

@@ -339,7 +339,7 @@ class ResultWait:
     """Waits as long as the goal takes, or until its server is gone.
 
     A question ends without an answer when the server ends, and when the router does: then it is
-    asked anew once router and server are there again, since the goal went on meanwhile.
+    asked again once router and server are there again, since the goal went on meanwhile.
     """
 
     def __init__(

@@ -359,7 +359,7 @@ class CoroutineQueue(Work):
         self._destroyed = False
 
     def add(self, coroutine: Coroutine[Any, Any, Any]) -> None:
-        """Have a coroutine carried out; from any thread. After the end it is closed."""
+        """Run a coroutine; thread-safe. After the end it is closed."""
         self._waiting.append(coroutine)
         if self._destroyed:
             self._close_waiting()

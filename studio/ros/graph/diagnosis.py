@@ -113,10 +113,10 @@ def why_not_received(found: ForeignHashes, profile: WireProfile) -> str:
         which = " or ".join(found.distros)
         return (
             f"Others have {types} as of {which}, where {profile.distro} is spoken, and neither "
-            f"hears the other: choose --distro {found.distros[0]}."
+            f"receives the other: choose --distro {found.distros[0]}."
         )
     return (
-        f"Others have another form of {types} than {profile.distro}, and neither hears the "
+        f"Others have another form of {types} than {profile.distro}, and neither receives the "
         "other: give their packages with --interfaces."
     )
 

@@ -212,7 +212,7 @@ class GraphTable:
         return Taken.CHANGED
 
     def was_seen(self, token: str) -> bool:
-        """Whether a token came, whatever became of it, or went of late."""
+        """Whether a token came, whatever became of it, or went recently."""
         return any(
             token in known for known in (self._tokens, self._gone, self._gone_first, self._refused)
         )

@@ -57,7 +57,7 @@ class LifecycleClient:
         return self._ask("get_state").current_state
 
     def change(self, transition: int | str) -> bool:
-        """Have the node take a transition by its number or label; whether it succeeded."""
+        """Trigger a transition by its number or label; return whether it succeeded."""
         wanted = self._transition_type()
         if isinstance(transition, int):
             wanted.id = transition

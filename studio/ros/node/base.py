@@ -129,7 +129,7 @@ class NodeBase:
     resolve_service_name = resolve_topic_name
 
     def add_work(self, work: Work) -> None:
-        """Have work of any kind carried out with the node's own; it is destroyed with the node.
+        """Add work of any kind to the node's own; it is destroyed with the node.
 
         Raises:
             DestroyedError: The node was destroyed.
@@ -166,7 +166,7 @@ class NodeBase:
         return True
 
     def announce(self, work: Work) -> None:
-        """Tell the executor of the node that work is ready; from any thread."""
+        """Notify the node's executor that work is ready; thread-safe."""
         executor = self._executor
         if executor is not None:
             executor.announce(work)

@@ -88,7 +88,7 @@ class Drain:
 
     @property
     def is_flowing(self) -> bool:
-        """Whether something came, or is expected, of late."""
+        """Whether something came, or is expected, recently."""
         return bool(self._flowing)
 
     def stop(self) -> None:
@@ -134,11 +134,11 @@ class Drain:
         except Exception:  # one source that fails must not silence all others
             if source not in self._failed:
                 self._failed.add(source)
-                logger.exception("what came in could not be taken, which is said once")
+                logger.exception("samples could not be taken, which is logged once")
             return 0
 
     def _calm_down(self, now_s: float) -> None:
-        """Look less often where nothing came for a while."""
+        """Read rings less often where nothing came for a while."""
         with self._lock:
             for source in [one for one, end_s in self._flowing.items() if end_s < now_s]:
                 del self._flowing[source]

@@ -150,7 +150,7 @@ class MatchEvent(Work):
         return partial(self.callback, CountInfo(total, came))
 
     def destroy(self) -> None:
-        """Look no more."""
+        """Stop watching the graph."""
         self._stop()
 
     def _check(self) -> None:

@@ -94,7 +94,7 @@ class RawSubscription:
         """Subscribe again with a greater depth; nothing is lost meanwhile.
 
         Args:
-            depth: The new one; of a transient local topic so many earlier samples come anew.
+            depth: The new one; of a transient local topic so many earlier samples come again.
             swapped: Called in the drain's thread between the last of the old samples and the
                 first of the new ones, which may repeat some of those.
         """

@@ -88,7 +88,7 @@ class Gaps:
     """Counts what is missing between the numbers of each sender's samples.
 
     A sample that comes late, by its number and its time, is missing no more. One with a lower
-    number that was sent later is of a sender that began anew, which is no gap. Only the last
+    number that was sent later is of a sender that began again, which is no gap. Only the last
     senders are remembered: a peer that invents one for every sample costs no more.
     """
 

@@ -58,7 +58,7 @@ class Future(Generic[ResultT]):
         return self._cancelled
 
     def cancel(self) -> None:
-        """Give it up, which ends all waits; nothing when it is done."""
+        """Cancel it, which ends all waits; do nothing when it is done."""
         self._settle(cancelled=True)
 
     def result(self) -> ResultT:

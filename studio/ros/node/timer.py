@@ -27,7 +27,7 @@ class Timer(Work):
 
     In the time of the system, periods are measured on the steady clock: setting the time of the
     machine stops no timer. When /clock sets the time, they are periods of /clock, and a jump
-    backwards begins a period anew.
+    backwards begins a period again.
     """
 
     def __init__(
@@ -103,7 +103,7 @@ class Timer(Work):
         return self._cancelled
 
     def reset(self) -> None:
-        """Begin a period anew."""
+        """Begin a period again."""
         with self._lock:
             self._next_ns = self._now_ns() + self._period_ns
             self._cancelled = False

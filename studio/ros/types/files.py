@@ -125,7 +125,7 @@ def _check_whole(name: str) -> None:
 
 
 def _rename(path: Path, error: RosNameError) -> str:
-    """Say how a file would have to be called."""
+    """Return what a file would have to be called."""
     parts = re.split(r"[^A-Za-z0-9]+", path.stem)
     better = "".join(part[:1].upper() + part[1:] for part in parts).lstrip("0123456789")
     mend = f": call it {better[:1].upper()}{better[1:]}{path.suffix}" if better else ""

@@ -92,7 +92,7 @@ def _split(text: str) -> list[list[tuple[int, str]]]:
 
 
 def _wrong_parts(name: str, kind: str, parts: list[list[tuple[int, str]]]) -> InterfaceTextError:
-    """Say that a text has too many parts, or too few: at the line that was meant to part it."""
+    """Raise when a text has too many parts, or too few: at the line that was to part it."""
     wanted = _PARTS[kind] - 1
     meant = [(number, line) for part in parts for number, line in part if is_separator(line)]
     if len(parts) <= wanted and meant:

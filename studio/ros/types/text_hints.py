@@ -88,7 +88,7 @@ def _hint_for_rest(kind: str, name: str, rest: str) -> str:
 
 
 def _hint_for_order(code: str) -> str:
-    """Say how a line such as `speed: float32` or `float32` alone is written."""
+    """Return how a line such as `speed: float32` or `float32` alone is written."""
     name, colon, kind = (part.strip() for part in code.partition(":"))
     if colon and kind in PRIMITIVES:
         return f"write {kind} {_field_name(name)}"

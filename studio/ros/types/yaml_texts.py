@@ -37,7 +37,7 @@ def _quoted(text: str) -> str:
 
 
 def _reason(error: Exception) -> str:
-    """Say what is wrong, and where in the text; PyYAML's own name of the text is left out."""
+    """Return what is wrong, and where in the text, without PyYAML's own name of the text."""
     if isinstance(error, RecursionError):
         return "it is nested too deeply"
     if isinstance(error, yaml.reader.ReaderError):

@@ -223,7 +223,7 @@ def _router_of_our_own(settings: WireSettings, choice: RouterChoice) -> Embedded
 
 
 def _answer_at(settings: WireSettings) -> ProbeResult:
-    """Look at the only endpoint; of several, Zenoh takes whichever answers."""
+    """Probe the only endpoint; of several, Zenoh takes any that answers."""
     if len(settings.connect) != 1:
         return ProbeResult.UNKNOWN
     found = probe(parse_endpoint(settings.connect[0]))

@@ -71,7 +71,7 @@ _late_threads: set[threading.Thread] = set()
 
 
 def use_few_threads() -> None:
-    """Have one thread of Zenoh's receive everything; call it before Zenoh opens anything.
+    """Let one thread of Zenoh's receive everything; call it before Zenoh opens anything.
 
     By default it uses two, which wake each other for every sample: one takes a third less
     processor. A variable that is set for this process already, or an open session, is left alone.
@@ -312,7 +312,7 @@ class Query(Protocol):
         ...
 
     def drop(self) -> None:
-        """Say that no more replies come."""
+        """Mark the end of the replies."""
         ...
 
 

@@ -100,7 +100,7 @@ def test_a_robot_opens_from_the_parameter_of_a_node_and_follows_its_changes(
 def test_a_topic_on_which_nobody_tells_a_robot_is_said(endpoint: str, tmp_path: Path):
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
-            with pytest.raises(CommandError, match="Nothing told a robot at /nobody"):
+            with pytest.raises(CommandError, match="No description came from /nobody"):
                 await one.do(OpenFromWire(topic="/nobody"))
 
     asyncio.run(run())

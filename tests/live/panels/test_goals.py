@@ -159,10 +159,10 @@ def test_feedback_without_end_is_kept_to_a_number_and_told_once_each():
     feedback = shared_types().action(FIBONACCI).Feedback
     goal = Goal(1, "/x", FIBONACCI, "")
     for number in range(500):
-        goal.heard(feedback(sequence=[number]))
+        goal.take_feedback(feedback(sequence=[number]))
     first = goal.view(is_whole=False)
     assert (first.feedback_count, len(first.feedback)) == (500, 50)
     assert first.feedback[-1].values == '{"sequence":[499]}'
-    goal.heard(feedback(sequence=[1]))
+    goal.take_feedback(feedback(sequence=[1]))
     assert [one.number for one in goal.view(is_whole=False).feedback] == [501]
     assert len(goal.view(is_whole=True).feedback) == 50

@@ -96,7 +96,7 @@ def test_a_type_that_nobody_tells_is_refused_with_what_to_do(endpoint: str):
         async with joined(endpoint) as (known, _):
             for _ in range(2):
                 with pytest.raises(
-                    UnknownTypeError, match=r"node .* tells it; drop its \.srv file"
+                    UnknownTypeError, match=r"node describes it; drop its \.srv file"
                 ):
                     await known.interface(GetInterface(name=ASK))
 

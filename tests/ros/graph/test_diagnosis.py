@@ -56,8 +56,8 @@ def test_keys_without_hashes_are_of_humble():
     found = foreign_hashes([publisher(STRING, NO_HASH)], JAZZY, HASHES)
     assert found == [ForeignHashes((STRING,), ("humble",))]
     assert why_not_received(found[0], JAZZY) == (
-        f"Others have {STRING} as of humble, where jazzy is spoken, and neither hears the other: "
-        "choose --distro humble."
+        f"Others have {STRING} as of humble, where jazzy is spoken, and neither receives the "
+        "other: choose --distro humble."
     )
 
 

@@ -1,4 +1,4 @@
-"""`studio topic`: list topics, see what is said on them, and say something."""
+"""`studio topic`: list topics, print their messages, and publish."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class VerbsModule(Protocol):
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    """Give the parser the verbs of `topic`: those of each file beside this one."""
+    """Add the verbs of `topic` to the parser: those of each file beside this one."""
     verbs = Verbs(parser)
     for file in sorted(Path(__file__).parent.glob("[!_]*.py")):
         cast("VerbsModule", importlib.import_module(f"{__name__}.{file.stem}")).add(verbs)

@@ -1,4 +1,4 @@
-"""`studio topic echo`: print what is said on a topic."""
+"""`studio topic echo`: print the messages of a topic."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def add(verbs: Verbs) -> None:
         help="print only messages of which this holds, a Python expression such as 'm.x > 1'",
     )  # fmt: skip
     echo.add_argument(
-        "--no-lost-messages", action="store_true", help="do not say how many were lost"
+        "--no-lost-messages", action="store_true", help="do not print how many were lost"
     )
     add_qos_options(echo)
     echo.set_defaults(takes_late=("message_type", None))
@@ -96,7 +96,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _filter(options: argparse.Namespace) -> Callable[[MessageValue], bool]:
-    """Give what chooses messages.
+    """Return what chooses messages.
 
     Raises:
         SettingsError: Bytes cannot be chosen from, or the expression is none.

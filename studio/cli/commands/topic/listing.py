@@ -30,7 +30,7 @@ def add(verbs: Verbs) -> None:
     listing.add_argument("-v", "--verbose", action="store_true", help="how many publish each")
     add_listing_options(listing, "topics")
     add_graph_options(listing)
-    info = verbs.add("info", _info, "say the type of a topic and who is at its ends")
+    info = verbs.add("info", _info, "print the type of a topic and its endpoints")
     info.add_argument("topic_name", metavar="TOPIC")
     info.add_argument(
         "-v", "--verbose", action="store_true", help="each end with its node, QoS and type hash"

@@ -55,7 +55,7 @@ def add(verbs: Verbs) -> None:
     often.add_argument("-r", "--rate", type=_rate, metavar="HZ", help="a second (default: 1)")
     often.add_argument("-1", "--once", action="store_true", help="publish one message and end")
     pub.add_argument("-t", "--times", type=_count, metavar="N", help="publish N messages and end")
-    pub.add_argument("-p", "--print", type=_count, default=1, metavar="N", help="say every Nth")
+    pub.add_argument("-p", "--print", type=_count, default=1, metavar="N", help="print every Nth")
     pub.add_argument(
         "-w", "--wait-matching-subscriptions", dest="wait", type=int, metavar="N",
         help="begin when so many listen (default: 1 with --once or --times, else 0)",

@@ -227,7 +227,7 @@ class Rate:
         self._last_s: float | None = None
 
     def add(self, time_s: float) -> None:
-        """A sample came; a clock that went backwards begins anew."""
+        """A sample came; a clock that went backwards begins again."""
         if self._last_s is not None and time_s < self._last_s:
             self._gaps_s.clear()
         elif self._last_s is not None:
@@ -281,7 +281,7 @@ class Bandwidth:
         self._samples.append((time_s, size_bytes))
 
     def report(self, now_s: float) -> str | None:
-        """Say it as `ros2 topic bw` does; None before the second sample."""
+        """Return the report of `ros2 topic bw`; None before the second sample."""
         if len(self._samples) < 2 or now_s <= self._samples[0][0]:
             return None
         sizes = Spread.of(size for _, size in self._samples)
