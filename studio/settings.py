@@ -19,7 +19,7 @@ EXPANSION_TIMEOUT_S = 2.8
 """The parent's time for a run of short files; the evaluator's own of 2 s ends sooner."""
 MESH_TIMEOUT_S = 60.0
 XACRO_ENVIRONMENT = frozenset({"ROS_DISTRO", "ROS_VERSION", "ROS_PYTHON_VERSION", "ROS_DOMAIN_ID"})
-"""What `$(env)` and `$(optenv)` of a file that is not trusted may see."""
+"""Variables that `$(env)` and `$(optenv)` of an untrusted file may read."""
 SOURCE_SIZE_LIMIT_BYTES = 20 << 20
 MESH_SIZE_LIMIT_BYTES = 512 << 20
 ZIP_SIZE_LIMIT_BYTES = 1 << 30

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from studio.worker_process import Codec
 
 START_TIMEOUT_S = 20.0
-"""Of a process, on a busy machine."""
+"""Limit for a process to start, on a busy machine."""
 _PATIENCE = 5
-"""So many times its time a process on a busy machine may be kept waiting in addition."""
+"""On a busy machine, a process may wait so many times its time limit in addition."""
 
 Answer = TypeVar("Answer")
 
@@ -32,9 +32,9 @@ Answer = TypeVar("Answer")
 class Worker:
     """The parent's end of one worker process; started at the first `ask` or by `warm`.
 
-    Requests queue up; one is under way at a time. A late or dead worker is ended, the asker gets
-    the error, and the next `ask` starts a fresh one: `generation` counts them. Who decides by what
-    the request before came to takes the `turn` and asks by `ask_now`.
+    Requests queue up; one runs at a time. A late or dead worker is ended, the asker gets the error,
+    and the next `ask` starts a fresh one: `generation` counts them. A caller that depends on the
+    result of the request before takes the `turn` and asks by `ask_now`.
     """
 
     def __init__(self, name: str, module: str, codec: Codec, *arguments: str) -> None:
@@ -44,9 +44,9 @@ class Worker:
         self._codec = codec
         self._process: asyncio.subprocess.Process | None = None
         self._is_up = False
-        """Whether the process has said that it is up."""
+        """Whether the process has reported that it is up."""
         self._closes = 0
-        """How often it was closed: who waited since before does not start it anew."""
+        """How often it was closed: a request from before does not start it again."""
         self._lock = asyncio.Lock()
         self._starting: asyncio.Future[asyncio.subprocess.Process] | None = None
         self._ending: asyncio.Future[int] | None = None
@@ -98,7 +98,7 @@ class Worker:
     async def ask_now(
         self, request: object, answer: type[Answer], timeout_s: float, *, starts: bool = True
     ) -> Answer:
-        """As `ask`, for who holds the `turn`."""
+        """As `ask`, for the holder of the `turn`."""
         if not starts and not self._is_running:
             raise WorkerDiedError(self.name, await self._end())
         process = await self._ensure_process()
@@ -125,7 +125,7 @@ class Worker:
         return message
 
     async def close(self) -> None:
-        """End the process; safe to call twice. Requests under way fail, and those that wait."""
+        """End the process; safe to call twice. Running and waiting requests fail."""
         self._closes += 1
         if starting := self._starting:
             await asyncio.wait((starting,))
@@ -150,7 +150,7 @@ class Worker:
         try:
             process = await asyncio.shield(starting)
         except asyncio.CancelledError:
-            process = await starting  # else nobody would know of it and end it
+            process = await starting  # else nothing would know of it and end it
             if closes == self._closes:
                 self._process = process
             raise
@@ -182,7 +182,7 @@ class Worker:
         return await process.stdout.readexactly(length)
 
     async def _end(self) -> int | None:
-        """End the process, or wait until it has ended: whoever began to end it may be cancelled."""
+        """End the process, or wait for its end: the task that began to end it may be cancelled."""
         process, self._process = self._process, None
         if process is not None:
             self._ending = asyncio.ensure_future(_killed(process))
@@ -196,7 +196,7 @@ async def _killed(process: asyncio.subprocess.Process) -> int:
     with contextlib.suppress(ProcessLookupError):
         process.kill()
     assert process.stdout is not None
-    with contextlib.suppress(RuntimeError):  # whoever asks reads it already
+    with contextlib.suppress(RuntimeError):  # the asker reads it already
         await process.stdout.read()  # to its end, or asyncio holds the pipe for open
     return await process.wait()
 
@@ -228,7 +228,7 @@ async def _time_to_run(pid: int, timeout_s: float) -> AsyncGenerator[None]:
 
 
 def kept_waiting_s(pid: int) -> float:
-    """How long a process was ready to run while the machine ran others, s; 0 where nobody counts.
+    """Return how long a process was ready to run but did not run, s; 0 where it is not counted.
 
     Source: Linux, Documentation/scheduler/sched-stats (ns, of its first thread).
     """
@@ -242,15 +242,15 @@ def kept_waiting_s(pid: int) -> float:
 class WorkerPool:
     """Several workers of one kind for independent requests, each asked for one answer at a time.
 
-    Requests that wait are taken in turn by their owners. While some are slow the pool has a
-    worker more for each of them; it is ended when nobody waits.
+    Waiting requests are taken in turn by their owners. While some are slow the pool has one more
+    worker for each of them, which is ended when nobody waits.
 
     Args:
         size: Workers that stay.
         make: Makes the worker of that number.
-        most: Workers with those for slow requests; the last of them is only for owners of whom
-            no request is under way. No more than `size` when it is not given.
-        slow_s: A request that is under way for longer is slow.
+        most: Workers with those for slow requests; the last of them is only for owners without a
+            running request. No more than `size` when it is not given.
+        slow_s: A request that runs for longer is slow.
     """
 
     def __init__(
@@ -264,15 +264,15 @@ class WorkerPool:
         self._size, self._most, self._slow_s = size, max(size, most or size), slow_s
         self._free = [make(number) for number in range(size)]
         self._busy: dict[Worker, tuple[Hashable, float]] = {}
-        """Whose request each works on, and since when, by the loop's clock."""
+        """The owner of the request that each works on, and since when, by the loop's clock."""
         self._waiting: list[tuple[Hashable, asyncio.Future[Worker]]] = []
         self._turns: dict[Hashable, int] = {}
-        """When each owner's last turn was, counted in turns of all."""
+        """Each owner's last turn, counted in turns of all."""
         self._timer: asyncio.TimerHandle | None = None
 
     @property
     def workers(self) -> tuple[Worker, ...]:
-        """Those that are there now."""
+        """The present workers."""
         return (*self._busy, *self._free)
 
     async def warm(self) -> None:
@@ -300,7 +300,7 @@ class WorkerPool:
             await self._give_back(worker)
 
     async def close(self) -> None:
-        """End all processes. Requests that wait fail, as those under way."""
+        """End all processes. Running and waiting requests fail."""
         for _, turn in self._waiting:
             if not turn.done():
                 turn.set_exception(WorkerDiedError("pool", None))
@@ -354,7 +354,7 @@ class WorkerPool:
         return left < 1 or (left == 1 and self._most > self._size and owner in owners)
 
     def _may_grow(self) -> bool:
-        """Whether slow requests call for one more worker; if they may later, look again then."""
+        """Whether slow requests call for one more worker; if they may later, check again then."""
         loop = asyncio.get_running_loop()
         since = sorted(began_s for _, began_s in self._busy.values())
         slow_from_s = since[len(self._busy) - self._size] + self._slow_s

@@ -182,7 +182,7 @@ export interface CancelGoal {
   operation: number;
 }
 
-/** Have a managed node take a transition; done when it has, refused with what became of it. */
+/** Trigger a transition of a managed node; done when it was made, else refused. */
 export interface ChangeState {
   request?: number;
   document?: string;
@@ -270,7 +270,7 @@ export interface Comparison {
   ghost: Side | null;
 }
 
-/** What may be typed there. */
+/** Ask for the completions at a place. */
 export interface Complete {
   request?: number;
   document?: string;
@@ -290,7 +290,7 @@ export interface Completion {
   doc: string;
 }
 
-/** What may stand in the place of [start, end), the likeliest first. */
+/** Completions for [start, end), the likeliest first. */
 export interface Completions {
   start: number;
   end: number;
@@ -631,7 +631,7 @@ export interface EndView {
   type: string;
 }
 
-/** Look what there is at a place; nothing is joined or started by it. */
+/** Ask what there is at a router; nothing is joined or started. */
 export interface ExamineWire {
   request?: number;
   document?: string;
@@ -695,7 +695,7 @@ export interface FindTexts {
   type: "find_texts";
 }
 
-/** Look which robot descriptions there are on the wire. */
+/** Ask for the robot descriptions in the ROS system. */
 export interface FindWireRobots {
   request?: number;
   document?: string;
@@ -745,7 +745,7 @@ export interface FollowChanges {
   following?: boolean;
 }
 
-/** Have a frame that is no link stand in the scene for some seconds, for a camera to go with. */
+/** Keep a frame that is no link in the scene for some seconds, for a camera to follow. */
 export interface FollowFrame {
   request?: number;
   document?: string;
@@ -846,7 +846,7 @@ export interface GetArguments {
   path?: string;
 }
 
-/** What saving would change, file by file. */
+/** Ask what saving would change, file by file. */
 export interface GetChanges {
   request?: number;
   document?: string;
@@ -1046,7 +1046,7 @@ export interface GetReferences {
   type: "get_references";
 }
 
-/** What would change if what stands there were called `name`. */
+/** Ask for the changes that a renaming to `name` would make. */
 export interface GetRenaming {
   request?: number;
   document?: string;
@@ -1119,7 +1119,7 @@ export interface GetUrdf {
   type: "get_urdf";
 }
 
-/** What of the URDF is otherwise than the files on disk make it, opened as the document was. */
+/** Ask for the differences between the present URDF and that of the files on disk. */
 export interface GetUrdfChanges {
   request?: number;
   document?: string;
@@ -1185,7 +1185,7 @@ export interface GraphAnswer {
   more: number;
 }
 
-/** What joins nodes: a topic, a service or an action. */
+/** A topic, a service or an action between nodes. */
 export interface GraphLinkView {
   kind: "topic" | "service" | "action";
   name: string;
@@ -1229,7 +1229,7 @@ export interface InputDifference {
   other: string | null;
 }
 
-/** What a value that others are made of is in its file. */
+/** Kind of an input in its file. */
 export type InputKind = "property" | "arg" | "parameter" | "param_default" | "yaml";
 
 /** Answer to `get_interface`. */
@@ -1456,7 +1456,7 @@ export interface LogLine {
   line: number;
 }
 
-/** What stands there, what it came to in the run, and where it is defined. */
+/** Ask for the meaning at a place: its value in the run, and where it is defined. */
 export interface LookUp {
   request?: number;
   document?: string;
@@ -2357,7 +2357,7 @@ export interface SetJoints {
   positions: Record<string, number>;
 }
 
-/** Have a node set a parameter; refused with its reason when it does not. */
+/** Set a parameter of a node; refused with the node's reason when it does not. */
 export interface SetParameter {
   request?: number;
   document?: string;
@@ -2721,7 +2721,7 @@ export interface Widget {
 /** How a site is edited: `VECTOR` is two or more numbers separated by blanks. */
 export type WidgetKind = "slider" | "switch" | "choice" | "vector" | "text";
 
-/** What of a document's robot comes from the wire, and what goes there. */
+/** What of a document's robot comes from ROS, and what is published. */
 export interface WireFeed {
   type: "wire_feed";
   source: "sliders" | "joint_states" | "tf";

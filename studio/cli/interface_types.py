@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 PASTED = "-"
-"""What `--interfaces` is given for it."""
+"""The argument of `--interfaces`."""
 CHARACTERS_MAX = 10_000_000
 # As recorded files write the types that a type is made of.
 _HEAD = re.compile(r"(MSG|SRV|ACTION):[ \t]*(\S+)[ \t]*")

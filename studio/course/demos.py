@@ -26,17 +26,17 @@ class Demo:
 
     @property
     def module(self) -> str:
-        """What `python -m` runs."""
+        """The module for `python -m`."""
         return f"{_ROOM}.{self.name}"
 
     @property
     def shows(self) -> str:
-        """What it is, in one line."""
+        """A summary in one line."""
         return self._docstring().partition("\n\n")[0].replace("\n", " ")
 
     @property
     def to_try(self) -> str:
-        """What to do with it, in a few lines."""
+        """What to try, in a few lines."""
         return self._docstring().partition("\n\n")[2].removeprefix("Try: ")
 
     def _docstring(self) -> str:

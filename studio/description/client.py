@@ -42,7 +42,7 @@ class DescriptionWorker:
         self._entry = ""
         self._files: tuple[str, ...] = ()
         self._reading_s = 0.0
-        """What these files add to the time of a run."""
+        """Time that these files add to a run."""
         self.needs_reopen = True
         self._questions: set[asyncio.Task[Reply]] = set()
 

@@ -1,4 +1,4 @@
-"""What flows out of the description room: parts with their origins, sites, and what checks find.
+"""Results of the description room: parts with their origins, sites, and findings.
 
 All values are plain and frozen, so that they cross the worker's pipe as msgpack.
 """
@@ -79,7 +79,7 @@ class Site:
     text: str
     """The text as written, entities resolved."""
     value: str
-    """What it came to, as xacro prints it; empty when it was not read in this configuration."""
+    """Its value, as xacro prints it; empty when it was not read in this configuration."""
     number: float | None
     """`value` as a number, when it is one."""
     reads: int

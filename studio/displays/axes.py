@@ -30,7 +30,7 @@ class AxesDisplay(StillDisplay):
     )
 
     def statuses(self) -> tuple[Status, ...]:
-        """What cannot be seen at all."""
+        """Return a warning when the axes are invisible."""
         if self.values["Alpha"]:
             return ()
         sentence = "Alpha is 0, so nothing of the axes is seen."

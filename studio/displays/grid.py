@@ -81,7 +81,7 @@ class GridDisplay(StillDisplay):
     )
 
     def statuses(self) -> tuple[Status, ...]:
-        """What cannot be seen, and what is left out."""
+        """Return warnings when it is invisible, or lines are left out."""
         if not self.values["Alpha"]:
             sentence = "Alpha is 0, so nothing of the grid is seen."
             return (Status("warn", "transparent", sentence, ("Alpha", 0.5)),)

@@ -23,7 +23,7 @@ _NO_POINTS = np.zeros((0, 3), dtype=np.float32)
 
 
 class Scale(NamedTuple):
-    """What colours a measurement has at first: the field of its message, and where they end."""
+    """Default colours of a measurement: the field of its message, and the bounds."""
 
     field: str
     low: float

@@ -246,7 +246,7 @@ def _along_own_axes(variances: Floats, planes: Floats) -> _Own:
 
 
 def _widths(deviations_rad: Floats, values: Mapping[str, Value]) -> Floats:
-    """What deviations of an angle measure from side to side at a distance of 1 m."""
+    """Return the widths of deviations of an angle at a distance of 1 m."""
     scale = float(values["Covariance/Orientation/Scale"])
     return 2.0 * np.tan(np.minimum(deviations_rad * scale, _SPREAD_MAX_RAD))
 

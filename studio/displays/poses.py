@@ -61,7 +61,7 @@ class Sizes(NamedTuple):
 
 
 def pose_properties(under: str = "", sizes: Sizes | None = None) -> tuple[Property, ...]:
-    """What of one pose can be set: which shape it has, and the parts of the shape.
+    """Properties of one pose: which shape it has, and the parts of the shape.
 
     Args:
         under: What the names of the parts begin with, as `Shape/`.

@@ -228,7 +228,7 @@ def _sizes(thick_m: float, lengths_m: Floats) -> NDArray[np.float32]:
 
 
 class _Seen(NamedTuple):
-    """What of the frames is drawn: rows of those that are shown."""
+    """Rows of the frames that are drawn."""
 
     frames: FramesNow
     shown: Flags

@@ -36,7 +36,7 @@ _ACCEPT = "Accept NaN Values"
 
 
 class Vectors(NamedTuple):
-    """What pushes and what turns, in the frame of a message; shapes (3,), float64."""
+    """A linear and an angular vector, in the frame of a message; shapes (3,), float64."""
 
     straight: Floats
     turning: Floats
@@ -50,7 +50,7 @@ class Names(NamedTuple):
 
 
 def vector_properties(names: Names) -> tuple[Property, ...]:
-    """What of a push and a turn can be set, with RViz's first values."""
+    """Properties of the two vectors, with RViz's default values."""
     straight, turning = names
     return (
         Property(f"{straight} Color", "colour", "#cc3333", f"Colour of the {straight.lower()}."),

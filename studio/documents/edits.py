@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Audience
 
 TEXT_LIMIT_BYTES: Final = 4 << 20
-"""More than any robot description; an editor in a browser holds it with ease."""
+"""More than any robot description needs, and no trouble for an editor in a browser."""
 READ_ONLY: Final = "it lies where the studio may only read."
 _SHOWN_WITHIN_S: Final = 0.05
 """An edit is shown before it is written down, but for a run that takes longer."""

@@ -81,7 +81,7 @@ class Engine:
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
-        """What can be listed and opened out of the page."""
+        """The folders that can be listed and opened from the page."""
         self.left_work = LeftDrafts(lambda: self.served, settings.data_folder)
 
     async def start(self) -> None:

@@ -51,7 +51,7 @@ class Opener(Protocol):
 
     @property
     def served(self) -> ServedRoots:
-        """What may be read and written already."""
+        """The folders that may be read and written already."""
         ...
 
     def document(self, name: str, /) -> Document:

@@ -80,7 +80,7 @@ class QuestionQueue:
     def __init__(self) -> None:
         self._waiting: list[Waiting] = []
         self._served: set[Listener] = set()
-        """Who got the last answer: the next one goes to another viewer, if one waits."""
+        """Askers of the last answer: the next one goes to another viewer, if one waits."""
 
     def __len__(self) -> int:
         """The number of waiting questions."""

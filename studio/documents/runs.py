@@ -58,7 +58,7 @@ class RunTarget(Protocol):
 
     @property
     def policy(self) -> ReadPolicy:
-        """What it may read."""
+        """The files that it may read."""
         ...
 
 

@@ -1,4 +1,4 @@
-"""What all documents share: the mesh library, the workers, and the settings."""
+"""Shared by all documents: the mesh library, the workers, and the settings."""
 
 from __future__ import annotations
 

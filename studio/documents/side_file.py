@@ -64,7 +64,7 @@ def _stem(name: str) -> str:
 
 
 class Named(Protocol):
-    """What can stand on a shelf."""
+    """An item of a shelf."""
 
     @property
     def name(self) -> str:
@@ -77,7 +77,7 @@ Item = TypeVar("Item", bound=Named)
 
 @dataclass(frozen=True, slots=True)
 class ItemKind(Generic[Item]):
-    """What stands on a shelf, and how its file is read and written."""
+    """The items of a shelf, and how its file is read and written."""
 
     noun: str
     """Of one item, as `variant`; its plural is in the file's name."""

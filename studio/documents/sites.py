@@ -34,7 +34,7 @@ class SiteTable:
         self._order: tuple[str, ...] = ()
         self._sent: dict[str, SiteView] = {}
         self._sent_of: dict[str, _MadeOf] = {}
-        """What each view was made of: comparing is quick, and making thousands is not."""
+        """What each view was made of: comparing is fast, and making thousands is not."""
         self._changed: set[str] = set()
         """Sites to compare with those sent."""
         self._order_changed = False
@@ -78,7 +78,7 @@ class SiteTable:
         return Sites(order=self._order, changed=tuple(self._sent.values()))
 
     def argument_values(self) -> dict[str, str]:
-        """What each argument came to in the last good run, passed or not."""
+        """Return the value of each argument in the last good run, passed or not."""
         return argument_values(self.sites.values())
 
     def _take_changed(self) -> Sites | None:
@@ -118,7 +118,7 @@ class SiteTable:
 
 
 def argument_values(sites: Iterable[Site]) -> dict[str, str]:
-    """What each argument came to in a run; of several declarations the first counts."""
+    """Return the value of each argument in a run; of several declarations the first counts."""
     found: dict[str, str] = {}
     for site in sites:
         if site.kind is SiteKind.ARG:

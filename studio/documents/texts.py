@@ -242,7 +242,7 @@ class EditorQuestions:
         return OutlineAnswer(request=command.request, outline=outline)
 
     async def look_up(self, command: LookUp, asker: Listener) -> MeaningAnswer:
-        """What stands at a place."""
+        """Return the meaning at a place."""
         file, text = self._texts.bytes_of(command.file, asker.role)
         query = LookUpQuery(file, text, command.offset)
         found = await self._runs.answer(query, LookedUp, asker)
@@ -256,7 +256,7 @@ class EditorQuestions:
         return ReferencesAnswer(request=command.request, references=references)
 
     async def complete(self, command: Complete, asker: Listener) -> CompletionsAnswer:
-        """What may be typed at a place."""
+        """Return the completions at a place."""
         file, text = self._texts.bytes_of(command.file, asker.role)
         query = CompletionQuery(file, text, command.offset)
         completions = await self._runs.answer(query, Completions, asker)

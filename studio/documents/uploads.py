@@ -95,7 +95,7 @@ class Uploads:
 
 
 def _robot_in(folder: Path) -> Path:
-    """What to open of a folder: the part of it that was dropped, or a broken description in it.
+    """Return what to open of a folder: the part that was dropped, or a broken description.
 
     Raises:
         UploadError: It holds no description.

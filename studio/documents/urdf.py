@@ -182,7 +182,7 @@ class UrdfText:
         return Urdf(request=command.request, text=await self.text())
 
     async def changes(self, command: GetUrdfChanges) -> UrdfChanges:
-        """What differs now.
+        """Return the present differences.
 
         Raises:
             CommandError: The document has no URDF yet.

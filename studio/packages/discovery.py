@@ -49,7 +49,7 @@ class Discovery:
 
 
 class _Space(Enum):
-    """What kind of folder the search is in."""
+    """Kind of folder that the search is in."""
 
     SOURCE = auto()
     NESTED = auto()

@@ -62,7 +62,7 @@ class Outline:
     """The file names of its includes outside macros, as written."""
     error: str = ""
     is_broken: bool = False
-    """It is XML up to a fault, which is the error; the rest may be read all the same."""
+    """Whether it is XML up to a fault, which is `error`; the rest may be read all the same."""
 
 
 def read_outline(data: bytes) -> Outline:
@@ -172,7 +172,7 @@ class Includes:
         for path in outlines:
             self._by_name[path.name].append(path)
         self._included: dict[Path, list[Path]] = {}
-        """What each file includes of these files."""
+        """The files that each file includes."""
         self._unknown: set[Path] = set()
         """Files that include something that is not among these."""
         self._includers: dict[Path, list[Path]] = defaultdict(list)

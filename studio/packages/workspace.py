@@ -1,4 +1,4 @@
-"""What opening a path means: the file to show, the folders served, the packages found."""
+"""Opens a path: the file to show, the folders to serve, the packages found."""
 
 from __future__ import annotations
 
@@ -242,7 +242,7 @@ class _Survey:
 
 
 def _install_beside(roots: Iterable[Path]) -> list[Path]:
-    """What colcon installed beside an opened `src`: packages without source may be there."""
+    """Return what colcon installed beside an opened `src`: it may have packages without source."""
     beside = (root.parent / "install" for root in roots if root.name == "src")
     return [one for one in beside if is_install_space(one)]
 
@@ -308,7 +308,7 @@ def _unpacked(zip_path: Path, data_folder: Path, report: Progress) -> Path:
 
 
 def folder_bytes(folder: Path) -> int:
-    """What all files below a folder take; 0 when it is not there."""
+    """Return the size of all files below a folder; 0 when it does not exist."""
     sizes = 0
     for path, _, names in os.walk(folder):
         for name in names:

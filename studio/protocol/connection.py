@@ -103,7 +103,7 @@ class WireState(Event):
 
 
 class WireFeed(Event):
-    """What of a document's robot comes from the wire, and what goes there."""
+    """What of a document's robot comes from ROS, and what is published."""
 
     type: Literal["wire_feed"] = "wire_feed"
     source: Literal["sliders", "joint_states", "tf"]

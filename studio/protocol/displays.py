@@ -171,10 +171,10 @@ class DisplayView(Message):
     latched: bool
     depth: int
     wished: ListeningView
-    """What of these three was chosen; `reliable`, `latched` and `depth` are as they are now."""
+    """What the user chose; `reliable`, `latched` and `depth` are those in use."""
     values: dict[str, PropertyValue]
     more: tuple[PropertyView, ...]
-    """What can be set beside what its kind has, as namespaces of markers that came."""
+    """Properties besides those of its kind, such as namespaces of markers received."""
 
 
 class LiveDisplays(Event):
@@ -193,7 +193,7 @@ class Mend(Message):
 
     label: str
     command: dict[str, PropertyValue]
-    """What to send, by field, as JSON has it; `request` and `document` are the page's."""
+    """The command to send, by field, as JSON; the page adds `request` and `document`."""
 
 
 class Remark(Message):
@@ -230,7 +230,7 @@ class TopicView(Message):
 
     name: str
     types: tuple[str, ...]
-    """It is published with; those of subscribers do not count."""
+    """Types of its publishers; those of subscriptions do not count."""
     publishers: int
     kind: str
     """The display that shows it; empty: none does."""

@@ -299,7 +299,7 @@ class ArgumentView(Message):
     value: str | None
     """The value passed now."""
     shown: str
-    """What it comes to now, where that is known without a run."""
+    """Its present value, where that is known without a run."""
     widget: Widget
     is_file: bool
     """Whether its value names a file."""

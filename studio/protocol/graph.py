@@ -27,11 +27,11 @@ class GraphNodeView(Message):
     count: int
     """How many nodes have this name; more than one is a fault."""
     own: bool
-    """It is the studio's."""
+    """Whether it is the studio's."""
 
 
 class GraphLinkView(Message):
-    """What joins nodes: a topic, a service or an action."""
+    """A topic, a service or an action between nodes."""
 
     kind: Literal["topic", "service", "action"]
     name: str

@@ -126,7 +126,7 @@ class AddedInterface(Message):
     hash: str
     """RIHS01; empty while something that it is made of is not known."""
     trouble: str
-    """What it needs yet, in a sentence."""
+    """What it still needs, in a sentence."""
 
 
 class InterfacesAdded(Event):

@@ -57,7 +57,7 @@ class PlaceCommand(Command):
 
 
 class LookUp(PlaceCommand):
-    """What stands there, what it came to in the run, and where it is defined."""
+    """Ask for the meaning at a place: its value in the run, and where it is defined."""
 
     type: Literal["look_up"] = "look_up"
 
@@ -69,7 +69,7 @@ class GetReferences(PlaceCommand):
 
 
 class Complete(PlaceCommand):
-    """What may be typed there."""
+    """Ask for the completions at a place."""
 
     type: Literal["complete"] = "complete"
 

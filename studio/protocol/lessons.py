@@ -30,7 +30,7 @@ class LessonView(Message):
     node: str
     """Its full name in the graph, while it runs."""
     has_keys: bool
-    """It is driven by `press_key`."""
+    """Whether it is driven by `press_key`."""
 
 
 class Lessons(Event):

@@ -17,7 +17,7 @@ class Message(BaseModel):
 
 
 OFFSET_LIMIT: Final = 1 << 32
-"""More than any file that is opened is long."""
+"""More than the length of any file that can be opened."""
 
 
 def _without_nul(name: str) -> str:

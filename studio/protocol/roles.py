@@ -17,7 +17,7 @@ class Person(Protocol):
 
     @property
     def role(self) -> Role:
-        """What they may do."""
+        """The person's role."""
         ...
 
     @property

@@ -92,7 +92,7 @@ class UndoTo(Command):
 
 
 class GetChanges(Command):
-    """What saving would change, file by file."""
+    """Ask what saving would change, file by file."""
 
     type: Literal["get_changes"] = "get_changes"
 

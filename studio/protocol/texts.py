@@ -91,7 +91,7 @@ class Urdf(Event):
 
 
 class GetRenaming(PlaceCommand):
-    """What would change if what stands there were called `name`."""
+    """Ask for the changes that a renaming to `name` would make."""
 
     type: Literal["get_renaming"] = "get_renaming"
     name: str = Field(max_length=200)
@@ -181,7 +181,7 @@ def hunk_views(diff: LineDiff) -> tuple[tuple[DiffLineView, ...], ...]:
 
 
 class GetUrdfChanges(Command):
-    """What of the URDF is otherwise than the files on disk make it, opened as the document was."""
+    """Ask for the differences between the present URDF and that of the files on disk."""
 
     type: Literal["get_urdf_changes"] = "get_urdf_changes"
 

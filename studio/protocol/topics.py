@@ -47,7 +47,7 @@ class TopicEnd(Message):
     node: str
     """Full name of its node."""
     own: bool
-    """It is the studio's."""
+    """Whether it is the studio's."""
     type_name: str
     reliability: str
     durability: str

@@ -40,7 +40,7 @@ class VariantView(Message):
     name: str
     note: str
     arguments: dict[str, str | None]
-    """None: the robot gets none, although it was opened with one."""
+    """By name; None: it is not passed, although the document was opened with it."""
     texts: tuple[VariantText, ...]
 
 

@@ -277,7 +277,7 @@ def _unit(axis: Vector3) -> Vector3:
 
 
 def whole_rows(one: Measures, other: Measures) -> tuple[Row, ...]:
-    """What differs between two robots as a whole."""
+    """Return the differences between two robots as a whole."""
     rows = [*text_row("name", one.name, other.name)]
     rows += number_row("links", one.links, other.links, "")
     rows += number_row("joints", one.joints, other.joints, "")

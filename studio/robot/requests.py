@@ -46,7 +46,7 @@ class CheckRequest:
 
 @dataclass(frozen=True, slots=True)
 class CheckAnswer:
-    """What yourdfpy makes of a URDF; the names are empty when it cannot read it at all."""
+    """Names that yourdfpy reads in a URDF; empty when it cannot read it at all."""
 
     links: tuple[str, ...]
     actuated_joints: tuple[str, ...]

@@ -175,5 +175,5 @@ def _leads_round(joint: Joint, held: Mapping[str, Joint], freed: set[str]) -> bo
 
 
 def _rejected(code: str, sentence: str, key: str) -> Finding:
-    """What ROS does not load, whatever can still be drawn of it."""
+    """Return what keeps ROS from loading the robot, even if it can be drawn."""
     return Problem(Severity.ERROR, code, sentence), key

@@ -1,4 +1,4 @@
-"""What differs between the distributions of ROS 2 on the wire, one value for each."""
+"""Differences between the distributions of ROS 2 on the wire, one value for each."""
 
 from __future__ import annotations
 

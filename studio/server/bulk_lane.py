@@ -156,5 +156,5 @@ class BulkKeys:
         return self._lanes[key]
 
     def forget(self, lane: SendsBulk) -> None:
-        """It was closed."""
+        """Remove a closed lane."""
         self._lanes = {key: one for key, one in self._lanes.items() if one is not lane}

@@ -35,7 +35,7 @@ _LOG = logging.getLogger(__name__)
 
 
 class _Numbered(BaseModel, extra="ignore"):
-    """What can be read of a command that is malformed otherwise."""
+    """The readable part of a command that is malformed otherwise."""
 
     request: int = 0
 

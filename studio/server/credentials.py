@@ -1,4 +1,4 @@
-"""What proves a role: a token in the printed address, a cookie from then on."""
+"""Proofs of a role: a token in the printed address, a cookie from then on."""
 
 from __future__ import annotations
 

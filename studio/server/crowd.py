@@ -108,7 +108,7 @@ class Crowd:
         return True
 
     def leave(self, connection: Connection) -> None:
-        """It ended, or another takes its place."""
+        """Forget a connection that ended or was replaced."""
         self._strangers.pop(connection, None)
         visitor = self._known.pop(connection, None)
         if visitor is None:

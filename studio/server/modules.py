@@ -66,7 +66,7 @@ class _Module:
         self.is_like_others = not _UNKNOWN.search(_EXPORT.sub("", _IMPORT.sub("", text)))
 
     def body(self, file: str) -> str:
-        """What it does, without its imports, when it stands in that file."""
+        """Return its code without imports, for that file."""
         text = _IMPORT.sub("", bare(self._text))
         if file == self.path:
             return text

@@ -61,7 +61,7 @@ def port_of(listener: socket.socket) -> int:
 
 
 def address(host: str, port: int, token: str | None) -> str:
-    """What to open in a browser on this machine; the token, where one is asked for, with it."""
+    """Return the address for a browser on this machine, with the token if one is needed."""
     return _page(host, port) + (f"?token={token}" if token else "")
 
 

@@ -27,7 +27,7 @@ _END_DEADLINE_S: Final = 1.7
 
 
 class Life(Protocol):
-    """What begins and ends with the server, on its loop."""
+    """Starts and ends with the server, on its loop."""
 
     async def begin(self) -> None:
         """Before the first request."""

@@ -56,7 +56,7 @@ class OpenDocument(Protocol):
 
 
 class TakesUploads(Protocol):
-    """What keeps and opens the files that are sent."""
+    """Keeps and opens the files that are sent."""
 
     async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
         """Keep and open them; gives the document's id.
@@ -75,7 +75,7 @@ class SubscribesTopics(Protocol):
         ...
 
     def detach(self, lane: DataLaneEnd, /) -> None:
-        """It was closed."""
+        """Remove a closed lane."""
         ...
 
     def carry_out(self, lane: DataLaneEnd, command: SubscriptionCommand, /) -> None:

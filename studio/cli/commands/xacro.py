@@ -38,7 +38,7 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _read_policy(options: argparse.Namespace) -> ReadPolicy:
-    """What `studio xacro` may read for its file: what `studio open` would serve for it."""
+    """Return what `studio xacro` may read for its file: what `studio open` would serve for it."""
     from studio.description.values import ReadPolicy
     from studio.packages.workspace import open_location
     from studio.settings import XACRO_ENVIRONMENT, data_folder

@@ -1,4 +1,4 @@
-"""What differs between two texts, line by line, for a person to read."""
+"""Differences of two texts, line by line, for a person to read."""
 
 from __future__ import annotations
 

@@ -152,7 +152,7 @@ def _widened(base: bytes, hunk: Hunk) -> tuple[int, int]:
 
 
 def _made_of(base: bytes, start: int, end: int, hunks: list[Hunk]) -> bytes:
-    """What hunks, none of which crosses an end of it, make of a stretch of the base."""
+    """Apply hunks, none of which crosses an end of it, to a stretch of the base."""
     inside = [
         Hunk(hunk.start - start, hunk.end - start, hunk.new)
         for hunk in hunks

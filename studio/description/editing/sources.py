@@ -88,16 +88,16 @@ def edits_between(file: str, old: bytes, new: bytes) -> tuple[Edit, ...]:
 
 
 class FileChange(Enum):
-    """What somebody else did to a file."""
+    """What another program did to a file."""
 
     NONE = auto()
-    """It is as it was read, or as it is edited here."""
+    """Nothing: it is as it was read, or as it is edited here."""
     RELOADED = auto()
-    """It changed and had no unsaved edits: its new text is taken."""
+    """It changed without unsaved edits here: its new text is taken."""
     MERGED = auto()
-    """It changed elsewhere than here: its changes are taken, the unsaved edits are kept."""
+    """It changed in other places than here: its changes are taken, unsaved edits are kept."""
     CONFLICT = auto()
-    """It changed where it has unsaved edits: nothing is taken until somebody chooses."""
+    """It changed where there are unsaved edits: nothing is taken until the user chooses."""
     GONE = auto()
     """It cannot be read any more; its text here is kept."""
 
@@ -269,7 +269,7 @@ class Sources:
         return text.saved_text(self.spans.span(site_id))
 
     def current_text(self, site_id: str) -> str:
-        """What stands at a site now, whether or not a run has seen it.
+        """Return the present text of a site, whether or not a run has seen it.
 
         Raises:
             StaleEditError: The site is no longer where the last run saw it.

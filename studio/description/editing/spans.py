@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from studio.description.values import Edit, Site
 
 _QUOTES: Final = {'"': b'"', "'": b"'"}
-"""What ends an attribute; it stands just outside the span."""
+"""The quotes that end an attribute, just outside the span."""
 _ONE_VALUE: Final = re.compile(rb"[\w.+-]+", re.ASCII)
 """One whole value, in YAML and among the parameters of a macro."""
 

@@ -108,7 +108,7 @@ class Variant:
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """What texts come to in one file: edits, the last place first, and what found no place."""
+    """Edits for texts in one file, the last place first, and the texts without a place."""
 
     edits: tuple[Edit, ...]
     left_out: tuple[str, ...] = ()
@@ -316,7 +316,7 @@ def _woven(path: str, before: bytes, variants: Sequence[Variant]) -> bytes | Non
 
 
 def _indent(starts: Sequence[str]) -> str | None:
-    """What all items of the list have before their dash, where each begins a line."""
+    """Return the indent of all items of the list, where each begins a line."""
     indents = {line[: len(line) - len(line.lstrip())] for line in starts if _ITEM.match(line)}
     return indents.pop() if len(indents) == 1 and all(map(_ITEM.match, starts)) else None
 

@@ -93,7 +93,7 @@ class Record:
         self.reads: list[Readable] = []
         self.order: float = 0
         self.value: Any = None
-        """What it came to: of an attribute or a text as it is printed, else as evaluated."""
+        """Its value: of an attribute or a text as it is printed, else as evaluated."""
         self.trigger: Record | None = None
         """Of a property: the first reader, within whose evaluation this one took place."""
         self.forwards = False
@@ -108,7 +108,7 @@ class Record:
 
     @property
     def made(self) -> Cell | Argument | None:
-        """What it was bound to, when it is the text of a property, parameter or arg."""
+        """The cell bound to it, when it is the text of a property, parameter or arg."""
         sink = self.sink
         if isinstance(sink, Readable):
             return sink  # pyright: ignore[reportReturnType] - the only readable sinks
@@ -226,7 +226,7 @@ class Resolver(Protocol):
         ...
 
     def undefined(self, name: str, scope: Scope) -> Fault:
-        """What to raise for a name that no scope has."""
+        """Return the exception for a name that no scope has."""
         ...
 
 
@@ -395,7 +395,7 @@ class Binding(Input):
         self.kind, self.name, self.element = kind, name, element
         self.attribute, self.text = attribute, text
         self.holders: list[Cell | Argument] = []
-        """What it was bound to, in order: a cell per macro call, or the argument."""
+        """Bound to it, in order: a cell per macro call, or the argument."""
         self.compared: dict[str, None] = {}
         self.overridden = False
         """An arg whose value was given from outside, or by an earlier declaration."""

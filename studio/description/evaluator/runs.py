@@ -1,4 +1,4 @@
-"""What runs leave behind: of a good run its record and its texts, of broken texts what can be read.
+"""Results of runs: of a good run its record and its texts, of broken texts what can be read.
 
 `sites` builds sites from a record, `origins` and `language` answer questions from a good run.
 """
@@ -67,7 +67,7 @@ class GoodRun:
 
 @dataclass(frozen=True, slots=True)
 class RecoveredRun:
-    """What broken texts come to; without a `root` it has no link, for `fault` perhaps."""
+    """What can be read of broken texts; without a `root` there is no link, perhaps for `fault`."""
 
     evaluation: Evaluation
     store: RecoveringStore

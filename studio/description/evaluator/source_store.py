@@ -37,7 +37,7 @@ WILDCARD_LEVELS: Final = 3
 
 
 class Roots(Protocol):
-    """What may be read; `studio.packages.roots.ServedRoots` is it."""
+    """The files that may be read, as `studio.packages.roots.ServedRoots`."""
 
     def resolve(self, path: Path | str) -> Path:
         """Follow symlinks; OutsideRootsError when it leads out."""

@@ -143,7 +143,7 @@ class _RefusedOpenError(OSError):
 
 
 class _Guard:
-    """What stands in front of xacro's functions for one run; also the context of `$(...)`."""
+    """Replaces functions of xacro for one run; also the context of `$(...)`."""
 
     def __init__(self, policy: ReadPolicy, store: SourceStore, limits: Limits) -> None:
         self._policy, self._store = policy, store

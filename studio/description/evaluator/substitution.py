@@ -25,7 +25,7 @@ LENGTH_LIMIT: Final = 1_000_000
 
 
 class Context(Protocol):
-    """What substitutions ask the run for."""
+    """The part of a run that substitutions use."""
 
     environment: dict[str, str]
 
@@ -43,7 +43,7 @@ class Context(Protocol):
 
 
 def substitute(command: str, context: Context) -> str:
-    """What `$(command)` stands for.
+    """Return the value of `$(command)`.
 
     Raises:
         Fault: The command is unknown, lacks its argument, or names what does not exist.

@@ -224,7 +224,7 @@ class Walk(ABC):
 
 
 def _share_records(block: OutputElement, made: OutputElement) -> None:
-    """What made an attribute of a block makes that of each copy, unless it is evaluated again."""
+    """Copy the makers of a block's attributes to each copy, unless evaluated again."""
     for name, record in block.makers.items():
         if "$" in block.attributes.get(name, ""):
             record.sink = Role.STRUCTURE

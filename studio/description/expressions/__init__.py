@@ -1,1 +1,1 @@
-"""What `${}` and `$()` may compute: parsed, allowed or refused, evaluated within bounds."""
+"""The expressions in `${}` and `$()`: parsed, allowed or refused, evaluated within bounds."""

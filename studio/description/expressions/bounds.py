@@ -53,7 +53,7 @@ _CHECK_AFTER_S: Final = 0.05
 
 
 def too_large() -> Refusal:
-    """What every size guard raises."""
+    """Return the exception of every size guard."""
     return Refusal("value-too-large", "An expression makes a value that is too large.")
 
 

@@ -78,7 +78,7 @@ class Expression:
     compared: tuple[tuple[str, str], ...]
     """(name, text) pairs that it compares, as in `x == 'a'` and `x in ['a', 'b']`."""
     is_pure: bool
-    """It calls no method that changes a value: evaluated again it comes to the same."""
+    """Whether it calls no method that changes a value, so that it can be evaluated again."""
 
 
 @lru_cache(maxsize=20_000)

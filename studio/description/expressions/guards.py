@@ -1,4 +1,4 @@
-"""What a compiled expression calls instead of Python's own operators and methods.
+"""Replacements of Python's own operators and methods in a compiled expression.
 
 The operators that can grow a value (`*`, `**`, `<<`, `+`, `%`) check the sizes first. Attributes
 must be in a list of harmless methods, so no expression reaches a class, a frame or a module.

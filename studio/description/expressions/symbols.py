@@ -213,7 +213,7 @@ _PYTHON: Final[dict[str, Any]] = {
 
 
 PURE_SYMBOLS: Final[dict[str, Any]] = {**_LONG_EXPOSED, **MATH}
-"""What needs no run: for the tags of YAML files, and to know what a property hides."""
+"""Names that need no run: for the tags of YAML files, and to know what a property hides."""
 
 
 SAFE_BUILTINS: Final[dict[str, Any]] = _PYTHON
@@ -221,7 +221,7 @@ SAFE_BUILTINS: Final[dict[str, Any]] = _PYTHON
 
 
 class Services(Protocol):
-    """What xacro's own functions need of the run."""
+    """The part of a run that xacro's own functions use."""
 
     def load_yaml(self, path: str) -> Any:  # noqa: ANN401
         """The values of a YAML file."""

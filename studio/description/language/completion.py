@@ -1,4 +1,4 @@
-"""What may be typed at a cursor, by where in the markup it is."""
+"""Completions at a cursor, by its place in the markup."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _SCHEME: Final = "package://"
 
 
 def completions_at(cursor: Cursor) -> Completions:
-    """What may be typed at a cursor; nothing inside of comments and the like."""
+    """Return the completions at a cursor; none inside of comments and the like."""
     token = cursor.token
     match token.where:
         case Where.SILENT:
@@ -235,7 +235,7 @@ def _parameters(cursor: Cursor, macro: str, given: set[str]) -> Iterator[Offer]:
 
 
 def value_offers(cursor: Cursor, tag: Tag, attribute: Attribute) -> tuple[list[Offer], int, int]:
-    """What may be typed in a value, and the part of it that this takes the place of."""
+    """Return the completions in a value, and the part of it that they replace."""
     if cursor.text[cursor.index - 1 : cursor.index] == "$":
         return list(_openings(cursor)), cursor.index - 1, cursor.index
     if (tag.name, attribute.name) in FILE_ATTRIBUTES:

@@ -55,7 +55,7 @@ class Cursor:
 
     @cached_property
     def token(self) -> Token:
-        """What it is in."""
+        """The token that it is in."""
         return token_at(self.text, self.index)
 
     @cached_property
@@ -153,7 +153,7 @@ class Cursor:
         return tuple(self.place(one.start, one.end) for one in found if one.name == "name")
 
     def declared_text(self, kind: SubjectKind, name: str) -> str:
-        """What this text itself gives a name that it declares; empty for any other."""
+        """Return the value that this text gives a name; empty if it does not declare it."""
         for tag in self._declaring(kind, name):
             return self.written(tag, "value") or self.written(tag, "default")
         return ""

@@ -43,7 +43,7 @@ _NAMING: Final = {
 
 
 def subject_at(cursor: Cursor) -> Subject | None:
-    """What stands under a cursor; None when nothing that is known does."""
+    """Return the subject under a cursor; None when nothing known is there."""
     token = cursor.token
     if token.where is Where.SILENT:
         return None

@@ -31,7 +31,7 @@ _USUAL: Final = frozenset(
 _COMMANDS: Final = ("arg", "find", "eval", "env", "optenv")
 _BELOW: Final = re.compile(r"(?:\.|\[\s*(?:'|\"|&quot;|&apos;))\s*$")
 _KEY_END: Final = re.compile(r"(?:'|\"|&quot;|&apos;)?\s*\]?\s*")
-"""What may stand between a name or key and the `.` or `[` behind it."""
+"""Between a name or key and the `.` or `[` behind it."""
 _NAME_END: Final = re.compile(r"\w*")
 _NAME: Final = re.compile(r"[^\W\d]\w*$|$")
 _OPERAND: Final = re.compile(r"\s*(\w+)\s+(.*)$", re.DOTALL)

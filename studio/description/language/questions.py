@@ -67,7 +67,7 @@ class Parameter:
     default: str | None
     """As written; None: a call must give it, or it is forwarded."""
     forwards: bool
-    """It takes the value of the same name where the macro is called (`:=^`)."""
+    """Whether it takes the value of the same name where the macro is called (`:=^`)."""
 
     @property
     def is_required(self) -> bool:
@@ -110,7 +110,7 @@ class OutlineValue:
     place: TextPlace
     text: str
     values: tuple[str, ...]
-    """What it came to; none when this run did not come by."""
+    """Its values; none when this run did not evaluate it."""
     doc: str
 
 
@@ -135,7 +135,7 @@ class Meaning:
     text: str = ""
     """As it is written where it is defined."""
     values: tuple[str, ...] = ()
-    """What it came to in the run; several when it was evaluated for several calls."""
+    """Its values in the run; several when it was evaluated for several calls."""
     unit: str = ""
     doc: str = ""
     places: tuple[TextPlace, ...] = ()
@@ -192,7 +192,7 @@ class Completion:
 
 @dataclass(frozen=True, slots=True)
 class Completions:
-    """What may stand in the place of [start, end), the likeliest first."""
+    """Completions for [start, end), the likeliest first."""
 
     start: int
     end: int
@@ -203,12 +203,12 @@ class Completions:
 
 @dataclass(frozen=True, slots=True)
 class OutlineQuery:
-    """What do the files of the run hold?"""
+    """Asks for the outline of the run's files."""
 
 
 @dataclass(frozen=True, slots=True)
 class LookUpQuery:
-    """What stands at this place? `text` are the bytes of the file as they are in the editor."""
+    """Asks for the meaning at a place; `text` is the file's content in the editor."""
 
     file: str
     text: bytes
@@ -226,7 +226,7 @@ class ReferencesQuery:
 
 @dataclass(frozen=True, slots=True)
 class CompletionQuery:
-    """What may be typed at this place?"""
+    """Asks for the completions at a place."""
 
     file: str
     text: bytes

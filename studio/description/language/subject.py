@@ -74,7 +74,7 @@ def distinct(values: Iterable[Any]) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What one chain of names means in one scope."""
+    """The meaning of one chain of names in one scope."""
 
     kind: SubjectKind
     name: str
@@ -124,7 +124,7 @@ def _exposed(name: str, value: Any) -> Found:  # noqa: ANN401
 
 
 def _below(found: Found, key: Key) -> Found | None:
-    """What `.key` or `[key]` means behind what was found."""
+    """Return what `.key` or `[key]` means behind what was found."""
     value = found.value
     if isinstance(value, ScopeView):
         pair = value.scope.find(str(key))

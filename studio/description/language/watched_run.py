@@ -32,7 +32,7 @@ INCLUDES_KEPT: Final = 2_000
 
 
 class Evaluated(NamedTuple):
-    """What one `${...}` or `$(...)` came to once, and the names that it could read."""
+    """One evaluation of a `${...}` or `$(...)`: its value, and the names in scope."""
 
     value: Any
     scope: Scope

@@ -54,7 +54,7 @@ ELEMENTS: Final[dict[str, tuple[str, ...]]] = {
     "hardware": ("plugin", "param"),
     "gazebo": ("plugin", "sensor", "material"),
 }
-"""What may stand in each element of URDF."""
+"""Elements allowed in each element of URDF."""
 
 ATTRIBUTES: Final[dict[str, tuple[str, ...]]] = {
     "robot": ("name", "version", "xmlns:xacro"),

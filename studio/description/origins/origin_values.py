@@ -9,7 +9,7 @@ from studio.problems import Place  # noqa: TC001 - msgspec and pydantic read it
 
 
 class InputKind(StrEnum):
-    """What a value that others are made of is in its file."""
+    """Kind of an input in its file."""
 
     PROPERTY = "property"
     ARG = "arg"
@@ -28,7 +28,7 @@ class OriginInput:
     text: str
     """As written, entities resolved; of an arg that was given from outside, the default."""
     value: str
-    """What it came to, as xacro prints it; `{...}` and `[...]` for mappings and lists."""
+    """Its value, as xacro prints it; `{...}` and `[...]` for mappings and lists."""
     place: Place
     """Place of the text; of an arg that no file declares, one with an empty file."""
     site: str
@@ -65,7 +65,7 @@ class OriginCall:
     called_at: Place
     defined_at: Place
     arguments: tuple[int, ...]
-    """What its parameters were bound to, as indices."""
+    """The inputs bound to its parameters, as indices."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +151,6 @@ class PartOriginQuery:
 
 @dataclass(frozen=True, slots=True)
 class SiteEffectsQuery:
-    """What does this text shape? `site` is a `Site.id`."""
+    """Asks for the effects of a text; `site` is a `Site.id`."""
 
     site: str

@@ -85,7 +85,7 @@ class Governor(Input):
 
     @property
     def own_inputs(self) -> Inputs:
-        """What it read itself, without what it is inside of."""
+        """Its own inputs, without those of the elements around it."""
         return tuple(one for one in self.inputs if not isinstance(one, Governor))
 
 
@@ -267,7 +267,7 @@ class TracedEvaluation(Evaluation):
         return solid
 
     def _governor(self) -> Governor | None:
-        """What decides about the element worked on; one that read nothing decides nothing."""
+        """The governor of the current element; one that read nothing decides nothing."""
         governor = self.traced.governor
         while governor is not None and not governor.inputs:
             governor = governor.outer
@@ -327,7 +327,7 @@ def trace(
 
 
 def inputs_of(one: Input) -> Inputs:
-    """What something named was made from; a value of a YAML file from nothing."""
+    """Return the inputs of something named; a value of a YAML file has none."""
     if isinstance(one, Governor):
         return (*one.inputs, one.outer) if one.outer else one.inputs
     return one.inputs if isinstance(one, TracedBinding) else ()

@@ -97,7 +97,7 @@ def truth(text: str) -> Named | None:
 
 
 def paths_in(text: str, *, is_filename: bool) -> Iterator[str]:
-    """What in a text may be a path: all of it, or what is quoted in its expressions."""
+    """Yield what may be a path in a text: all of it, or what is quoted in its expressions."""
     if is_filename or _PATH.match(text):
         yield text
     elif "$(find" in text:
@@ -159,7 +159,7 @@ def _named(found: re.Match[str]) -> Named:
 def _between(
     name: str, begin: str, end: str, resolve: Callable[[str, str | None], str | None]
 ) -> str:
-    """What stands in a file name between its known begin and end; empty when it has others."""
+    """Return the part of a file name between its known begin and end; empty if they differ."""
     if not name.startswith(begin) or name.startswith("."):
         return ""
     for size in range(len(name) - len(begin), 0, -1):
@@ -200,7 +200,7 @@ class LaunchArgument:
     is_file: bool
     """Whether its value names a file."""
     in_macro: bool
-    """It is read in macros only, which need not be called."""
+    """Whether it is read in macros only, which need not be called."""
     is_early: bool
     """The root element reads it, above its declaration: a default there comes too late."""
 

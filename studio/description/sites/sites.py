@@ -32,7 +32,7 @@ _ALIAS_STEPS = 16
 
 
 class Links(NamedTuple):
-    """What reads one input: `reads` counts texts, of the consumers there are the first few."""
+    """Readers of one input: `reads` counts texts, of the consumers there are the first few."""
 
     reads: int
     consumers: tuple[Consumer, ...]
@@ -53,7 +53,7 @@ class Reach:
         self._consumers.pop(one, None)
 
     def links(self, one: Input) -> Links:
-        """What reads an input."""
+        """Return the readers of an input."""
         links = self._links.get(one)
         if links is None:
             links = self._links[one] = _links_of(one)
@@ -192,7 +192,7 @@ def _key(binding: Binding) -> _BindingKey:
 
 
 def _compared_with(start: Input, reach: Reach) -> Iterator[str]:
-    """What conditions compare it with, itself or under the name that it was passed on as."""
+    """Return the texts that conditions compare it with, also under names it was passed on as."""
     yield from start.compared
     for dependent in reach.links(start).dependents:
         if dependent.compared and _passes_on(dependent, start):

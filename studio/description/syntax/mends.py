@@ -28,7 +28,7 @@ class TextMends:
         self.line_break: Final = "\r\n" if b"\r\n" in data[: 1 << 16] else "\n"
 
     def text(self, start: int, end: int) -> str:
-        """What stands there."""
+        """The text there."""
         return self._data[start:end].decode(self._encoding, "replace")
 
     def replaced(self, start: int, end: int, text: str) -> Replacement:

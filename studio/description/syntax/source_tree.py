@@ -159,7 +159,7 @@ class SourceTree:
         self.comments: list[SourceComment] = []
         """All comments inside the root, in order."""
         self.uses_xacro = False
-        """It declares xacro's namespace, in either spelling, whatever its suffix."""
+        """Whether it declares xacro's namespace, in either spelling."""
         self.root: SourceElement
 
 

@@ -36,7 +36,7 @@ _ADD: Final = int(Action.ADD)
 
 
 class BatchKey(NamedTuple):
-    """What markers have in common that are drawn together."""
+    """The properties shared by markers that are drawn together."""
 
     frame: str
     """Without a leading slash, as RViz looks it up."""

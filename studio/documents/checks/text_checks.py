@@ -165,7 +165,7 @@ def merged(of_robot: Iterable[Problem], of_texts: Sequence[Problem]) -> tuple[Pr
 async def second_opinion(
     model: Model, urdf: UrdfText, validator: UrdfValidator
 ) -> tuple[Problem, ...]:
-    """What yourdfpy finds in the URDF as it is now.
+    """Return what yourdfpy finds in the present URDF.
 
     Raises:
         CommandError: There is no URDF yet.

@@ -175,7 +175,7 @@ class RecipeBook:
         return known
 
     def _unread(self, files: Iterable[str]) -> list[_Unread]:
-        """What `read` has to read: unsaved files, and those that variants call so."""
+        """Return the names that `read` has to read: unsaved files, and those in variants."""
         found: list[_Unread] = []
         for path in dict.fromkeys((*self._sources.unsaved_files, *self._paths(files))):
             now, disk = self._sources.text(path), self._sources.saved(path)

@@ -37,7 +37,7 @@ class SecondRobot:
     robot: Robot
     kinematics: Kinematics
     arguments: Mapping[str, str]
-    """What each argument came to, passed or not."""
+    """Value of each argument, passed or not."""
     files: tuple[str, ...] = ()
     """Every file that was read."""
     fault: str = ""
@@ -128,7 +128,7 @@ class Ghost:
 
     @property
     def shown(self) -> SecondRobot | None:
-        """What it shows."""
+        """The robot that it shows."""
         return self._shown
 
     @property

@@ -35,7 +35,7 @@ _log = logging.getLogger(__name__)
 
 
 class MovesJoints(Protocol):
-    """What moves the joints of a robot."""
+    """The joints of a document, for a source that moves them."""
 
     def animate(self, *, running: bool) -> None:
         """Swing them, or stop."""
@@ -87,7 +87,7 @@ class RobotFeed:
         self._sent_s = 0.0
         self._ticking: asyncio.Task[None] | None = None
         self._turn = asyncio.Lock()
-        """Two who switch at once do it one after the other."""
+        """Held while the source or the publishing is switched."""
         self._closed = False
 
     def events(self) -> Iterable[WireFeed]:

@@ -101,7 +101,7 @@ class ConnectionCommands:
         await self._wire.link()
 
     async def examine(self, command: ExamineWire) -> WireReport:
-        """What there is at a place."""
+        """Return a report on a router."""
         return await asyncio.to_thread(self._examine, command)
 
     async def find(self, command: FindWireRobots) -> WireRobots:

@@ -28,7 +28,7 @@ _TOO_MANY: Final = "{} other frames are followed already: choose one of those."
 
 
 class DrawsLive(Protocol):
-    """What of a live scene is needed."""
+    """The part of a live scene that is used."""
 
     def apply(self, display_id: str, drawing: Drawing, poses: Mapping[str, Pose | None]) -> None:
         """Draw another state."""

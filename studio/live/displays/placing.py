@@ -96,7 +96,7 @@ class Placing:
         self._shown = Shown(self._shown.drawing, {})
 
     def forget(self) -> None:
-        """What waits is of another time, and is not shown any more."""
+        """Drop what waits: it is of another time."""
         self._waiting.clear()
         self._newest = {}  # even nothing is news now
         self.renew()

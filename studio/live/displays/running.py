@@ -54,7 +54,7 @@ class RunningDisplay:
                 self.display.set(name, value)
         self.placing = Placing()
         self.drawn: Drawing = NOTHING
-        """What stands in the scene."""
+        """The drawing in the scene."""
         self._subscriptions: dict[str, Subscription] = {}
         """By role."""
         self._closed = False

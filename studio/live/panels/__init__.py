@@ -1,1 +1,1 @@
-"""What panels see of a ROS 2 system, and do in it."""
+"""The ROS 2 system for panels: what they show of it, and do in it."""

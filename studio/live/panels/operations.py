@@ -137,7 +137,7 @@ _log = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class Outcome(Generic[ValueT]):
-    """What became of something that was waited for."""
+    """Result of an operation: its value, or why it failed."""
 
     kind: Literal["done", "failed", "cancelled"]
     value: ValueT | None = None

@@ -105,7 +105,7 @@ def _policy(name: str) -> str:
 
 
 def _seconds(span: Duration) -> float | None:
-    """None stands for no bound at all."""
+    """Return seconds; None stands for no bound."""
     return span.nanoseconds / 1e9 if span.nanoseconds else None
 
 
@@ -130,7 +130,7 @@ def _misfits(
 
 
 def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
-    """What keeps them apart on Zenoh, too, whose keys hold type and hash."""
+    """Return what keeps them from matching on Zenoh, whose keys have type and hash."""
     if publisher.type_name != subscriber.type_name:
         return [f"one sends {publisher.type_name}, the other wants {subscriber.type_name}"]
     if publisher.type_hash != subscriber.type_hash:

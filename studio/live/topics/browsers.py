@@ -175,11 +175,11 @@ class BrowserTopics:
         self._is_woken = self._is_sending = self._closed = False
 
     def attach(self, lane: DataLaneEnd) -> None:
-        """A data lane was opened."""
+        """Add a data lane."""
         self._browsers[lane] = _Browser(lane)
 
     def detach(self, lane: DataLaneEnd) -> None:
-        """It was closed: what it alone wanted ends."""
+        """Remove a closed lane, and end what it alone subscribed."""
         self._browsers.pop(lane, None)
         self._close_unwanted()
 

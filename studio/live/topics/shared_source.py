@@ -30,7 +30,7 @@ _log = logging.getLogger(__name__)
 
 
 class _Key(NamedTuple):
-    """What those have in common who share a stream."""
+    """Key of a stream: the properties that its subscribers share."""
 
     topic: str
     type_name: str

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from studio.ros.types.library import TypeLibrary
 
 _PAUSE_S: Final = 0.05
-"""What changes meanwhile is fitted together."""
+"""Changes within this time are fitted together."""
 _AGAIN_S: Final = 0.5
 """Until a refused subscription is tried again."""
 

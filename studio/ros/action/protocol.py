@@ -1,4 +1,4 @@
-"""What both ends of an action share: names and QoS of its parts, goal ids, states, cancelling."""
+"""Shared by clients and servers of actions: names and QoS of parts, goal ids, states."""
 
 from __future__ import annotations
 

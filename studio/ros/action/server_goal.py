@@ -92,7 +92,7 @@ class ServerGoalHandle:
 
     @property
     def known(self) -> KnownGoal:
-        """What requests to cancel are held against."""
+        """Return the facts that requests to cancel are checked against."""
         return KnownGoal(bytes(self.goal_id.uuid), self._accepted_ns, self._status)
 
     def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:

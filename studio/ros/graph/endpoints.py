@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from studio.ros.tokens import EndpointToken
 
 TOKENS_MAX = 200_000
-"""More than that is no robot but an attack; what comes on top is counted."""
+"""Limit: more is an attack and no robot; tokens beyond it are counted."""
 _REMEMBERED_MAX = 10_000
 _Key = tuple[str, int, str]
 """Session, number and path: foreign peers number all their nodes alike."""
@@ -97,7 +97,7 @@ class GraphEndpoint:
 
     @property
     def qos_profile(self) -> QoSProfile:
-        """What it offers or requests."""
+        """The QoS that it offers or requests."""
         return self.qos
 
     @classmethod
@@ -116,14 +116,14 @@ class GraphEndpoint:
 
 
 class Taken(Enum):
-    """What became of a token that came."""
+    """What became of a token."""
 
     CHANGED = auto()
     KNOWN = auto()
     REFUSED = auto()
-    """It is no token of ROS, or one too many."""
+    """It is no token of ROS, or beyond the limit."""
     UNCERTAIN = auto()
-    """It went before it came: find out whether it stands, and call `settle`."""
+    """Its end came before it: find out whether it is there, and call `settle`."""
 
 
 @dataclass(slots=True)

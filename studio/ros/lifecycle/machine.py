@@ -58,7 +58,7 @@ ASKED = (
     Transition(6, "shutdown", _S.INACTIVE, _S.SHUTTINGDOWN),
     Transition(7, "shutdown", _S.ACTIVE, _S.SHUTTINGDOWN),
 )
-"""What other nodes may request."""
+"""Transitions that other nodes may request."""
 
 _ENDS = (
     (_S.CONFIGURING, 10, _S.INACTIVE, _S.UNCONFIGURED, _S.ERRORPROCESSING),
@@ -73,7 +73,7 @@ FOLLOWING = tuple(
     for start, number, *goals in _ENDS
     for step, result in enumerate(TransitionCallbackReturn)
 )
-"""What follows from how a callback went."""
+"""Transitions that follow from the result of a callback."""
 TRANSITIONS = (*ASKED, *FOLLOWING)
 CALLBACKS = {
     _S.CONFIGURING: "on_configure",

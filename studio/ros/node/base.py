@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class NodeBase:
-    """What every node has before it creates anything; users derive from `Node`."""
+    """The basis of a node, which creates nothing; users derive from `Node`."""
 
     def __init__(
         self, node_name: str, namespace: str, context: Context, arguments: NodeArguments
@@ -62,7 +62,7 @@ class NodeBase:
 
     @cached_property
     def context(self) -> Context:
-        """What it shares with the other nodes of the process."""
+        """The context, shared with the other nodes of the process."""
         return self._context
 
     @property
@@ -93,7 +93,7 @@ class NodeBase:
 
     @property
     def all_work(self) -> list[Work]:
-        """What it has to do now and then: subscriptions, timers, services, clients and others."""
+        """Its work: subscriptions, timers, services, clients and others."""
         with self._lock:
             return list(self._all_work)
 

@@ -38,7 +38,7 @@ class ExecutorNode(Home, Protocol):
 
     @property
     def all_work(self) -> list[Work]:
-        """What it has to do now and then."""
+        """Its work: subscriptions, timers and others."""
         ...
 
 

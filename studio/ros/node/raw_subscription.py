@@ -184,7 +184,7 @@ class RawSubscription:
 
 
 class _Swap:
-    """What takes the place of what is declared; after the swap, what was there before."""
+    """The declaration that replaces the present one; after the swap, the one before."""
 
     def __init__(
         self,

@@ -31,7 +31,7 @@ ANSWER_TIMEOUT_S = 5.0
 
 
 class InitContextManager:
-    """What `init` returns: `with init():` shuts down at its end."""
+    """Returned by `init`: `with init():` shuts down at its end."""
 
     def __init__(self, context: Context) -> None:
         self.context = context

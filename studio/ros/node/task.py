@@ -18,7 +18,7 @@ logger = logging.getLogger(__name__)
 
 
 class TaskExecutor(Protocol):
-    """What futures and tasks need of the executor that carries them out."""
+    """The part of an executor that futures and tasks use."""
 
     @property
     def is_shut_down(self) -> bool:

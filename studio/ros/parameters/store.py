@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 PreSetCallback = Callable[[list["Parameter"]], list["Parameter"]]
 OnSetCallback = Callable[[list["Parameter"]], Any]
-"""It returns a SetParametersResult; anything with `successful` and `reason` is taken."""
+"""Returns a SetParametersResult, or anything with `successful` and `reason`."""
 PostSetCallback = Callable[[list["Parameter"]], None]
 _TOLERANCE = 1e-9
 NAME_CHARACTERS_MAX = 1_000
@@ -133,7 +133,7 @@ def _close(one: float, other: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class ParameterChange:
-    """What one step changed, as `/parameter_events` carries it."""
+    """What one step changed, as in `/parameter_events`."""
 
     new: tuple[Parameter, ...] = ()
     changed: tuple[Parameter, ...] = ()

@@ -27,7 +27,7 @@ _OTHER_NAMES: Final = {
     **{base.capitalize(): base for base in PRIMITIVES},
     **{base.upper(): base for base in PRIMITIVES},
 }
-"""What other languages call a type, and what a text calls it."""
+"""Names of types in other languages, and in definitions."""
 _MEMBER: Final = re.compile(r"(?P<type>[\w./]+)(?P<array>\[[^\]]*\])?\s+(?P<name>\w+)(?P<rest>.*)")
 _CAPITAL: Final = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 _CHARACTERS_MAX: Final = 200

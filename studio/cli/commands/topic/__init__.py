@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class VerbsModule(Protocol):
-    """What each file beside this one holds."""
+    """A file beside this one."""
 
     def add(self, verbs: Verbs) -> None:
         """Add the verbs of the file to those of `topic`."""
