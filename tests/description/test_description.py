@@ -14,6 +14,7 @@ import studio.description
 ROOM = Path(studio.description.__file__).parent
 NEEDED = {
     "description", "errors", "files", "packages", "problems", "settings", "system", "workers",
+    "worker_process",
 }  # fmt: skip
 ALL_MODULES = """
 import importlib, pkgutil, sys
