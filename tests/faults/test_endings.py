@@ -14,6 +14,7 @@ from tests.support.wire import running_router
 
 pytestmark = pytest.mark.network
 SIGNALS = [signal.SIGINT, signal.SIGTERM]
+MORE_MOMENTS_S = [0.1, 0.6, 0.8, 1.0, 1.5]
 
 
 @pytest.mark.parametrize("number", SIGNALS)
@@ -30,9 +31,12 @@ def test_a_node_at_work_ends(endpoint: str, name: str, working: str, number: sig
 
 
 @pytest.mark.parametrize("number", SIGNALS)
-@pytest.mark.parametrize("after_s", [0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.5])
+@pytest.mark.parametrize(
+    "after_s",
+    [0.0, 0.2, 0.4, *(pytest.param(one, marks=pytest.mark.sweep) for one in MORE_MOMENTS_S)],
+)
 def test_a_node_that_is_starting_ends(endpoint: str, after_s: float, number: signal.Signals):
-    with running_demo(endpoint, "talker") as demo:
+    with running_demo(endpoint, "talker", warm=False) as demo:
         time.sleep(after_s)  # any moment is meant: there is no condition to wait for
         demo.stop(number)
 

@@ -17,6 +17,7 @@ from studio.ros.client import Context, ExternalShutdownException, Node, SingleTh
 from studio.ros.messages import message, service, shared_types
 from studio.ros.wire.settings import WireSettings
 from tests.support.patience import ended_within
+from tests.support.warm_python import start_python
 from tests.support.wire import PATIENCE_S, open_test_session, wait_until
 
 if TYPE_CHECKING:
@@ -32,17 +33,14 @@ class RunningDemo:
     """A process, and what it has printed so far; its log is on stderr, both are read as one."""
 
     def __init__(
-        self, words: list[str], environment: dict[str, str], keyboard: int = subprocess.DEVNULL
+        self,
+        words: list[str],
+        environment: dict[str, str],
+        keyboard: int = subprocess.DEVNULL,
+        *,
+        warm: bool = True,
     ) -> None:
-        self.process = subprocess.Popen(
-            words,
-            env=environment,
-            stdin=keyboard,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-        )
+        self.process = start_python(words, environment, stdin=keyboard, warm=warm)
         self.lines: list[str] = []
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
@@ -68,14 +66,17 @@ class RunningDemo:
 
     def stop(self, number: int = signal.SIGINT) -> int:
         """Send a signal to its whole group, as a terminal does; it has two seconds to end."""
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, number)
+        self._signal(number)
         return self.wait(ENDS_WITHIN_S)
 
     def close(self) -> None:
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGKILL)
+        self._signal(signal.SIGKILL)
         self.wait()
+
+    def _signal(self, number: int) -> None:
+        if self.process.poll() is None:
+            with suppress(ProcessLookupError):  # it has ended since
+                os.killpg(self.process.pid, number)
 
     def _read(self) -> None:
         assert self.process.stdout is not None
@@ -84,20 +85,28 @@ class RunningDemo:
 
 
 @contextmanager
-def running_demo(endpoint: str, name: str, *arguments: str) -> Generator[RunningDemo]:
+def running_demo(
+    endpoint: str, name: str, *arguments: str, warm: bool = True
+) -> Generator[RunningDemo]:
     """A demo by its name, or by that of an executable, at a router."""
     demo = find_demo(name)
     assert demo is not None
-    with running([sys.executable, "-m", demo.module, *arguments], endpoint) as started:
+    words = [sys.executable, "-m", demo.module, *arguments]
+    with running(words, endpoint, warm=warm) as started:
         yield started
 
 
 @contextmanager
 def running(
-    words: list[str], endpoint: str, keyboard: int = subprocess.DEVNULL
+    words: list[str],
+    endpoint: str,
+    keyboard: int = subprocess.DEVNULL,
+    *,
+    warm: bool = True,
 ) -> Generator[RunningDemo]:
-    """Any process that finds the router by its environment."""
-    started = RunningDemo(words, environment_for(WireSettings(connect=(endpoint,))), keyboard)
+    """Any process that finds the router by its environment; not warm, it imports all it needs."""
+    environment = environment_for(WireSettings(connect=(endpoint,)))
+    started = RunningDemo(words, environment, keyboard, warm=warm)
     try:
         yield started
     finally:
