@@ -17,7 +17,7 @@ from studio.ros.client import Context, ExternalShutdownException, Node, SingleTh
 from studio.ros.messages import message, service, shared_types
 from studio.ros.wire.settings import WireSettings
 from tests.support.patience import ended_within
-from tests.support.warm_python import start_python
+from tests.support.warm_python import NODE, start_python
 from tests.support.wire import PATIENCE_S, open_test_session, wait_until
 
 if TYPE_CHECKING:
@@ -40,7 +40,9 @@ class RunningDemo:
         *,
         warm: bool = True,
     ) -> None:
-        self.process = start_python(words, environment, stdin=keyboard, warm=warm)
+        self.process = start_python(
+            words, environment, stdin=keyboard, imported=NODE if warm else ()
+        )
         self.lines: list[str] = []
         self._reader = threading.Thread(target=self._read)
         self._reader.start()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import queue
 import signal
 import subprocess
@@ -19,11 +20,14 @@ from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
 from tests.support.patience import Stopwatch, ended_within
+from tests.support.warm_python import STUDIO, start_python
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator, Sequence
 
     from websockets.sync.connection import Connection
+
+    from tests.support.warm_python import WarmProcess
 
 START_TIMEOUT_S = 90.0
 _LISTENING = "0A"
@@ -38,7 +42,9 @@ class StudioDidNotStartError(RuntimeError):
 class RunningStudio:
     """A studio that has printed its address."""
 
-    def __init__(self, process: subprocess.Popen[str], line: str, errors: Path) -> None:
+    def __init__(
+        self, process: subprocess.Popen[str] | WarmProcess, line: str, errors: Path
+    ) -> None:
         self.process, self.line, self._errors = process, line, errors
         self.url = line.removeprefix("Studio: ")
         parts = urlsplit(self.url)
@@ -162,10 +168,17 @@ def running_studio(
 
 @contextmanager
 def running_process(module: Sequence[str], errors: Path) -> Generator[RunningStudio]:
-    """Run a module that prints its address, with stderr into a file, until the block ends."""
+    """Run a module that prints its address, with stderr into a file, until the block ends.
+
+    Within a test it finds imported what it needs; for whoever measures, it starts as it does.
+    """
+    is_test = "PYTEST_CURRENT_TEST" in os.environ
     with errors.open("w") as sink:
-        process = subprocess.Popen(
-            [sys.executable, "-m", *module], stdout=subprocess.PIPE, stderr=sink, text=True
+        process = start_python(
+            [sys.executable, "-m", *module],
+            os.environ,
+            stderr=sink.fileno(),
+            imported=STUDIO if is_test else (),
         )
     try:
         yield RunningStudio(process, _until_address(process, errors), errors)
@@ -180,7 +193,7 @@ def running_process(module: Sequence[str], errors: Path) -> Generator[RunningStu
             process.stdout.close()
 
 
-def _until_address(process: subprocess.Popen[str], errors: Path) -> str:
+def _until_address(process: subprocess.Popen[str] | WarmProcess, errors: Path) -> str:
     """The first line, which must be the address."""
     assert process.stdout is not None
     heard: queue.Queue[str] = queue.Queue()

@@ -1,10 +1,11 @@
 """Python processes that import nothing anew: each is forked from one that has imported it all.
 
-A node's process imports for a third of a second, longer than most tests keep it busy.
-`start_python` forks one where it can (on Linux); elsewhere, and for tests of the start itself, it
-starts Python as usual.
+A node's process imports for a third of a second, a studio's for one, longer than most tests keep
+them busy. `start_python` forks one where it can (on Linux); elsewhere, and for tests of the start
+itself, it starts Python as usual.
 
-`python -m tests.support.warm_python FD` is what the processes are forked from, and ends with FD.
+`python -m tests.support.warm_python FD MODULE...` imports the modules and is what processes are
+forked from. It ends with FD.
 """
 
 from __future__ import annotations
@@ -21,17 +22,18 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 import types
 from functools import cache
 from importlib import import_module
 from typing import IO, TYPE_CHECKING, Any
 
-from tests.support.wire import wait_until
+from tests.support.wire import PATIENCE_S
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-_PRELOADED = (
+NODE = (
     "rosbags.typesys.stores.ros2_humble",
     "rosbags.typesys.stores.ros2_jazzy",
     "ruamel.yaml",
@@ -45,6 +47,9 @@ _PRELOADED = (
     "studio.tf.rotations",
 )
 """What nodes and command lines import; none is run itself, reads the environment or has threads."""
+STUDIO = (*NODE, "studio.cli.serving", "studio.server.launch")
+"""What the studio imports."""
+_POLL_S = 0.005
 _REQUEST_BYTES = 1 << 18
 _AS_AT_THE_START = ("PYTHONPATH", "PYTHONHOME", "PYTHONIOENCODING", "PYTHONWARNINGS")
 
@@ -55,11 +60,19 @@ def start_python(
     *,
     stdin: int = subprocess.DEVNULL,
     stderr: int = subprocess.STDOUT,
-    warm: bool = True,
+    imported: tuple[str, ...] = NODE,
 ) -> WarmProcess | subprocess.Popen[str]:
-    """Start `[sys.executable, "-m" or "-c", ...]` in a session of its own, its output in a pipe."""
-    if warm and _can_fork(words, environment):
-        return _source().started(list(words[1:]), environment, stdin, stderr)
+    """Start `[sys.executable, "-m" or "-c", ...]` in a session of its own, its output in a pipe.
+
+    Args:
+        words: The command.
+        environment: All variables that it has.
+        stdin: As for a Popen.
+        stderr: As for a Popen.
+        imported: The modules that it finds imported; if none, it is started as usual.
+    """
+    if imported and _can_fork(words, environment):
+        return _source(imported).started(list(words[1:]), environment, stdin, stderr)
     return subprocess.Popen(
         words,
         env=environment,
@@ -95,11 +108,17 @@ class WarmProcess:
         """Its code if it has ended, negative if a signal ended it."""
         return self._source.code_of(self.pid)
 
-    def wait(self) -> int:
-        """Wait for its end; its code."""
-        wait_until(f"the end of process {self.pid}", lambda: self.poll() is not None)
-        code = self.poll()
-        assert code is not None
+    def wait(self, timeout: float = PATIENCE_S) -> int:
+        """Wait for its end; its code.
+
+        Raises:
+            subprocess.TimeoutExpired: It did not end within so many seconds.
+        """
+        end_s = time.monotonic() + timeout
+        while (code := self.poll()) is None:
+            if time.monotonic() > end_s:
+                raise subprocess.TimeoutExpired(f"process {self.pid}", timeout)
+            time.sleep(_POLL_S)
         return code
 
     def send_signal(self, number: int) -> None:
@@ -119,11 +138,11 @@ class WarmProcess:
 class _Source:
     """The process that others are forked from, and the codes of those that have ended."""
 
-    def __init__(self) -> None:
+    def __init__(self, imported: tuple[str, ...]) -> None:
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", __name__, str(theirs.fileno())],
+                [sys.executable, "-m", __name__, str(theirs.fileno()), *imported],
                 env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},  # a fork has one thread
                 stdin=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
@@ -263,8 +282,8 @@ def _run(words: list[str], folder: str) -> None:
 
 
 if __name__ == "__main__":
-    for preloaded in _PRELOADED:
-        import_module(preloaded)
+    for module in sys.argv[2:]:
+        import_module(module)
     gc.collect()
     gc.freeze()
     assert len(os.listdir("/proc/self/task")) == 1, "a fork would have one thread of several"  # noqa: PTH208
