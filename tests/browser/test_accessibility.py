@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final
 
 import pytest
@@ -16,7 +17,7 @@ from tests.support.wire import running_router
 from tests.support.wired_tab import add_displays, connect, look_at_odometry
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator, Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser
@@ -82,15 +83,15 @@ _FAULTS: Final = """async ([part, options]) => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def tab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioPage]:
-    """One tab for the whole sweep, with a robot that moves, so that the panels have something."""
-    data = tmp_path_factory.mktemp("studio") / "data"
+@contextmanager
+def moving(browser: Browser, folder: Path, *, view: bool) -> Generator[StudioPage]:
+    """A tab with a robot that moves, so that the panels have something."""
+    data = folder / "data"
     with running_router() as endpoint:
         words = ["demo", "--connect", endpoint, "--router", "off"]
         with (
             running_studio(words, data, moving=True) as studio,
-            studio_page(browser, studio) as tab,
+            studio_page(browser, studio, view=view) as tab,
         ):
             tab.page.evaluate(_STOP_DRAWING)
             connect(tab)
@@ -100,6 +101,20 @@ def tab(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
             let_collide(tab, data)
             tab.page.evaluate(AXE_SCRIPT)
             yield tab
+
+
+@pytest.fixture
+def tab(browser: Browser, tmp_path: Path) -> Iterator[StudioPage]:
+    """Without the 3D view, whose tools can then not be used."""
+    with moving(browser, tmp_path, view=False) as tab:
+        yield tab
+
+
+@pytest.fixture(scope="module")
+def whole(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioPage]:
+    """One tab for the whole sweep."""
+    with moving(browser, tmp_path_factory.mktemp("studio"), view=True) as tab:
+        yield tab
 
 
 def let_collide(tab: StudioPage, data: Path) -> None:
@@ -152,14 +167,14 @@ def test_axe_finds_nothing_on_the_page_nor_on_some_of_its_panels_and_dialogs(tab
 
 @pytest.mark.sweep
 @pytest.mark.parametrize("theme", THEMES)
-def test_axe_finds_nothing_on_any_panel_or_dialog(tab: StudioPage, theme: Theme):
-    tab.page.evaluate(_SET_THEME, theme)
-    tab.page.locator(f"html[data-theme={theme}]").wait_for()
-    found = faults(tab, "page", _WHOLE, theme)
-    for panel in tab.page.evaluate(PANEL_IDS):
-        found += panel_faults(tab, panel, theme)
+def test_axe_finds_nothing_on_any_panel_or_dialog(whole: StudioPage, theme: Theme):
+    whole.page.evaluate(_SET_THEME, theme)
+    whole.page.locator(f"html[data-theme={theme}]").wait_for()
+    found = faults(whole, "page", _WHOLE, theme)
+    for panel in whole.page.evaluate(PANEL_IDS):
+        found += panel_faults(whole, panel, theme)
     for name in DIALOGS:
-        found += dialog_faults(tab, name, theme)
+        found += dialog_faults(whole, name, theme)
     assert not found, "\n".join(found)
 
 

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, wait_until
+from tests.support.studio_page import StudioPage, studio_context, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator
+    from collections.abc import Generator
 
     from playwright.sync_api import Browser
 
     from tests.support.server import RunningStudio
+    from tests.support.shared_tab import SharedTab
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
@@ -37,6 +37,10 @@ _OVERLAPS = """() => {
     one.getBoundingClientRect()).filter(({ width }) => width > 0);
   return parts.slice(1).some(({ left }, at) => left < parts[at].right - 1);
 }"""
+_HAS_ROBOT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  return (await import(new URL("../model/document.js", script))).robot.value !== null;
+}"""
 _VIEW = "document.querySelector('iframe').contentWindow"
 _GRAPHICS = f"() => {_VIEW}.studio3d?.graphics() ?? null"
 _SHADOWS = f"""() => {{
@@ -47,36 +51,56 @@ _SHADOWS = f"""() => {{
   return count;
 }}"""
 _SPIN = f"""() => {{
-  const view = {_VIEW};
-  const turn = () => {{ view.__viserMutable.requestRender(); view.requestAnimationFrame(turn); }};
-  turn();
+  const mutable = {_VIEW}.__viserMutable;
+  const drawn = mutable.scene.onAfterRender;
+  mutable.scene.onAfterRender = () => {{ drawn(); mutable.requestRender(); }};
+  mutable.requestRender();
 }}"""
-_UNNAMED_CARD = """() => {
+_SLOW_UNNAMED_CARD = """() => {
   const ask = WebGL2RenderingContext.prototype.getParameter;
   WebGL2RenderingContext.prototype.getParameter = function getParameter(what) {
     return what === 0x9246 ? "Some card" : ask.call(this, what);
   };
+  if (window === top) return;
+  const frame = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => window.setTimeout(() => frame(draw), 300);
+  window.cancelAnimationFrame = window.clearTimeout.bind(window);
 }"""
-"""0x9246 is UNMASKED_RENDERER_WEBGL: what draws says that it were a card."""
+"""0x9246 is UNMASKED_RENDERER_WEBGL: what draws says that it were a card. Three pictures a second
+are slow on every machine, and cost it little."""
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
-    with running_studio(["demo"], tmp_path_factory.mktemp("studio") / "data") as running:
-        yield running
+def studio(shared: SharedTab) -> RunningStudio:
+    return shared.anew()
 
 
 @contextmanager
-def opened(
+def frame_of(
     browser: Browser,
     studio: RunningStudio,
     size: tuple[int, int],
-    script: str = "",
     **more: Any,  # noqa: ANN401 - what playwright takes
 ) -> Generator[StudioPage]:
-    """A tab of that size in which the robot is drawn."""
+    """A tab of that size, without the 3D view."""
+    context = studio_context(browser, {"width": size[0], "height": size[1]}, **more)
+    context.add_cookies([{"name": "without_view", "value": "1", "url": studio.origin}])
+    tab = StudioPage(context.new_page())
+    tab.page.goto(studio.url)
+    wait_until("the robot", lambda: bool(tab.page.evaluate(_HAS_ROBOT)))
+    tab.stand_still()
+    yield tab
+    assert tab.errors == []
+    context.close()
+
+
+@contextmanager
+def drawn(
+    browser: Browser, studio: RunningStudio, scale: float, script: str = ""
+) -> Generator[StudioPage]:
+    """A tab in which the robot is drawn, in a small window at that scale."""
     context = browser.new_context(
-        viewport={"width": size[0], "height": size[1]}, reduced_motion="reduce", **more
+        viewport={"width": 720, "height": 500}, reduced_motion="reduce", device_scale_factor=scale
     )
     if script:
         context.add_init_script(f"({script})()")
@@ -92,7 +116,7 @@ def opened(
 def test_fingers_find_every_control_of_the_frame(
     browser: Browser, studio: RunningStudio, size: tuple[int, int]
 ):
-    with opened(browser, studio, size, has_touch=True, is_mobile=True) as tab:
+    with frame_of(browser, studio, size, has_touch=True, is_mobile=True) as tab:
         assert tab.page.evaluate(_SMALL, FINGER_PX) == []
         assert tab.page.evaluate(_BEYOND) == []
         assert not tab.page.evaluate(_OVERLAPS)
@@ -102,7 +126,7 @@ def test_fingers_find_every_control_of_the_frame(
 def test_at_twice_the_size_nothing_is_cut_off(
     browser: Browser, studio: RunningStudio, size: tuple[int, int]
 ):
-    with opened(browser, studio, size, device_scale_factor=2) as tab:
+    with frame_of(browser, studio, size, device_scale_factor=2) as tab:
         assert tab.page.evaluate(_BEYOND) == []
         assert not tab.page.evaluate(_OVERLAPS)
         tab.page.get_by_role("button", name="Settings").click()
@@ -121,7 +145,7 @@ def draws(tab: StudioPage, *, light: bool) -> bool:
 def test_where_the_processor_draws_it_is_said_once_and_drawn_lightly(
     browser: Browser, studio: RunningStudio
 ):
-    with opened(browser, studio, (1280, 720), device_scale_factor=2) as tab:
+    with drawn(browser, studio, 2) as tab:
         note = tab.page.get_by_text("the 3D view is drawn with less detail here")
         note.wait_for()
         wait_until("it to be drawn lightly", lambda: draws(tab, light=True))
@@ -142,7 +166,7 @@ def test_where_the_processor_draws_it_is_said_once_and_drawn_lightly(
 def test_a_view_that_proves_slow_is_drawn_lightly_until_one_undoes_it(
     browser: Browser, studio: RunningStudio
 ):
-    with opened(browser, studio, (900, 700), _UNNAMED_CARD) as tab:
+    with drawn(browser, studio, 1, _SLOW_UNNAMED_CARD) as tab:
         assert draws(tab, light=False)
         tab.page.evaluate(_SPIN)
         tab.page.get_by_text("the 3D view is drawn with less detail here").wait_for(timeout=90_000)

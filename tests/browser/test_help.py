@@ -14,24 +14,34 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Locator
 
+    from tests.support.shared_tab import SharedTab
 
-pytestmark = [
-    pytest.mark.browser,
-    pytest.mark.without_view,
-    pytest.mark.network,
-    pytest.mark.timeout(300),
-]
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
 
 _FOCUSED_CLASS = "() => document.activeElement.className"
 _FOCUSED_TITLE = "() => document.activeElement.title"
 _FOCUSED = "() => document.activeElement?.closest('.dv-tab, button')?.textContent?.trim()"
+_CLOSE = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  (await import(new URL("help.js", script))).help.value = null;
+}"""
 _HAS_PICTURE = "one => one.complete && one.naturalWidth > 0"
 
 
+@pytest.fixture(scope="module")
+def opened(shared: SharedTab) -> StudioPage:
+    """One tab for all tests of the file."""
+    shared.anew()
+    return shared.opened(view=False)
+
+
 @pytest.fixture
-def tab(tab: StudioPage) -> Iterator[StudioPage]:
-    yield tab
-    assert tab.errors == []
+def tab(opened: StudioPage) -> Iterator[StudioPage]:
+    """The same; the help is closed after each test."""
+    yield opened
+    opened.page.evaluate(_CLOSE)
+    opened.page.locator("dialog").wait_for(state="detached")
+    assert opened.errors == []
 
 
 def sheet(tab: StudioPage, title: str) -> Locator:
@@ -125,16 +135,22 @@ def test_help_on_a_window_lies_over_it_and_leaves_it_open(tab: StudioPage):
 
 def test_the_help_speaks_the_language_of_the_page(tab: StudioPage):
     page = tab.page
+    page.get_by_role("tab", name="Properties").focus()
     page.keyboard.press("F1")
     page.locator("dialog.help article").wait_for()
     page.get_by_role("button", name="Settings").click()
     page.get_by_role("menuitemradio", name="Deutsch").click()
     page.get_by_role("heading", name="Was Sie tun können").wait_for()
+    page.get_by_role("button", name="Einstellungen").click()
+    page.get_by_role("menuitemradio", name="English").click()
+    page.get_by_role("heading", name="What you can do").wait_for()
 
 
 def test_none_of_the_help_is_loaded_before_it_is_asked_for(tab: StudioPage):
     names = """() => performance.getEntriesByType("resource")
       .filter(({ name }) => /help(\\/|-sheet|-texts|-text\\.|-search)/.test(name)).length"""
+    tab.page.reload(wait_until="networkidle")
+    tab.page.get_by_role("tab", name="Properties").wait_for()
     assert tab.page.evaluate(names) == 0
     tab.page.keyboard.press("F1")
     sheet(tab, title_of(tab))

@@ -9,11 +9,10 @@ import pytest
 
 from tests.support.descriptions import robot, write
 from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
+from tests.support.studio_page import StudioPage, studio_page, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
     from playwright.sync_api import Browser, Locator
 
@@ -47,6 +46,14 @@ _PLACE_OF = """([link, point]) => {
   return [left + ((seen.x + 1) / 2) * canvas.clientWidth,
     top + ((1 - seen.y) / 2) * canvas.clientHeight];
 }"""
+_FORGET = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { deleteMeasures, stopMeasuring } =
+    await import(new URL("../model/measuring.js", script));
+  stopMeasuring();
+  deleteMeasures();
+  (await import(new URL("../model/tf.js", script))).millimetres.value = false;
+}"""
 _COUNT = """() => {
   window.pressed = 0;
   const count = () => { window.pressed += 1; };
@@ -56,17 +63,29 @@ _COUNT = """() => {
 }"""
 
 
-@pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    file = write(tmp_path / "robot", {"a.urdf.xacro": robot(BODY)})
-    with running_studio(["open", str(file), "--viewer-link"], tmp_path / "data") as running:
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
+    folder = tmp_path_factory.mktemp("measuring")
+    file = write(folder / "robot", {"a.urdf.xacro": robot(BODY)})
+    with running_studio(["open", str(file), "--viewer-link"], folder / "data") as running:
         yield running
 
 
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+@pytest.fixture(scope="module")
+def opened(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    """One tab for all tests of the file."""
     with studio_page(browser, studio) as page:
         yield page
+
+
+@pytest.fixture
+def tab(opened: StudioPage, studio: RunningStudio) -> Iterator[StudioPage]:
+    """The same; afterwards nothing is edited, moved or measured."""
+    yield opened
+    opened.undo_all()
+    set_joints(studio, turn=0.0)
+    opened.page.evaluate(_FORGET)
+    card(opened).wait_for(state="detached")
 
 
 def card(tab: StudioPage) -> Locator:
@@ -150,26 +169,21 @@ def test_two_joints_are_measured_with_three_clicks_and_keys_and_stay_true(
 def test_who_only_looks_measures_with_the_keyboard_alone_and_has_it_after_a_reload(
     browser: Browser, studio: RunningStudio
 ):
-    assert studio.process.stdout is not None
-    address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
-    context = studio_context(browser)
-    viewer = StudioPage(context.new_page())
-    viewer.open(address)
-    begin(viewer)
-    box = card(viewer).get_by_role("combobox")
-    box.focus()
-    for name in ("base", "slide"):
-        viewer.page.keyboard.type(name)
-        viewer.page.keyboard.press("Enter")
-    shows(viewer, f"{math.hypot(0.4, 0.2):.6g} m")
-    viewer.page.reload()
-    shows(viewer, f"{math.hypot(0.4, 0.2):.6g} m")
-    card(viewer).get_by_role("button", name="Delete all").click()
-    viewer.page.reload()
-    wait_until("the robot", viewer.has_drawn_robot)
-    assert not card(viewer).is_visible()
-    context.close()
-    assert viewer.errors == []
+    with studio_page(browser, studio, view=False, viewer=True) as viewer:
+        begin(viewer)
+        box = card(viewer).get_by_role("combobox")
+        box.focus()
+        for name in ("base", "slide"):
+            viewer.page.keyboard.type(name)
+            viewer.page.keyboard.press("Enter")
+        shows(viewer, f"{math.hypot(0.4, 0.2):.6g} m")
+        viewer.page.reload()
+        shows(viewer, f"{math.hypot(0.4, 0.2):.6g} m")
+        card(viewer).get_by_role("button", name="Delete all").click()
+        viewer.page.reload()
+        link_row(viewer, "arm").wait_for()
+        assert not card(viewer).is_visible()
+        assert viewer.errors == []
 
 
 def test_the_masses_of_the_links_their_sum_and_centre_follow_the_joints(

@@ -6,11 +6,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
+from tests.support.studio_page import StudioPage, studio_page, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from playwright.sync_api import Browser, Locator
@@ -21,16 +19,9 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)
 
 
 @pytest.fixture
-def studio(tmp_path: Path) -> Iterator[RunningStudio]:
-    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as running:
-        yield running
-
-
-@pytest.fixture
-def tab(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
-    with studio_page(browser, studio) as page:
-        page.page.get_by_role("tab", name="Joints").click()
-        yield page
+def tab(tab: StudioPage) -> StudioPage:
+    tab.page.get_by_role("tab", name="Joints").click()
+    return tab
 
 
 def pose(tab: StudioPage, name: str) -> Locator:
@@ -47,7 +38,7 @@ def choose(tab: StudioPage, name: str, item: str) -> None:
     tab.page.get_by_role("menuitem", name=item).click()
 
 
-def test_a_pose_of_the_srdf_is_taken_and_one_of_ones_own_is_kept(tab: StudioPage, tmp_path: Path):
+def test_a_pose_of_the_srdf_is_taken_and_one_of_ones_own_is_kept(tab: StudioPage, data: Path):
     page = tab.page
     before = tab.settle()
     wait_until("the poses of the SRDF", lambda: pose(tab, "stowed").count() == 1)
@@ -65,7 +56,7 @@ def test_a_pose_of_the_srdf_is_taken_and_one_of_ones_own_is_kept(tab: StudioPage
     page.keyboard.type("Trailer")
     page.keyboard.press("Enter")
     wait_until("its new name", lambda: pose(tab, "Trailer").count() == 1)
-    file = next((tmp_path / "data" / "models").rglob("rover.poses.yaml"))
+    file = next((data / "models").rglob("rover.poses.yaml"))
     assert "- name: Trailer" in file.read_text()
     pose(tab, "Trailer").click()
     wait_until("the arm in its pose again", lambda: is_taken(tab, "stowed"))
@@ -80,15 +71,10 @@ def test_a_pose_of_the_srdf_is_taken_and_one_of_ones_own_is_kept(tab: StudioPage
 def test_whoever_only_watches_sees_the_poses_and_takes_none(
     browser: Browser, studio: RunningStudio
 ):
-    assert studio.process.stdout is not None
-    address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
-    context = studio_context(browser)
-    viewer = StudioPage(context.new_page())
-    viewer.open(address)
-    viewer.page.get_by_role("tab", name="Joints").click()
-    wait_until("the poses", lambda: pose(viewer, "stowed").count() == 1)
-    assert pose(viewer, "stowed").is_disabled()
-    keep = viewer.page.get_by_role("button", name="Keep the current positions as a pose")
-    assert keep.is_disabled()
-    assert viewer.errors == []
-    context.close()
+    with studio_page(browser, studio, view=False, viewer=True) as viewer:
+        viewer.page.get_by_role("tab", name="Joints").click()
+        wait_until("the poses", lambda: pose(viewer, "stowed").count() == 1)
+        assert pose(viewer, "stowed").is_disabled()
+        keep = viewer.page.get_by_role("button", name="Keep the current positions as a pose")
+        assert keep.is_disabled()
+        assert viewer.errors == []

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.studio_page import StudioPage, studio_context, wait_until
+from tests.support.studio_page import StudioPage, studio_page, wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
 
     from tests.support.server import RunningStudio
+    from tests.support.shared_tab import SharedTab
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
@@ -22,6 +23,27 @@ _WHEEL_AT = """() => {
       if (studio3d.linkAt(x, y)?.endsWith("_wheel")) return [x, y];
   return null;
 }"""
+
+
+@pytest.fixture(scope="module")
+def studio(shared: SharedTab) -> RunningStudio:
+    return shared.anew()
+
+
+@pytest.fixture(scope="module")
+def opened(shared: SharedTab, studio: RunningStudio) -> StudioPage:
+    """One tab for all tests of the file."""
+    del studio  # as at first, before the tab opens it
+    return shared.opened()
+
+
+@pytest.fixture
+def tab(opened: StudioPage) -> StudioPage:
+    """The same, with nothing edited, and all properties in front."""
+    opened.undo_all()
+    opened.page.get_by_role("tab", name="Properties").click()
+    opened.page.get_by_role("searchbox", name="Filter properties").fill("")
+    return opened
 
 
 def panel(tab: StudioPage) -> Locator:
@@ -61,8 +83,7 @@ def test_a_clicked_wheel_tells_its_radius_which_is_edited_there(tab: StudioPage)
 
 def test_a_pointed_at_property_lights_up_what_it_shapes_and_says_so(tab: StudioPage):
     tab.seek("wheel_width")
-    tab.page.mouse.move(5, 5)
-    dark = tab.settle()
+    dark = tab.plain_picture()
     tab.row("wheel_width").hover()
     words = tab.page.get_by_role("status").filter(has_text="wheel_width")
     wait_until("the words", lambda: words.count() == 1)
@@ -107,16 +128,11 @@ def test_an_element_of_the_urdf_leads_to_its_number(tab: StudioPage):
 def test_whoever_only_watches_sees_origins_and_cannot_edit_there(
     browser: Browser, studio: RunningStudio
 ):
-    assert studio.process.stdout is not None
-    address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
-    context = studio_context(browser)
-    viewer = StudioPage(context.new_page())
-    viewer.open(address)
-    show(viewer)
-    viewer.page.get_by_role("treeitem", name="front_left_wheel").click()
-    wait_until("the wheel's numbers", lambda: mesh_scale(viewer).count() == 1)
-    mesh_scale(viewer).get_by_role("button", name="wheel_radius").click()
-    wait_until("its row", lambda: viewer.row("wheel_radius").count() == 1)
-    assert viewer.box("wheel_radius").is_disabled()
-    assert viewer.errors == []
-    context.close()
+    with studio_page(browser, studio, view=False, viewer=True) as viewer:
+        show(viewer)
+        viewer.page.get_by_role("treeitem", name="front_left_wheel").click()
+        wait_until("the wheel's numbers", lambda: mesh_scale(viewer).count() == 1)
+        mesh_scale(viewer).get_by_role("button", name="wheel_radius").click()
+        wait_until("its row", lambda: viewer.row("wheel_radius").count() == 1)
+        assert viewer.box("wheel_radius").is_disabled()
+        assert viewer.errors == []

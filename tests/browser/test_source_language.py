@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.browser.test_source_panel import line_of, text_of
-from tests.support.studio_page import StudioPage, wait_until
+from tests.support.studio_page import StudioPage, studio_page, wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
     from tests.support.server import RunningStudio
+    from tests.support.shared_tab import SharedTab
 
 FRONT = "${front * wheel_base / 2}"
 
@@ -33,17 +34,31 @@ _HAS_FOCUS = "() => document.activeElement?.classList.contains('cm-content')"
 
 pytestmark = [
     pytest.mark.browser,
-    pytest.mark.without_view,
     pytest.mark.network,
     pytest.mark.timeout(240),
 ]
 
 
-@pytest.fixture
-def tab(tab: StudioPage) -> StudioPage:
+@pytest.fixture(scope="module")
+def studio(shared: SharedTab) -> RunningStudio:
+    return shared.anew()
+
+
+@pytest.fixture(scope="module")
+def opened(shared: SharedTab, studio: RunningStudio) -> StudioPage:
+    """One tab for all tests of the file."""
+    del studio  # as at first, before the tab opens it
+    tab = shared.opened(view=False)
     wait_until("the source", lambda: "<robot" in text_of(tab))
-    open_file(tab, "wheel.xacro")
     return tab
+
+
+@pytest.fixture
+def tab(opened: StudioPage) -> StudioPage:
+    """The same, with nothing edited, at the file of the wheel."""
+    opened.undo_all()
+    open_file(opened, "wheel.xacro")
+    return opened
 
 
 def open_file(tab: StudioPage, name: str) -> None:
@@ -167,22 +182,16 @@ def test_a_call_is_completed_and_another_one_inserted_from_the_list_of_macros(ta
     assert tab.errors == []
 
 
-def test_a_viewer_reads_what_words_mean_and_writes_nothing(
-    tab: StudioPage, browser: Browser, studio: RunningStudio
-):
-    context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
-    viewer = StudioPage(context.new_page())
-    assert studio.process.stdout is not None
-    viewer.page.goto(studio.process.stdout.readline().removeprefix("Viewer: ").strip())
-    wait_until("the viewer's text", lambda: "<robot" in text_of(viewer))
-    open_file(viewer, "wheel.xacro")
-    read_by_pointing(viewer, FRONT, "wheel_base", "0.38")
-    viewer.page.get_by_role("button", name="spoke", exact=False).first.click()
-    viewer.page.get_by_role("button", name="Go to definition").wait_for()
-    assert viewer.page.get_by_role("button", name="Insert call").count() == 0
-    viewer.page.get_by_role("treeitem", name="rover.urdf.xacro").focus()
-    viewer.page.keyboard.press("ArrowDown")
-    viewer.page.keyboard.press("Enter")
-    wait_until("the file that keys chose", lambda: "<material" in text_of(viewer))
-    assert viewer.errors == []
-    context.close()
+def test_a_viewer_reads_what_words_mean_and_writes_nothing(browser: Browser, studio: RunningStudio):
+    with studio_page(browser, studio, view=False, viewer=True) as viewer:
+        wait_until("the viewer's text", lambda: "<robot" in text_of(viewer))
+        open_file(viewer, "wheel.xacro")
+        read_by_pointing(viewer, FRONT, "wheel_base", "0.38")
+        viewer.page.get_by_role("button", name="spoke", exact=False).first.click()
+        viewer.page.get_by_role("button", name="Go to definition").wait_for()
+        assert viewer.page.get_by_role("button", name="Insert call").count() == 0
+        viewer.page.get_by_role("treeitem", name="rover.urdf.xacro").focus()
+        viewer.page.keyboard.press("ArrowDown")
+        viewer.page.keyboard.press("Enter")
+        wait_until("the file that keys chose", lambda: "<material" in text_of(viewer))
+        assert viewer.errors == []

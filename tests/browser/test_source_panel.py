@@ -16,14 +16,30 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
 
     from tests.support.server import RunningStudio
+    from tests.support.shared_tab import SharedTab
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
 
-@pytest.fixture
-def tab(tab: StudioPage) -> StudioPage:
+@pytest.fixture(scope="module")
+def studio(shared: SharedTab) -> RunningStudio:
+    return shared.anew()
+
+
+@pytest.fixture(scope="module")
+def opened(shared: SharedTab, studio: RunningStudio) -> StudioPage:
+    """One tab for all tests of the file."""
+    del studio  # as at first, before the tab opens it
+    tab = shared.opened()
     wait_until("the source", lambda: "<robot" in text_of(tab))
     return tab
+
+
+@pytest.fixture
+def tab(opened: StudioPage) -> StudioPage:
+    """The same, with nothing edited."""
+    opened.undo_all()
+    return opened
 
 
 def text_of(tab: StudioPage) -> str:
@@ -61,7 +77,7 @@ def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_ste
     tab: StudioPage, data: Path
 ):
     go_to(tab, "wheel_radius")
-    before = tab.settle()
+    before = tab.plain_picture()
     put_cursor_behind(tab, '"0.1')
     tab.page.keyboard.press("Shift+ArrowRight")
     tab.page.keyboard.press("Shift+ArrowRight")
@@ -87,8 +103,8 @@ def test_a_typed_number_moves_the_pixels_and_its_slider_and_is_undone_as_one_ste
 
 
 def test_broken_text_is_underlined_and_the_last_good_model_stays(tab: StudioPage):
-    before = tab.settle()
     go_to(tab, "wheel_radius")
+    before = tab.plain_picture()
     put_cursor_behind(tab, "<xacro:property")
     tab.page.keyboard.press("Backspace")
     wait_until("the notice over the 3D view", notice(tab).is_visible)
@@ -120,23 +136,19 @@ def test_a_slider_writes_into_the_text_and_leaves_cursor_and_scroll(tab: StudioP
 def test_what_one_types_another_sees_and_a_viewer_cannot_change(
     tab: StudioPage, studio: RunningStudio, browser: Browser
 ):
-    watching = browser.new_context(viewport={"width": 1280, "height": 720})
-    viewer = StudioPage(watching.new_page())
-    assert studio.process.stdout is not None
-    viewer.page.goto(studio.process.stdout.readline().removeprefix("Viewer: ").strip())
-    wait_until("the viewer's text", lambda: "<robot" in text_of(viewer))
-    go_to(viewer, "wheel_radius")
-    go_to(tab, "wheel_radius")
-    put_cursor_behind(tab, '"0.105')
-    tab.page.keyboard.type("7")
-    wait_until("it to arrive", lambda: 'value="0.1057"' in line_of(viewer))
-    seen = text_of(viewer)
-    viewer.page.keyboard.type("x")
-    viewer.page.keyboard.press("Backspace")
-    assert text_of(viewer) == seen
-    assert viewer.page.get_by_text("the text is read-only").is_visible()
-    assert viewer.errors == []
-    watching.close()
+    with studio_page(browser, studio, view=False, viewer=True) as viewer:
+        wait_until("the viewer's text", lambda: "<robot" in text_of(viewer))
+        go_to(viewer, "wheel_radius")
+        go_to(tab, "wheel_radius")
+        put_cursor_behind(tab, '"0.105')
+        tab.page.keyboard.type("7")
+        wait_until("it to arrive", lambda: 'value="0.1057"' in line_of(viewer))
+        seen = text_of(viewer)
+        viewer.page.keyboard.type("x")
+        viewer.page.keyboard.press("Backspace")
+        assert text_of(viewer) == seen
+        assert viewer.page.get_by_text("the text is read-only").is_visible()
+        assert viewer.errors == []
 
 
 def test_after_a_restart_of_the_studio_the_open_text_is_typed_into_as_before(
@@ -144,7 +156,7 @@ def test_after_a_restart_of_the_studio_the_open_text_is_typed_into_as_before(
 ):
     port = free_port()  # one that nobody is lent while no studio holds it
     first_one = running_studio(["demo"], tmp_path / "data", port=port)
-    with first_one as first, studio_page(browser, first) as tab:
+    with first_one as first, studio_page(browser, first, view=False) as tab:
         go_to(tab, "wheel_radius")
         first.stop()
         wait_until("the page to say so", lambda: "Studio: offline" in tab.page.inner_text("body"))

@@ -12,14 +12,27 @@ from tests.support.studio_page import StudioPage, wait_until
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
 
+    from tests.support.shared_tab import SharedTab
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
 
-@pytest.fixture
-def tab(tab: StudioPage) -> StudioPage:
+@pytest.fixture(scope="module")
+def opened(shared: SharedTab) -> StudioPage:
+    """One tab for all tests of the file."""
+    shared.anew()
+    tab = shared.opened()
     wait_until("the source", lambda: "<robot" in text_of(tab))
     return tab
+
+
+@pytest.fixture
+def tab(opened: StudioPage) -> StudioPage:
+    """The same, with nothing edited, and in front what is at first."""
+    opened.undo_all()
+    for name in ("Properties", "Source"):
+        opened.page.get_by_role("tab", name=name, exact=True).click()
+    return opened
 
 
 class Counted:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 import yaml
 
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_context, studio_page, wait_until
+from tests.support.studio_page import StudioPage, studio_page, wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -53,20 +52,16 @@ def switch(tab: StudioPage, name: str) -> None:
 
 def look_as_a_viewer(browser: Browser, studio: RunningStudio, radii: list[str]) -> None:
     """Whoever only looks sees the list and the comparison, and can change neither."""
-    assert studio.process.stdout is not None
-    context = studio_context(browser)
-    viewer = StudioPage(context.new_page())
-    viewer.open(studio.process.stdout.readline().removeprefix("Viewer: ").strip())
-    show(viewer, "Variants")
-    given = panel(viewer).get_by_role("row", name="wheel_radius property")
-    given.wait_for()
-    wait_until("both", lambda: given.get_by_role("cell").all_inner_texts() == radii)
-    switches = panel(viewer).get_by_title("Only whoever has control can switch")
-    assert [one.is_disabled() for one in switches.all()] == [True, True]
-    for name in ("Save as variant…", "Over", "End the comparison"):
-        assert panel(viewer).get_by_role("button", name=name).is_disabled()
-    assert viewer.errors == []
-    context.close()
+    with studio_page(browser, studio, view=False, viewer=True) as viewer:
+        show(viewer, "Variants")
+        given = panel(viewer).get_by_role("row", name="wheel_radius property")
+        given.wait_for()
+        wait_until("both", lambda: given.get_by_role("cell").all_inner_texts() == radii)
+        switches = panel(viewer).get_by_title("Only whoever has control can switch")
+        assert [one.is_disabled() for one in switches.all()] == [True, True]
+        for name in ("Save as variant…", "Over", "End the comparison"):
+            assert panel(viewer).get_by_role("button", name=name).is_disabled()
+        assert viewer.errors == []
 
 
 def compare(tab: StudioPage, was: str, now: str) -> None:
@@ -101,34 +96,31 @@ def see_ghost(tab: StudioPage, plain: bytes) -> None:
     tab.show_again(plain)
 
 
-def test_a_variant_is_saved_switched_compared_and_seen(browser: Browser, tmp_path: Path):
-    data = tmp_path / "data"
-    with (
-        running_studio(["demo", "--viewer-link"], data) as studio,
-        studio_page(browser, studio) as tab,
-    ):
-        show(tab, "Variants")
-        panel(tab).get_by_text("No variants yet").wait_for()
-        was = radius(tab)
-        show(tab, "Properties")
-        now = tab.drag_slider("wheel_radius", 0.8)
-        save(tab, "Big wheels")
-        (file,) = data.rglob("rover.variants.yaml")
-        (kept,) = yaml.safe_load(file.read_text())["variants"]
-        assert (kept["name"], kept["values"][0]["text"]) == ("Big wheels", now)
+def test_a_variant_is_saved_switched_compared_and_seen(
+    tab: StudioPage, browser: Browser, studio: RunningStudio, data: Path
+):
+    show(tab, "Variants")
+    panel(tab).get_by_text("No variants yet").wait_for()
+    was = radius(tab)
+    show(tab, "Properties")
+    now = tab.drag_slider("wheel_radius", 0.8)
+    save(tab, "Big wheels")
+    (file,) = data.rglob("rover.variants.yaml")
+    (kept,) = yaml.safe_load(file.read_text())["variants"]
+    assert (kept["name"], kept["values"][0]["text"]) == ("Big wheels", now)
 
-        switch(tab, "As in the file")
-        assert radius(tab) == was
-        compare(tab, was, now)
-        look_as_a_viewer(browser, studio, [was, now])
-        tab.page.mouse.move(5, 5)
-        plain = tab.settle()
-        select_wheel(tab)
-        see_ghost(tab, plain)
+    switch(tab, "As in the file")
+    assert radius(tab) == was
+    compare(tab, was, now)
+    look_as_a_viewer(browser, studio, [was, now])
+    tab.page.mouse.move(5, 5)
+    plain = tab.settle()
+    select_wheel(tab)
+    see_ghost(tab, plain)
 
-        switch(tab, "Big wheels")
-        panel(tab).get_by_text("The robots are the same.").wait_for()
-        assert radius(tab) == now
-        tab.page.get_by_role("button", name="Undo", exact=True).click()
-        panel(tab).get_by_role("button", name="As in the file", pressed=True).wait_for()
-        assert tab.errors == []
+    switch(tab, "Big wheels")
+    panel(tab).get_by_text("The robots are the same.").wait_for()
+    assert radius(tab) == now
+    tab.page.get_by_role("button", name="Undo", exact=True).click()
+    panel(tab).get_by_role("button", name="As in the file", pressed=True).wait_for()
+    assert tab.errors == []

@@ -91,8 +91,11 @@ class SharedTab:
         session.detach()
 
     def _restore(self) -> None:
-        """The files of the robot, as they are shipped."""
+        """The files of the robot, as they are shipped, and no others."""
         shipped, copy = MODELS / PACKAGE, self.data / "models" / PACKAGE
+        for path in copy.rglob("*"):
+            if path.is_file() and not (shipped / path.relative_to(copy)).exists():
+                path.unlink()
         for path in shipped.rglob("*"):
             there = copy / path.relative_to(shipped)
             if path.is_file() and there.read_bytes() != path.read_bytes():

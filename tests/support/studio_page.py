@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from playwright.sync_api import Error
 
@@ -54,6 +54,11 @@ if (document.cookie.includes("without_view"))
 not said over the 3D view, where it would be in pictures of it. The 3D view draws fifteen pictures a
 second at most: software GL takes thirty milliseconds of all cores for one. Without the view, its
 frame stays empty."""
+
+_UNDO_ALL = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  await (await import(new URL("../model/requests.js", script))).undo(Infinity);
+}"""
 
 _SEVERAL_FRAMES = """() => new Promise((done) => {
   const view = document.querySelector("iframe")?.contentWindow ?? window;
@@ -193,6 +198,12 @@ class StudioPage:
         self.page.keyboard.press("Enter")
         wait_until("the window to be gone", lambda: window.count() == 0)
 
+    def undo_all(self) -> None:
+        """Take back every edit, as for the next test with this tab."""
+        self.page.evaluate(_UNDO_ALL)
+        undo = self.page.get_by_role("button", name="Undo", exact=True).first
+        wait_until("nothing to be undone", undo.is_disabled)
+
     def picture(self) -> bytes:
         """The pixels of the 3D view as PNG."""
         return self.page.locator("iframe").screenshot()
@@ -259,9 +270,13 @@ class StudioPage:
         return other
 
 
-def studio_context(browser: Browser) -> BrowserContext:
+def studio_context(
+    browser: Browser,
+    viewport: ViewportSize = VIEWPORT,
+    **more: Any,  # noqa: ANN401 - what playwright takes
+) -> BrowserContext:
     """A browser's session, in which pictures of the 3D view can be compared."""
-    context = browser.new_context(viewport=VIEWPORT, reduced_motion="reduce")
+    context = browser.new_context(viewport=viewport, reduced_motion="reduce", **more)
     context.add_init_script(_AS_A_TEST)
     return context
 
