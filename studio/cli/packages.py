@@ -14,7 +14,7 @@ from studio.packages.discovery import discover
 from studio.packages.environment import RosEnvironment, is_workspace_install
 from studio.packages.executables import executables_of
 from studio.packages.folder_memory import FolderMemory
-from studio.packages.index import Indexed, PackageIndex, Standing
+from studio.packages.index import Indexed, PackageIndex, Rank
 from studio.packages.manifest import FILE_NAME
 from studio.packages.recent import last_opened
 from studio.packages.roots import ServedRoots, is_too_wide, package_folder_of, served_roots_for
@@ -122,8 +122,8 @@ def workspace_folder(index: PackageIndex, name: str) -> Path | None:
     if name not in index:
         return None
     folder = index.best(name, Path.cwd())
-    standings = [one.standing for one in index.packages if one.folder == folder]
-    is_source = any(standing is not Standing.INSTALLED for standing in standings)
+    ranks = [one.rank for one in index.packages if one.folder == folder]
+    is_source = any(rank is not Rank.INSTALLED for rank in ranks)
     return folder if is_source or is_workspace_install(folder) else None
 
 

@@ -243,7 +243,7 @@ class _Seen(NamedTuple):
             and np.array_equal(self.shades.opacity, other.shades.opacity)
         )
 
-    def stands_as(self, other: _Seen) -> bool:
+    def equals(self, other: _Seen) -> bool:
         """Whether the frames are where they were, as far as anybody could see."""
         ours, theirs = self.frames, other.frames
         moved = np.abs(ours.wxyz_xyz - theirs.wxyz_xyz)
@@ -347,7 +347,7 @@ class TfDisplay(Display):
         is_same = before is not None and seen.shows_what(before)
         if not is_same:
             self._names = self._written(seen) if self.values["Show Names"] else {}
-        if before is None or not is_same or not seen.stands_as(before):
+        if before is None or not is_same or not seen.equals(before):
             self._drawing = self._drawn(seen)
         else:
             # A slow frame is drawn again once it is far enough from where it was drawn.

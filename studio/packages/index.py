@@ -30,8 +30,8 @@ _FOLDER: Final = "chosen_packages"
 _CHOICES: Final = msgspec.json.Decoder(dict[str, str])
 
 
-class Standing(IntEnum):
-    """Precedence of a package; a name means the lowest that has it."""
+class Rank(IntEnum):
+    """Rank of a package; a name means the lowest that has it."""
 
     OPENED = 0
     """A source package below an opened folder or a `--package-path`."""
@@ -49,22 +49,22 @@ class Indexed:
 
     name: str
     folder: Path
-    standing: Standing
+    rank: Rank
     order: int = 0
 
     @classmethod
     def found(cls, package: Package, *, from_environment: bool = False, order: int = 0) -> Indexed:
         """Rank what `discover` found."""
-        standing = _STANDINGS[package.origin]
+        rank = _RANKS[package.origin]
         if from_environment:
-            standing = max(standing, Standing.ENVIRONMENT)
-        return cls(package.name, package.folder, standing, order)
+            rank = max(rank, Rank.ENVIRONMENT)
+        return cls(package.name, package.folder, rank, order)
 
 
-_STANDINGS = {
-    Origin.SOURCE: Standing.OPENED,
-    Origin.NESTED: Standing.NESTED,
-    Origin.INSTALLED: Standing.INSTALLED,
+_RANKS = {
+    Origin.SOURCE: Rank.OPENED,
+    Origin.NESTED: Rank.NESTED,
+    Origin.INSTALLED: Rank.INSTALLED,
 }
 
 
@@ -91,7 +91,7 @@ class PackageIndex:
     def candidates(self, name: str, asking_file: Path | str) -> tuple[Path, ...]:
         """The folders that may serve a name, the one that does first; empty when there is none.
 
-        A chosen folder is the only one. Else those nearest to the user (see `Standing`); the
+        A chosen folder is the only one. Else those nearest to the user (see `Rank`); the
         package that the asking file itself lies in counts as opened though it be nested.
         """
         if name in self.chosen:
@@ -100,9 +100,9 @@ class PackageIndex:
         if len(known) < 2:  # nearly always
             return tuple(one.folder for one in known)
         asking = Path(asking_file)
-        ranked = [(_standing_for(one, asking), one) for one in known]
-        lowest = min(((standing, one.order) for standing, one in ranked), default=None)
-        serving = [one.folder for standing, one in ranked if (standing, one.order) == lowest]
+        ranked = [(_rank_of(one, asking), one) for one in known]
+        lowest = min(((rank, one.order) for rank, one in ranked), default=None)
+        serving = [one.folder for rank, one in ranked if (rank, one.order) == lowest]
         return tuple(sorted(serving, key=lambda folder: _distance(folder, asking)))
 
     def best(self, name: str, asking_file: Path | str) -> Path:
@@ -143,10 +143,10 @@ def nearest(folders: Sequence[str], asking_file: str) -> str:
     return max(folders, key=lambda folder: _shared_parts(Path(folder).parts, asking))
 
 
-def _standing_for(one: Indexed, asking_file: Path) -> Standing:
-    if one.standing is Standing.NESTED and is_below(asking_file, one.folder):
-        return Standing.OPENED
-    return one.standing
+def _rank_of(one: Indexed, asking_file: Path) -> Rank:
+    if one.rank is Rank.NESTED and is_below(asking_file, one.folder):
+        return Rank.OPENED
+    return one.rank
 
 
 def _distance(folder: Path, asking_file: Path) -> tuple[int, int, str]:

@@ -19,7 +19,7 @@ from studio.packages.folder_memory import FolderMemory, is_text
 from studio.packages.index import (
     Indexed,
     PackageIndex,
-    Standing,
+    Rank,
     folder_of_choice,
     load_choices,
     save_choices,
@@ -210,7 +210,7 @@ class _Survey:
         for package in found.packages:
             indexed = Indexed.found(package)
             if installed:
-                indexed = replace(indexed, standing=Standing.INSTALLED)
+                indexed = replace(indexed, rank=Rank.INSTALLED)
             self.packages.append(indexed)
 
     def _search_environment(self, report: Progress) -> None:

@@ -9,12 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import PackageNotFoundError
-from studio.packages.index import Indexed, PackageIndex, Standing, nearest
+from studio.packages.index import Indexed, PackageIndex, Rank, nearest
 from studio.problems import Severity
 
 
 def opened(folder: str, name: str = "arm") -> Indexed:
-    return Indexed(name, Path(folder), Standing.OPENED)
+    return Indexed(name, Path(folder), Rank.OPENED)
 
 
 def test_a_name_is_found_wherever_the_asker_is():
@@ -42,7 +42,7 @@ def test_copies_equally_near_are_taken_the_same_way_every_time():
 
 def test_a_source_wins_over_what_is_installed_however_near():
     index = PackageIndex(
-        [Indexed("arm", Path("/ws/install/arm"), Standing.INSTALLED, 1), opened("/other/arm")]
+        [Indexed("arm", Path("/ws/install/arm"), Rank.INSTALLED, 1), opened("/other/arm")]
     )
     assert index.candidates("arm", "/ws/install/rover/a.xacro") == (Path("/other/arm"),)
 
@@ -50,15 +50,15 @@ def test_a_source_wins_over_what_is_installed_however_near():
 def test_an_earlier_prefix_overlays_a_later_one():
     index = PackageIndex(
         [
-            Indexed("arm", Path("/opt/ros/share/arm"), Standing.INSTALLED, 2),
-            Indexed("arm", Path("/ws/install/arm/share/arm"), Standing.INSTALLED, 1),
+            Indexed("arm", Path("/opt/ros/share/arm"), Rank.INSTALLED, 2),
+            Indexed("arm", Path("/ws/install/arm/share/arm"), Rank.INSTALLED, 1),
         ]
     )
     assert index.best("arm", "/opt/ros/share/x/a") == Path("/ws/install/arm/share/arm")
 
 
 def test_a_nested_copy_serves_only_its_own_files_and_names_that_nobody_else_has():
-    nested = Indexed("arm", Path("/ws/rover/test/arm"), Standing.NESTED)
+    nested = Indexed("arm", Path("/ws/rover/test/arm"), Rank.NESTED)
     index = PackageIndex([nested, opened("/ws/arm")])
     assert index.best("arm", "/ws/rover/a.xacro") == Path("/ws/arm")
     assert index.best("arm", "/ws/rover/test/arm/a.xacro") == Path("/ws/rover/test/arm")

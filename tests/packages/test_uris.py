@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import OutsideRootsError, PackageNotFoundError, UnreadableFileError
-from studio.packages.index import Indexed, PackageIndex, Standing
+from studio.packages.index import Indexed, PackageIndex, Rank
 from studio.packages.roots import ServedRoots
 from studio.packages.uris import resolve_uri
 from tests.support.packages import write_package
@@ -35,7 +35,7 @@ class Place:
         (base / "secret.stl").touch()
         self.asking_file = self.package / "urdf" / "rover.urdf"
         self.roots = ServedRoots([self.root])
-        self.index = PackageIndex([Indexed("rover", self.package, Standing.OPENED)])
+        self.index = PackageIndex([Indexed("rover", self.package, Rank.OPENED)])
 
     def find(self, uri: str) -> str:
         found = resolve_uri(uri, self.asking_file, self.index, self.roots)

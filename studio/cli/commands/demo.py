@@ -55,6 +55,6 @@ def open_demo(
 
     wire = wire_settings(settings.wire.connect, settings.wire.domain)
     with DemoProcesses.at(wire) as nodes:
-        words = rover_call(package, arguments, settings.wire.router)
+        call = rover_call(package, arguments, settings.wire.router)
         # Afterwards: the page comes first, and a studio that cannot start leaves no node behind.
-        serve(options, settings, package, arguments, lambda: nodes.start_leashed(*words))
+        serve(options, settings, package, arguments, lambda: nodes.start_leashed(*call))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import PackageError, StudioError
-from studio.packages.index import Standing
+from studio.packages.index import Rank
 from studio.packages.manifest import FILE_NAME
 from studio.problems import Place, Problem, Severity
 
@@ -49,7 +49,7 @@ def take_types(location: Location, library: TypeLibrary | None = None) -> tuple[
 def _packages(location: Location) -> Iterator[tuple[str, Path]]:
     """Opened packages with a folder of types."""
     for one in location.index.packages:
-        if one.standing is Standing.OPENED and any((one.folder / kind).is_dir() for kind in _KINDS):
+        if one.rank is Rank.OPENED and any((one.folder / kind).is_dir() for kind in _KINDS):
             try:
                 yield one.name, location.served.resolve(one.folder)
             except PackageError:  # beside what is served

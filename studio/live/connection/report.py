@@ -19,7 +19,7 @@ from studio.ros.profiles import PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token
 from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 from studio.ros.wire.session import open_session
-from studio.ros.wire.zenoh import standing_tokens
+from studio.ros.wire.zenoh import live_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -105,10 +105,10 @@ def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireR
 def count(wire: WireSession, own: Collection[str]) -> Census:
     """Ask the router for the tokens of every domain, once."""
     census = Census()
-    for token in set(standing_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", _QUERY_TIMEOUT_S)):
+    for token in set(live_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", _QUERY_TIMEOUT_S)):
         census.take(token, wire.domain, own)
     if not census.nodes:
-        census.has_bridge = any(standing_tokens(wire.zenoh, _BRIDGES, _QUERY_TIMEOUT_S))
+        census.has_bridge = any(live_tokens(wire.zenoh, _BRIDGES, _QUERY_TIMEOUT_S))
     return census
 
 

@@ -188,7 +188,7 @@ class SharedSource(ABC):
             if connection == "there" and topic not in publishers:
                 publishers[topic] = self.publishers(topic)
             try:
-                one.stand(self._fitted(one, connection, publishers.get(topic, ())))
+                one.take_state(self._fitted(one, connection, publishers.get(topic, ())))
             except Exception:  # noqa: BLE001 - one topic that fails must not silence the others
                 _log.exception("%s could not be subscribed.", topic)
         for key, stream in tuple(self._streams.items()):

@@ -154,7 +154,7 @@ class Subscription:
                 except Exception:  # noqa: BLE001 - one message that cannot be used must not end the rest
                     _log.exception("A message on %s could not be used.", self.request.topic)
 
-    def stand(self, state: SubscriptionState) -> None:
+    def take_state(self, state: SubscriptionState) -> None:
         """Take another state, and notify if it is new."""
         if state != self.state:
             self.state = state

@@ -12,7 +12,7 @@ from studio.errors import InterfaceError, TokenError
 from studio.ros.profiles import PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token, tokens_of_domain
 from studio.ros.types.library import TypeLibrary
-from studio.ros.wire.zenoh import admin_answers, standing_tokens
+from studio.ros.wire.zenoh import admin_answers, live_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -188,7 +188,7 @@ def _publishing(session: Session, domain: int) -> Iterator[str]:
 
 
 def _shown(session: Session, domain: int) -> set[str]:
-    tokens = standing_tokens(session, tokens_of_domain(domain), _ADMIN_TIMEOUT_S)
+    tokens = live_tokens(session, tokens_of_domain(domain), _ADMIN_TIMEOUT_S)
     return {_zid(token) for token in tokens}
 
 
@@ -222,7 +222,7 @@ def _version(data: bytes) -> str:
 
 def nodes_by_domain(wire: WireSession, timeout_s: float = QUERY_TIMEOUT_S) -> dict[int, int]:
     """Ask the router for the nodes of every domain, once; lasts `timeout_s` at most."""
-    return count_nodes(standing_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", timeout_s))
+    return count_nodes(live_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", timeout_s))
 
 
 def count_nodes(tokens: Iterable[str]) -> dict[int, int]:

@@ -127,7 +127,7 @@ class Taken(Enum):
 
 
 @dataclass(slots=True)
-class _Standing:
+class _NodeEntry:
     """A node with its endpoints; `own_tokens` are its own tokens, of which it may have none."""
 
     node: GraphNode
@@ -147,7 +147,7 @@ class GraphTable:
     def __init__(self) -> None:
         self.malformed = self.left_out = 0
         self.last_malformed: str | None = None
-        self._standing: dict[_Key, _Standing] = {}
+        self._entries: dict[_Key, _NodeEntry] = {}
         self._named: dict[EndpointKind, dict[str, dict[str, GraphEndpoint]]] = {
             kind: {} for kind in EndpointKind
         }
@@ -199,16 +199,16 @@ class GraphTable:
                 _remember(self._gone_first, token)
             return Taken.KNOWN
         _remember(self._gone, token)
-        standing = self._standing[key]
-        endpoint = standing.endpoints.pop(token, None)
+        entry = self._entries[key]
+        endpoint = entry.endpoints.pop(token, None)
         if endpoint is not None:
             self._forget(endpoint)
         else:
-            standing.own_tokens.discard(token)
-            if not standing.own_tokens:
-                self._forget_all(standing)
-        if not (standing.own_tokens or standing.endpoints):
-            del self._standing[key]
+            entry.own_tokens.discard(token)
+            if not entry.own_tokens:
+                self._forget_all(entry)
+        if not (entry.own_tokens or entry.endpoints):
+            del self._entries[key]
         return Taken.CHANGED
 
     def was_seen(self, token: str) -> bool:
@@ -217,9 +217,9 @@ class GraphTable:
             token in known for known in (self._tokens, self._gone, self._gone_first, self._refused)
         )
 
-    def settle(self, token: str, *, stands: bool) -> None:
+    def settle(self, token: str, *, is_alive: bool) -> None:
         """Note whether an uncertain token stands."""
-        if stands:
+        if is_alive:
             self.put(token, sure=True)
         elif token in self._gone_first:
             del self._gone_first[token]
@@ -227,13 +227,13 @@ class GraphTable:
 
     def nodes(self) -> list[GraphNode]:
         """Return every node, in the order of their paths, then sessions and numbers."""
-        found = (standing.node for standing in self._standing.values())
+        found = (entry.node for entry in self._entries.values())
         return sorted(found, key=lambda node: (node.path, node.zid, node.nid))
 
     def endpoints_of(self, node: GraphNode) -> list[GraphEndpoint]:
         """Return the endpoints of a node, in the order of their names."""
-        standing = self._standing.get((node.zid, node.nid, node.path))
-        return _by_name(standing.endpoints.values()) if standing else []
+        entry = self._entries.get((node.zid, node.nid, node.path))
+        return _by_name(entry.endpoints.values()) if entry else []
 
     def named(self, kind: EndpointKind) -> Mapping[str, Mapping[str, GraphEndpoint]]:
         """Return all endpoints of a kind, by name and token."""
@@ -252,30 +252,30 @@ class GraphTable:
         return self._by_gid.get(gid)
 
     def _put_node(self, text: str, token: NodeToken) -> None:
-        standing = self._standing_of(token)
-        standing.own_tokens.add(text)
+        entry = self._entry_of(token)
+        entry.own_tokens.add(text)
         self._tokens[text] = _key(token)
 
     def _put_endpoint(self, text: str, token: EndpointToken) -> None:
-        standing = self._standing_of(token.node)
-        endpoint = GraphEndpoint.of(text, token, standing.node)
-        standing.endpoints[text] = endpoint
+        entry = self._entry_of(token.node)
+        endpoint = GraphEndpoint.of(text, token, entry.node)
+        entry.endpoints[text] = endpoint
         self._tokens[text] = _key(token.node)
         self._named[endpoint.kind].setdefault(endpoint.name, {})[text] = endpoint
         self._by_gid[gid_of(text)] = endpoint
 
-    def _standing_of(self, token: NodeToken) -> _Standing:
+    def _entry_of(self, token: NodeToken) -> _NodeEntry:
         key = _key(token)
-        if key not in self._standing:
-            self._standing[key] = _Standing(GraphNode.of(token))
-        return self._standing[key]
+        if key not in self._entries:
+            self._entries[key] = _NodeEntry(GraphNode.of(token))
+        return self._entries[key]
 
-    def _forget_all(self, standing: _Standing) -> None:
-        for token, endpoint in standing.endpoints.items():
+    def _forget_all(self, entry: _NodeEntry) -> None:
+        for token, endpoint in entry.endpoints.items():
             self._forget(endpoint)
             del self._tokens[token]
             _remember(self._gone, token)
-        standing.endpoints.clear()
+        entry.endpoints.clear()
 
     def _forget(self, endpoint: GraphEndpoint) -> None:
         same_name = self._named[endpoint.kind][endpoint.name]

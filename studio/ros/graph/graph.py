@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 from studio.ros.graph.endpoints import GraphTable, Taken
 from studio.ros.names import check_full_name, is_hidden
 from studio.ros.tokens import EndpointKind, tokens_of_domain
-from studio.ros.wire.zenoh import ReadingThread, Sample, standing_tokens, token_change, watch_tokens
+from studio.ros.wire.zenoh import ReadingThread, Sample, live_tokens, token_change, watch_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -80,12 +80,10 @@ class Graph:
     def settle(self, timeout_s: float = SETTLE_TIMEOUT_S) -> bool:
         """Wait until all tokens that stand now are in the graph; False when that lasts too long."""
         end_s = time.monotonic() + timeout_s
-        standing = set(
-            standing_tokens(self._wire.zenoh, tokens_of_domain(self._wire.domain), timeout_s)
-        )
+        alive = set(live_tokens(self._wire.zenoh, tokens_of_domain(self._wire.domain), timeout_s))
         with self._changed:
             return self._changed.wait_for(
-                lambda: all(map(self._table.was_seen, standing)), end_s - time.monotonic()
+                lambda: all(map(self._table.was_seen, alive)), end_s - time.monotonic()
             )
 
     def nodes(self) -> list[GraphNode]:
@@ -187,10 +185,10 @@ class Graph:
         with self._changed:
             results = {str(one.key_expr): self._take_one(one) for one in samples}
         uncertain = [token for token, taken in results.items() if taken is Taken.UNCERTAIN]
-        standing = {token for token in uncertain if self._stands(token)}
+        alive = {token for token in uncertain if self._is_alive(token)}
         with self._changed:
             for token in uncertain:
-                self._table.settle(token, stands=token in standing)
+                self._table.settle(token, is_alive=token in alive)
             self._version += 1
             self._changed.notify_all()
             listeners = list(self._listeners)
@@ -198,11 +196,11 @@ class Graph:
             listener()
 
     def _take_one(self, sample: Sample) -> Taken:
-        token, stands = token_change(sample)
-        return self._table.put(token) if stands else self._table.delete(token)
+        token, is_alive = token_change(sample)
+        return self._table.put(token) if is_alive else self._table.delete(token)
 
-    def _stands(self, token: str) -> bool:
-        return token in standing_tokens(self._wire.zenoh, token, CHECK_TIMEOUT_S)
+    def _is_alive(self, token: str) -> bool:
+        return token in live_tokens(self._wire.zenoh, token, CHECK_TIMEOUT_S)
 
 
 class NodeParts(NamedTuple):

@@ -26,9 +26,9 @@ from studio.ros.wire.zenoh import (
     close,
     declare_token,
     insert,
+    live_tokens,
     open_zenoh,
     read_config,
-    standing_tokens,
     token_change,
     watch_tokens,
     watch_transports,
@@ -260,8 +260,8 @@ class TokenRelay:
     def _take(self, samples: list[Sample]) -> None:
         with self._lock:
             for sample in samples:
-                token, stands = token_change(sample)
-                if stands:
+                token, is_alive = token_change(sample)
+                if is_alive:
                     self._shown.add(token)
                     self._changed.set()
                 else:
@@ -283,9 +283,7 @@ class TokenRelay:
 
     def _declare_refused(self) -> None:
         known = {
-            token
-            for key in _TOKENS
-            for token in standing_tokens(self._router, key, _QUERY_TIMEOUT_S)
+            token for key in _TOKENS for token in live_tokens(self._router, key, _QUERY_TIMEOUT_S)
         }
         with self._lock:
             refused = self._shown - known - self._declared.keys()

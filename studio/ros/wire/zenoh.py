@@ -42,10 +42,10 @@ __all__ = [
     "declare_subscription",
     "declare_token",
     "insert",
+    "live_tokens",
     "open_zenoh",
     "read_config",
     "router_change",
-    "standing_tokens",
     "token_change",
     "use_few_threads",
     "watch_tokens",
@@ -417,7 +417,7 @@ def token_change(sample: Sample) -> tuple[str, bool]:
     return str(sample.key_expr), sample.kind != zenoh.SampleKind.DELETE
 
 
-def standing_tokens(session: Session, tokens: str, timeout_s: float) -> Iterator[str]:
+def live_tokens(session: Session, tokens: str, timeout_s: float) -> Iterator[str]:
     """Ask for the tokens that stand now; ends with the last answer or the time-out."""
     replies = session.liveliness().get(tokens, _queue(), timeout=timeout_s)
     for reply in cast("Iterator[Reply]", replies):

@@ -120,14 +120,14 @@ def test_what_goes_before_it_comes_is_doubted_until_somebody_is_sure():
     table.delete(TOKENS[1])
     assert table.put(TOKENS[1]) is Taken.UNCERTAIN
     assert is_empty(table)
-    table.settle(TOKENS[1], stands=True)
+    table.settle(TOKENS[1], is_alive=True)
     assert table.count(EndpointKind.PUBLISHER, "/chatter") == 1
 
 
 def test_what_was_doubted_and_stood_not_may_come_later():
     table = GraphTable()
     table.delete(TOKENS[1])
-    table.settle(TOKENS[1], stands=False)
+    table.settle(TOKENS[1], is_alive=False)
     assert is_empty(table)
     assert table.put(TOKENS[1]) is Taken.CHANGED
 
@@ -206,7 +206,7 @@ def test_what_came_and_did_not_go_stands_whatever_happened_before(
             continue
         if comes:
             if table.put(token) is Taken.UNCERTAIN:
-                table.settle(token, stands=True)
+                table.settle(token, is_alive=True)
             standing.add(token)
         else:
             table.delete(token)

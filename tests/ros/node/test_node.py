@@ -12,7 +12,7 @@ from studio.ros.node.subscription import Subscription
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import QoSProfile, qos_profile_rosout_default
 from studio.ros.tokens import EndpointKind, tokens_of_domain
-from studio.ros.wire.zenoh import standing_tokens
+from studio.ros.wire.zenoh import live_tokens
 from tests.support.node_pair import context_at, node_pair, spin_until
 from tests.support.wire import open_test_session, wait_until
 
@@ -93,8 +93,7 @@ def test_a_destroyed_node_leaves_no_token(endpoint: str, context: Context):
             "no token is left",
             lambda: (
                 not any(
-                    "leaves" in token
-                    for token in standing_tokens(wire.zenoh, tokens_of_domain(0), 3)
+                    "leaves" in token for token in live_tokens(wire.zenoh, tokens_of_domain(0), 3)
                 )
             ),
         )
@@ -123,8 +122,7 @@ def test_what_is_made_while_its_node_is_destroyed_leaves_no_token(endpoint: str,
             "no token is left",
             lambda: (
                 not any(
-                    "races" in token
-                    for token in standing_tokens(wire.zenoh, tokens_of_domain(0), 3)
+                    "races" in token for token in live_tokens(wire.zenoh, tokens_of_domain(0), 3)
                 )
             ),
         )
@@ -178,7 +176,7 @@ def test_what_a_node_says_is_heard_on_rosout():
 
 def test_a_node_without_rosout_publishes_none(context: Context):
     Node("quiet", context=context, enable_rosout=False)
-    tokens = standing_tokens(context.wire.zenoh, tokens_of_domain(0), 3)
+    tokens = live_tokens(context.wire.zenoh, tokens_of_domain(0), 3)
     assert not any("quiet" in token and "%rosout" in token for token in tokens)
 
 

@@ -16,7 +16,7 @@ from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.router import start_router
 from studio.ros.wire.session import open_session
 from studio.ros.wire.settings import WireSettings
-from studio.ros.wire.zenoh import close, declare_token, insert, standing_tokens
+from studio.ros.wire.zenoh import close, declare_token, insert, live_tokens
 from tests.support.certificates import make_certificates
 from tests.support.wire import free_endpoint, open_test_session, wait_until
 
@@ -78,7 +78,7 @@ def refusing(**overrides: str) -> dict[str, str]:
 
 
 def seen(wire: WireSession, tokens: str = "@ros2_lv/**") -> set[str]:
-    return set(standing_tokens(wire.zenoh, tokens, 3.0))
+    return set(live_tokens(wire.zenoh, tokens, 3.0))
 
 
 def test_a_client_sees_what_the_router_refused_of_a_peer():

@@ -19,11 +19,11 @@ pytestmark = [
 _OPEN_AND_COUNT = """
 import pathlib, sys
 from studio.ros.profiles import profile_named
-from studio.ros.wire.zenoh import standing_tokens
+from studio.ros.wire.zenoh import live_tokens
 from studio.ros.wire.session import open_wire
 from studio.ros.wire.settings import WireSettings
 with open_wire(WireSettings((sys.argv[1],), profile=profile_named("jazzy")), "off") as wire:
-    list(standing_tokens(wire.zenoh, "@ros2_lv/**", 60.0))  # a thread that received has its name
+    list(live_tokens(wire.zenoh, "@ros2_lv/**", 60.0))  # a thread that received has its name
     names = [one.read_text() for one in pathlib.Path("/proc/self/task").glob("*/comm")]
 print(sum(name.startswith("rx-") for name in names))
 """
