@@ -67,7 +67,7 @@ def repository_or_wheel(folder: str) -> Path:
 
 
 def data_folder(chosen: Path | None) -> Path:
-    """The data folder: `--data-dir`, else STUDIO_DATA_DIR, else the platform's own; made.
+    """Return the data folder: `--data-dir`, else STUDIO_DATA_DIR, else the platform's own; made.
 
     Raises:
         DataFolderError: It cannot be made or is not writable.

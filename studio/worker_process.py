@@ -42,7 +42,7 @@ class Codec:
         }
 
     def pack(self, message: object) -> bytearray:
-        """A message as a frame."""
+        """Return a message as a frame."""
         name = type(message).__name__.encode()
         frame = bytearray(_HEAD.size + len(name))
         self._encoder.encode_into(message, frame, len(frame))
@@ -51,7 +51,7 @@ class Codec:
         return frame
 
     def unpack(self, body: bytes | bytearray) -> Any:  # noqa: ANN401 - one of the codec's types
-        """The message of a frame, which is given without its length.
+        """Return the message of a frame, which is given without its length.
 
         Raises:
             KeyError: The class is none of this codec's.

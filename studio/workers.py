@@ -338,7 +338,7 @@ class WorkerPool:
             turn.set_result(worker)
 
     def _next(self) -> int:
-        """The first of an owner with few requests at work, who has had no turn for long."""
+        """Return the first of an owner with few requests at work, who has had no turn for long."""
         at_work = Counter(owner for owner, _ in self._busy.values())
 
         def rank(at: int) -> tuple[int, int]:

@@ -924,7 +924,7 @@ export interface GetFrames {
   type: "get_frames";
 }
 
-/** Ask how all goals of an action stand, those of others too. */
+/** Ask for the states of all goals of an action, those of others too. */
 export interface GetGoalStatuses {
   request?: number;
   document?: string;

@@ -30,7 +30,7 @@ def add_graph_options(parser: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def opened_graph(options: argparse.Namespace) -> Generator[Graph]:
-    """Join, and wait until what stands has been taken in.
+    """Join, and wait until the graph is known.
 
     Raises:
         NoRouterError: None answers.
@@ -58,7 +58,7 @@ def why_empty(wire: WireSession) -> str:
 
 
 def settle(graph: Graph, options: argparse.Namespace) -> None:
-    """Take in what stands, and for `--spin-time` what comes."""
+    """Wait until the graph is known, and then for `--spin-time`."""
     graph.settle()
     # A router that was just joined sends the tokens in parts, and at first perhaps none.
     graph.wait_for(lambda: graph.version > 0, _FIRST_TOKENS_S)

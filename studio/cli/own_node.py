@@ -64,7 +64,7 @@ class OwnNode:
 def own_node(
     options: argparse.Namespace, name: str | None = None, *, answers: bool = False
 ) -> Generator[OwnNode]:
-    """Join with a node of one's own, hidden unless it is given a name; take in what stands.
+    """Join with a node of one's own, hidden unless it is given a name; wait for the graph.
 
     One that `answers` serves its parameters and describes its types to others.
 

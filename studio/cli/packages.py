@@ -85,7 +85,7 @@ def _workspace_of(folder: Path) -> tuple[Path, ...]:
 
 
 def _packages_in(folder: Path) -> tuple[Path, ...]:
-    """The packages right in a folder, which may be any: one of downloads, or of pictures."""
+    """Return the packages right in a folder, which may be any: one of downloads, or of pictures."""
     try:
         with os.scandir(folder) as entries:
             found = list(islice(entries, ENTRIES_MAX + 1))

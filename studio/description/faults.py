@@ -70,19 +70,19 @@ def misnamed(code: str, sentence: str, name: str, known: Iterable[str], otherwis
 
 
 def near(name: str, known: Iterable[str]) -> str:
-    """The known name that is nearly this one; empty when none is."""
+    """Return the known name that is nearly this one; empty when none is."""
     found = get_close_matches(name, islice(known, _NAMES_MAX), n=1, cutoff=0.7)
     return found[0] if found else ""
 
 
 def shorten(text: str, limit: int = 120) -> str:
-    """A text for a sentence: on one line, cut when long."""
+    """Return a text for a sentence: on one line, cut when long."""
     line = " ".join(text.encode("utf-8", "replace").decode().split())
     return line if len(line) <= limit else line[: limit - 3] + "..."
 
 
 def problem_of(fault: Fault, entry: str) -> Problem:
-    """A fault as the studio reports it."""
+    """Return a fault as the studio reports it."""
     fix = None
     if fault.package:
         fix = Fix("Choose its folder", "choose_package", fault.package)

@@ -160,7 +160,7 @@ class _Item:
 
 
 def rounded(position: float) -> float:
-    """A position as the file holds it."""
+    """Return a position as the file holds it."""
     return round(position, _DIGITS) + 0.0  # never -0
 
 
@@ -207,7 +207,7 @@ def _reads_as(path: str, written: bytes, poses: Sequence[NamedPose]) -> bool:
 
 
 def _woven(path: str, before: bytes, poses: Sequence[NamedPose]) -> bytes | None:
-    """The file with the lines of each pose in their order; None when it has none to keep."""
+    """Return the file with the lines of each pose in their order; None when it has none to keep."""
     items = _Reading(path, before).items()
     lines = before.decode("utf-8-sig").splitlines(keepends=True)
     if not items:
@@ -225,7 +225,7 @@ def _woven(path: str, before: bytes, poses: Sequence[NamedPose]) -> bytes | None
 
 
 def _blocks(items: Sequence[_Item]) -> list[tuple[int, int]]:
-    """The lines of each pose, with the comments above it after the pose before."""
+    """Return the lines of each pose, with the comments above it after the pose before."""
     ends = [items[0].start, *(item.end for item in items)]
     return [(ends[at], item.end) for at, item in enumerate(items)]
 

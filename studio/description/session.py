@@ -84,7 +84,7 @@ def verified(
 
 
 def _unproven(failure: Failure, entry: str) -> Failure:
-    """A failure that patches have hidden: the robot that is shown is none of a full run."""
+    """Return a failure that patches have hidden: the robot that is shown is none of a full run."""
     sentence = "A quick edit hid this; the robot that is shown is of that edit. Tell us of it."
     _log.error("%s: %s: %s", entry, sentence, failure.problem.sentence)
     problem = replace(failure.problem, sentence=f"{failure.problem.sentence} {sentence}")

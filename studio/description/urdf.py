@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]]) -> str:
-    """A robot of these parts as URDF text, one indented element after the other.
+    """Return a robot of these parts as URDF text, one indented element after the other.
 
     May run in any thread; a large robot takes some time.
     """
@@ -24,7 +24,7 @@ def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]])
 
 
 def part_element(part: Part, root_attributes: Mapping[str, str]) -> ElementTree.Element:
-    """A part as an element of a robot, with its prefixes as written.
+    """Return a part as an element of a robot, with its prefixes as written.
 
     A part declares its prefixes itself, to stand alone; what the root declares is not repeated.
     """

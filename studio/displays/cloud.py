@@ -103,7 +103,7 @@ class Cloud:
         return len(self.positions)
 
     def numbers(self, name: str) -> NDArray[np.float32] | None:
-        """The numbers of a channel, shape (N,)."""
+        """Return the numbers of a channel, shape (N,)."""
         return self.channels.numbers(name, self.raw)
 
 
@@ -133,6 +133,6 @@ def kept(
 
 
 def listed(names: tuple[str, ...]) -> str:
-    """Names within a sentence, cut where there are many."""
+    """Return names within a sentence, cut where there are many."""
     shown = ", ".join(name[:40] for name in names[:12])
     return f"{shown} and {len(names) - 12} more" if len(names) > 12 else shown or "none"

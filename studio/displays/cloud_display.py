@@ -131,7 +131,7 @@ _WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time"
 def points_of(
     cloud: Cloud, colours: NDArray[np.uint8], values: Mapping[str, Value], *, precise: bool
 ) -> Points:
-    """The shape of a cloud in its colours."""
+    """Return the shape of a cloud in its colours."""
     style = str(values["Style"])
     return Points(
         cloud.positions,
@@ -245,7 +245,7 @@ def _shares(
 
 
 def _bounds(numbers: NDArray[np.float32]) -> tuple[float, float]:
-    """The least and the greatest number that is one."""
+    """Return the least and the greatest number that is one."""
     if not len(numbers):
         return 0.0, 0.0
     with np.errstate(invalid="ignore"):
@@ -297,7 +297,7 @@ class CloudDisplay(Display):
 
     @abstractmethod
     def read(self, received: Received, limits: Limits) -> Cloud:
-        """The cloud of a message.
+        """Return the cloud of a message.
 
         Raises:
             StudioError: It cannot be read, or makes no sense.
@@ -337,7 +337,7 @@ class CloudDisplay(Display):
         self._drawing = NOTHING
 
     def draw(self, now_ns: int) -> Drawing:
-        """The clouds that have not decayed now."""
+        """Return the clouds that have not decayed now."""
         if self._decay_ns():
             self._decay(now_ns)
         if self._drawing is None:

@@ -22,7 +22,7 @@ _STOPS: Final = {
 
 
 def mapped(shares: NDArray[np.floating], name: str, *, inverted: bool = False) -> NDArray[np.uint8]:
-    """The colours of shares.
+    """Return the colours of shares.
 
     Args:
         shares: Shape (N,); what is below 0 or above 1 is as those, NaN as 0.

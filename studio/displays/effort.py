@@ -106,7 +106,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
             super().take(received)
 
     def read(self, received: Received) -> Entry[Efforts] | None:
-        """The efforts, if there is one for each joint."""
+        """Return the efforts, if there is one for each joint."""
         message = self.decode(received)
         names, efforts = tuple(message.name), np.array(message.effort, dtype=np.float64)
         if len(names) != len(efforts):
@@ -123,7 +123,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         return {}
 
     def groups(self, entry: Entry[Efforts]) -> dict[str, Placed]:
-        """A ring for each joint that turns, in the frame of its child link."""
+        """Return a ring for each joint that turns, in the frame of its child link."""
         rings = self._rings(entry.content)
         return {
             str(number): Placed(ring.frame, entry.stamp_ns, self._ring(ring))
@@ -177,7 +177,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         return Ring(frame, axis / size, effort, share + _LEAST)
 
     def _ring(self, ring: Ring) -> dict[str, Shape]:
-        """A part of a circle about an axis, from the head of its arrow on."""
+        """Return a part of a circle about an axis, from the head of its arrow on."""
         width_m, alpha = self.number("Width"), self.number("Alpha")
         radius_m = _LEAST + ring.share * self.number("Scale") / 2
         if radius_m > FAR:
@@ -207,7 +207,7 @@ def _switch_of(joint: str) -> Property:
 
 
 def _about(axis: Floats, around_z: Floats) -> NDArray[np.float32]:
-    """Points (N, 3) about z as they are about another axis, float32."""
+    """Return points (N, 3) about z as they are about another axis, float32."""
     turn = shortest_turn(_UP, axis) if axis @ _UP < 1.0 else np.array(NO_TURN)
     return turned(np.tile(turn, (len(around_z), 1)), around_z).astype(np.float32)
 

@@ -134,7 +134,7 @@ class GridDisplay(StillDisplay):
         return position[0], position[1], position[2]
 
     def _upright_lines(self) -> Lines:
-        """Lines through all layers, at each corner of the cells."""
+        """Return lines through all layers, at each corner of the cells."""
         first, second, across = _AXES[str(self.values["Plane"])][1]
         size_m = float(self.values["Cell Size"])
         places = (np.arange(self._cells + 1) - self._cells / 2) * size_m

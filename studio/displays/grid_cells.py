@@ -44,7 +44,7 @@ class GridCellsDisplay(HistoryDisplay[Cells]):
     PROPERTIES = colour_properties(RVIZ_GREEN, "cells")
 
     def read(self, received: Received) -> Entry[Cells] | None:
-        """The cells that can be drawn."""
+        """Return the cells that can be drawn."""
         read = read_grid_cells(received.cdr)
         size_m = np.array([abs(read.width_m), abs(read.height_m), 0.0])
         if not (size_m <= FAR).all():

@@ -169,7 +169,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         return (Status("warn", "empty", sentence, mend),)
 
     def number(self, name: str) -> float:
-        """The value of a property that is a number."""
+        """Return the value of a property that is a number."""
         return float(self.values[name])
 
     def _is_clear(self, one: Property) -> bool:

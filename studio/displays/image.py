@@ -150,7 +150,7 @@ class ImageDisplay(StillDisplay):
         return {"camera": Placed(self._frame, self._stamp_ns, {"picture": shape})}
 
     def _shades(self, pixels: NDArray[Any]) -> NDArray[np.uint8]:
-        """The picture in colours; numbers become shades of grey."""
+        """Return the picture in colours; numbers become shades of grey."""
         if pixels.ndim == 3:
             return pixels
         if pixels.dtype == np.uint8:
@@ -222,6 +222,6 @@ def _is_numbers(pixels: NDArray[Any]) -> bool:
 
 
 def _range_of(pixels: NDArray[Any]) -> tuple[float, float]:
-    """The least and the greatest number that is one; of none both are 0."""
+    """Return the least and the greatest number that is one; of none both are 0."""
     finite = pixels if pixels.dtype.kind != "f" else pixels[np.isfinite(pixels)]
     return (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)

@@ -74,12 +74,12 @@ class Raw:
 
 
 def step_for(count: int, limit: int) -> int:
-    """Every how many-th row and column is taken, so that the limit holds."""
+    """Return every how many-th row and column is taken, so that the limit holds."""
     return max(1, int(np.ceil(np.sqrt(count / max(limit, 1)))))
 
 
 def read_image(message: Any, pixels_max: int) -> NDArray[Any]:  # noqa: ANN401 - sensor_msgs/Image
-    """The pixels of a raw image, thinned where there are too many.
+    """Return the pixels of a raw image, thinned where there are too many.
 
     Returns:
         Shape (H, W, 3), uint8, colours; or (H, W), of the image's own type, numbers without a
@@ -236,7 +236,7 @@ _READERS: Final[dict[str, Reader]] = {
 
 
 def read_compressed(message: Any, pixels_max: int) -> NDArray[Any]:  # noqa: ANN401
-    """The pixels of a sensor_msgs/CompressedImage, thinned where there are too many.
+    """Return the pixels of a sensor_msgs/CompressedImage, thinned where there are too many.
 
     Returns:
         Shape (H, W, 3), uint8, colours; or (H, W), numbers without a colour.

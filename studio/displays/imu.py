@@ -85,7 +85,7 @@ class ImuDisplay(HistoryDisplay[Motion]):
     )  # fmt: skip
 
     def read(self, received: Received) -> Entry[Motion] | None:
-        """The measurement, unless its numbers cannot be drawn."""
+        """Return the measurement, unless its numbers cannot be drawn."""
         message = self.decode(received)
         turn = message.orientation
         wxyz = np.array([[turn.w, turn.x, turn.y, turn.z]], dtype=np.float64)

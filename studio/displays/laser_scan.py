@@ -33,7 +33,7 @@ class LaserScanDisplay(CloudDisplay):
     )
 
     def read(self, received: Received, limits: Limits) -> Cloud:
-        """The points of a scan.
+        """Return the points of a scan.
 
         Raises:
             StudioError: It cannot be read, or has no angles.

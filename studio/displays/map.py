@@ -395,7 +395,7 @@ def _starts(count: int, step: int) -> NDArray[np.intp]:
 
 
 def _whole(part: slice, step: int) -> slice:
-    """The squares that cells lie in."""
+    """Return the squares that cells lie in."""
     return slice(part.start // step, -(-part.stop // step))
 
 

@@ -54,7 +54,7 @@ class MeasurementDisplay(CloudDisplay):
         """Return the number of a message."""
 
     def read(self, received: Received, limits: Limits) -> Cloud:
-        """A point, unless the number is none."""
+        """Return a point, unless the number is none."""
         del limits
         message = self.decode(received)
         number = float(self.measured(message))

@@ -107,7 +107,7 @@ class PatternProperty(Property):
     """A text that is a pattern, or empty."""
 
     def checked(self, value: object) -> Value:
-        """The pattern.
+        """Return the pattern.
 
         Raises:
             DisplayPropertyError: It is none.
@@ -136,7 +136,7 @@ class _Reader:
         self._at = self._depth = 0
 
     def whole(self) -> list[_Step]:
-        """The steps of it all."""
+        """Return the steps of it all."""
         steps = self._choice()
         if self._at < len(self._text):
             raise self._fault("closes a bracket that was not opened")

@@ -72,7 +72,7 @@ class PathDisplay(HistoryDisplay[Line]):
     KEEPS = "Buffer Length"
 
     def read(self, received: Received) -> Entry[Line] | None:
-        """The poses; where some cannot be drawn the line is cut."""
+        """Return the poses; where some cannot be drawn the line is cut."""
         read = read_path(received.cdr)
         sound = drawable_poses(read.rows)
         # With each row how many were left out before it: where that changes there is a gap.
@@ -90,7 +90,7 @@ class PathDisplay(HistoryDisplay[Line]):
         return len(content.poses)
 
     def shapes(self, content: Line) -> dict[str, Shape]:
-        """The line, and its poses."""
+        """Return the line, and its poses."""
         offset_m = np.array([self.number(f"Offset/{axis}") for axis in "XYZ"])
         moved = Poses(content.poses.xyz + offset_m, content.poses.wxyz)
         return self._line(moved.xyz, content.joined) | self._poses(moved)

@@ -36,7 +36,7 @@ class PointStampedDisplay(HistoryDisplay["Floats"]):
     KEEPS = "History Length"
 
     def read(self, received: Received) -> Entry[Floats] | None:
-        """The point, unless its numbers cannot be drawn."""
+        """Return the point, unless its numbers cannot be drawn."""
         message = self.decode(received)
         at = message.point
         xyz = np.array([[at.x, at.y, at.z]], dtype=np.float64)
@@ -45,7 +45,7 @@ class PointStampedDisplay(HistoryDisplay["Floats"]):
         return Entry(*frame_and_stamp(message.header), xyz)
 
     def shapes(self, content: Floats) -> dict[str, Shape]:
-        """A ball, thick as in RViz, which takes the radius for a diameter."""
+        """Return a ball, thick as in RViz, which takes the radius for a diameter."""
         scales = np.full((1, 3), self.values["Radius"], dtype=np.float32)
         colour = colour_of(rgb_of(self.values["Color"]))
         xyz = content.astype(np.float32)

@@ -57,7 +57,7 @@ class CloudFields:
         return int(self._message.data.nbytes)
 
     def positions(self) -> tuple[NDArray[np.float32], NDArray[np.intp] | None]:
-        """Places of the points, m, shape (N, 3), also of those that are NaN; a new array.
+        """Return places of the points, m, shape (N, 3), also of those that are NaN; a new array.
 
         Of huge clouds only some are read; their indices come second, else None.
 

@@ -32,7 +32,7 @@ class PolygonDisplay(HistoryDisplay["Floats"]):
     PROPERTIES = colour_properties(RVIZ_GREEN, "outline")
 
     def read(self, received: Received) -> Entry[Floats] | None:
-        """The corners that can be drawn."""
+        """Return the corners that can be drawn."""
         read = read_polygon(received.cdr)
         at_most = min(CORNERS_MAX, self.limits.points)
         corners = chosen_rows(read.rows, drawable(read.rows), "corners", at_most, self)
@@ -43,7 +43,7 @@ class PolygonDisplay(HistoryDisplay["Floats"]):
         return Entry(read.frame, read.stamp_ns, corners)
 
     def shapes(self, content: Floats) -> dict[str, Shape]:
-        """A line from each corner to the next, and back to the first."""
+        """Return a line from each corner to the next, and back to the first."""
         if len(content) < 2:
             return {}
         ends = np.stack((content, np.roll(content, -1, axis=0)), axis=1).astype(np.float32)

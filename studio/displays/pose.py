@@ -32,7 +32,7 @@ class PoseDisplay(HistoryDisplay[Poses]):
     PROPERTIES = pose_properties()
 
     def read(self, received: Received) -> Entry[Poses] | None:
-        """The pose, unless its numbers cannot be drawn."""
+        """Return the pose, unless its numbers cannot be drawn."""
         message = self.decode(received)
         poses = pose_of(message.pose)
         if poses is None:
@@ -42,7 +42,7 @@ class PoseDisplay(HistoryDisplay[Poses]):
         return Entry(*frame_and_stamp(message.header), poses)
 
     def shapes(self, content: Poses) -> dict[str, Shape]:
-        """An arrow, or axes."""
+        """Return an arrow, or axes."""
         return pose_shapes(content, self.values)
 
     def sizes(self) -> tuple[str, ...]:

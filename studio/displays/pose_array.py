@@ -59,7 +59,7 @@ class PoseArrayDisplay(HistoryDisplay[Poses]):
     )  # fmt: skip
 
     def read(self, received: Received) -> Entry[Poses] | None:
-        """The poses that can be drawn."""
+        """Return the poses that can be drawn."""
         read = read_pose_array(received.cdr)
         poses = poses_of_rows(read.rows, "poses", min(POSES_MAX, self.limits.points), self)
         return None if poses is None else Entry(read.frame, read.stamp_ns, poses)

@@ -270,7 +270,7 @@ class SpreadDisplay(HistoryDisplay[Spread]):
     """The prefix of the names of the properties of a pose."""
 
     def read(self, received: Received) -> Entry[Spread] | None:
-        """The pose and its covariance, unless their numbers cannot be drawn."""
+        """Return the pose and its covariance, unless their numbers cannot be drawn."""
         message = self.decode(received)
         pose = pose_of(message.pose.pose)
         spread = None if pose is None else spread_of(pose, message.pose.covariance)
@@ -287,7 +287,7 @@ class SpreadDisplay(HistoryDisplay[Spread]):
         """Whether to draw a pose of this orientation; report what is wrong with it."""
 
     def shapes(self, content: Spread) -> dict[str, Shape]:
-        """The pose, an ellipsoid, and the spread of its axes."""
+        """Return the pose, an ellipsoid, and the spread of its axes."""
         pose = pose_shapes(content.pose, self.values, self.UNDER)
         return pose | covariance_shapes(content, self.values)
 

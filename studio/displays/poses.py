@@ -82,7 +82,7 @@ def pose_properties(under: str = "", sizes: Sizes | None = None) -> tuple[Proper
 def arrow_properties(
     sizes: Sizes, under: str = "", when: tuple[str, tuple[Value, ...]] | None = None
 ) -> tuple[Property, ...]:
-    """The four measures of an arrow."""
+    """Return the four measures of an arrow."""
     return tuple(
         length(f"{under}{name}", default, doc, when)
         for name, default, doc in (
@@ -97,7 +97,7 @@ def arrow_properties(
 def axes_properties(
     sizes: Sizes, under: str = "", when: tuple[str, tuple[Value, ...]] | None = None
 ) -> tuple[Property, Property]:
-    """The two measures of axes."""
+    """Return the two measures of axes."""
     thick = "How thick each axis is, from side to side."
     return (
         length(f"{under}Axes Length", sizes.axes_length, "How long each axis is.", when),
@@ -200,7 +200,7 @@ def poses_of_rows(rows: Floats, what: str, at_most: int, display: Reporter) -> P
 
 
 def poses_of_chosen(chosen: Floats, what: str, display: Reporter) -> Poses:
-    """Poses of rows (N, 7 or more) that can all be drawn."""
+    """Return poses of rows (N, 7 or more) that can all be drawn."""
     wxyz, zero = unit_quaternions(chosen[:, _WXYZ])
     if zero.any():
         display.warn(

@@ -43,7 +43,7 @@ class RangeDisplay(HistoryDisplay[Cone]):
     KEEPS = "Buffer Length"
 
     def read(self, received: Received) -> Entry[Cone] | None:
-        """The cone; a range that is none takes a place and shows nothing, as in RViz."""
+        """Return the cone; a range that is none takes a place and shows nothing, as in RViz."""
         message = self.decode(received)
         length_m = _length_m(message)
         width_m = 2.0 * length_m * math.tan(_half_angle_rad(message.field_of_view))

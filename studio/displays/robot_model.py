@@ -112,7 +112,7 @@ class RobotModelDisplay(StillDisplay):
         return (*self.PROPERTIES, *of_links)
 
     def roles(self) -> tuple[TopicRole, ...]:
-        """Its topic, while the description comes from one."""
+        """Return its topic, while the description comes from one."""
         return self.TOPICS if self.source.kind == "Topic" else ()
 
     @property
@@ -167,7 +167,7 @@ class RobotModelDisplay(StillDisplay):
         """Keep all: a description is as true after a jump of time as before."""
 
     def frame_of(self, link: str) -> str:
-        """The frame of a link on /tf."""
+        """Return the frame of a link on /tf."""
         return link_frame(link, str(self.values["TF Prefix"]))
 
     def statuses(self) -> tuple[Status, ...]:

@@ -207,7 +207,7 @@ def _parts_of_arrows(lengths_m: Floats, head_m: float) -> tuple[Floats, Floats]:
 
 
 def name_text(name: str, grey: float, opacity: float, height_m: float) -> Text:
-    """The name of a frame, at its origin; of height 0 it has one size on the screen."""
+    """Return the name of a frame, at its origin; of height 0 it has one size on the screen."""
     red, green, blue = (_WHITE + grey * (_GREY - _WHITE)).astype(int).tolist()
     rgb: Rgb = (red, green, blue)
     return Text(name, height_m=height_m, rgb=rgb, opacity=opacity)

@@ -74,7 +74,7 @@ def _scale(name: str) -> Property:
 
 
 def vectors_of(straight: Any, turning: Any) -> Vectors | None:  # noqa: ANN401 - messages
-    """Two geometry_msgs/Vector3; None when they cannot be drawn."""
+    """Return two geometry_msgs/Vector3; None when they cannot be drawn."""
     rows = np.array([[one.x, one.y, one.z] for one in (straight, turning)], dtype=np.float64)
     return Vectors(rows[0], rows[1]) if drawable(rows).all() else None
 
@@ -182,10 +182,10 @@ class VectorDisplay(HistoryDisplay[Vectors]):
 
     @abstractmethod
     def parts(self, message: Any) -> tuple[Any, Any]:  # noqa: ANN401 - messages
-        """The two geometry_msgs/Vector3 of a message."""
+        """Return the two geometry_msgs/Vector3 of a message."""
 
     def read(self, received: Received) -> Entry[Vectors] | None:
-        """The vectors, unless their numbers cannot be drawn."""
+        """Return the vectors, unless their numbers cannot be drawn."""
         message = self.decode(received)
         vectors = vectors_of(*self.parts(message))
         if vectors is None:
@@ -193,11 +193,11 @@ class VectorDisplay(HistoryDisplay[Vectors]):
         return Entry(*frame_and_stamp(message.header), vectors)
 
     def shapes(self, content: Vectors) -> dict[str, Shape]:
-        """An arrow each, and a circle about the one that turns."""
+        """Return an arrow each, and a circle about the one that turns."""
         return vector_shapes(content, self.NAMES, self.values, small_too=self._small_too)
 
     def sizes(self) -> tuple[str, ...]:
-        """The scales of the newest vectors that are not zero."""
+        """Return the scales of the newest vectors that are not zero."""
         if self.newest is None:
             return ()
         pairs = zip(self.NAMES, self.newest.content, strict=True)
@@ -228,7 +228,7 @@ class AccelDisplay(VectorDisplay):
     NAMES = SCREW
 
     def parts(self, message: Any) -> tuple[Any, Any]:  # noqa: ANN401 - messages
-        """Both accelerations."""
+        """Return both accelerations."""
         return message.accel.linear, message.accel.angular
 
 
@@ -243,7 +243,7 @@ class TwistDisplay(VectorDisplay):
     NAMES = SCREW
 
     def parts(self, message: Any) -> tuple[Any, Any]:  # noqa: ANN401 - messages
-        """The velocity and the turning rate."""
+        """Return the velocity and the turning rate."""
         return message.twist.linear, message.twist.angular
 
 
@@ -264,7 +264,7 @@ class WrenchDisplay(VectorDisplay):
     NAMES = _NAMES
 
     def parts(self, message: Any) -> tuple[Any, Any]:  # noqa: ANN401 - messages
-        """The force and the torque."""
+        """Return the force and the torque."""
         wrench = message.wrench
         if self.values[_ACCEPT]:
             _put_zeros(wrench.force)

@@ -32,13 +32,13 @@ class RoomWorld:
         self._names: dict[str, tuple[str, ...]] = {}
 
     def read(self, path: str) -> bytes:
-        """A file's text as it is edited; PackageError when it may not or cannot be read."""
+        """Return a file's text as it is edited; PackageError when it may not or cannot be read."""
         real = str(self._location.served.resolve(path))
         held = self._texts.get(real)
         return self._location.served.read(real) if held is None else held
 
     def find(self, package: str, asking_file: str) -> str | None:
-        """The folder of a package."""
+        """Return the folder of a package."""
         folders = self._location.index.candidates(package, asking_file)
         return str(folders[0]) if folders else None
 

@@ -130,7 +130,7 @@ async def _check_folder(run: _Run, location: Location, path: Path) -> list[Check
 
 
 def whole_robots(points: Iterable[EntryPoint]) -> list[Path]:
-    """The openable files that come first of all that include each other, in their order.
+    """Return the openable files that come first of all that include each other, in their order.
 
     Each of the others is included by one of these, over any number of steps.
     """
@@ -244,7 +244,7 @@ class _CheckServices(Services):
         self._warm(self._pool.warm())
 
     def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
-        """A worker that has nothing to do, or a new one; there is no spare."""
+        """Return a worker that has nothing to do, or a new one; there is no spare."""
         del opened
         if self._idle:
             return self._idle.pop()
@@ -280,7 +280,7 @@ def exit_code(files: Sequence[CheckedFile]) -> int:
 
 
 def report_lines(files: Sequence[CheckedFile], folder: Path) -> Iterator[str]:
-    """A line for each finding, its fix below it, and a last line that counts.
+    """Yield a line for each finding, its fix below it, and a last line that counts.
 
     Args:
         files: What was checked.

@@ -168,7 +168,7 @@ def _state(merged: Merge) -> str:
 
 
 def _view(merged: Merge, place: MergePlace) -> CollisionView:
-    """A collision in whole lines, so that one sees what stands around it."""
+    """Return a collision in whole lines, so that one sees what stands around it."""
     base = merged.base
     start = base.rfind(b"\n", 0, place.start) + 1
     end = base.find(b"\n", place.end)

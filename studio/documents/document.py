@@ -296,7 +296,7 @@ class Document:
             self._spawn("disk", self.disk.changed(set(self.sources.conflicts)))
 
     def _run_state(self) -> tuple[object, ...]:
-        """The part of the state event that comes from the last run."""
+        """Return the part of the state event that comes from the last run."""
         last = self.last_run
         return last.phase, last.files, last.failed
 

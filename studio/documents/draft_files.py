@@ -58,7 +58,7 @@ class SaveJournal:
             self._path.unlink(missing_ok=True)
 
     def cut(self, saved: Callable[[str], bytes]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """The files that a save wrote, and those that it did not come to.
+        """Return the files that a save wrote, and those that it did not come to.
 
         Both are empty when none was cut off. `saved` gives what the disk has of a file now; what
         somebody wrote since belongs to neither.

@@ -179,7 +179,7 @@ COMMANDS.presenter(UndoTo, lambda edits, c, _: edits.undo_to(c))
 
 
 def history_event(sources: Sources) -> History:
-    """The steps that can be undone and redone, and what is unsaved."""
+    """Return the steps that can be undone and redone, and what is unsaved."""
     return History(
         undo=sources.undo_labels,
         redo=sources.redo_labels,

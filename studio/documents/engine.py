@@ -117,7 +117,7 @@ class Engine:
             document.audience.remove(listener)
 
     def document(self, name: str) -> Document:
-        """The open document of that id.
+        """Return the open document of that id.
 
         Raises:
             UnknownDocumentError: There is none.
@@ -160,7 +160,7 @@ class Engine:
         return self._open(await self._locate(path, progress), arguments)
 
     def find_open(self, path: Path) -> Document | None:
-        """The document whose entry file this is."""
+        """Return the document whose entry file this is."""
         return next((one for one in self.documents.values() if one.entry == path), None)
 
     async def open_at(
@@ -194,7 +194,7 @@ class Engine:
         return self._open(await self._locate(path, within=self.served), command.arguments)
 
     async def launch_form(self, command: GetArguments) -> Arguments:
-        """The form of an open document, or of a file below the served folders."""
+        """Return the form of an open document, or of a file below the served folders."""
         if not command.path:
             one = self.document(command.document)
             return await form_of(one.workspace, one.last_run, one.sites, command.request)
@@ -237,7 +237,7 @@ class Engine:
         return document.id
 
     def _free_id(self, location: Location) -> str:
-        """A readable id that stays the same when the same file is opened after a restart."""
+        """Return a readable id that stays the same when the same file is opened after a restart."""
         stem = location.entry.name.split(".")[0] if location.entry else ""
         base = re.sub(r"[^a-z0-9]+", "-", stem.lower()).strip("-") or "robot"
         names = [base, *(f"{base}-{number}" for number in range(2, _DOCUMENT_LIMIT + 2))]

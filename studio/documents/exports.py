@@ -35,7 +35,7 @@ def with_absolute_paths(urdf: str, location: Location) -> str:
 
 
 def with_copied_meshes(urdf: str, location: Location) -> tuple[str, list[PackedFile]]:
-    """The URDF with meshes named beside it, and these with all that they draw on."""
+    """Return the URDF with meshes named beside it, and these with all that they draw on."""
     copies = _Copies()
     text = _renamed(urdf, location, lambda _, file: copies.name_of(file))
     beside = [
@@ -48,7 +48,7 @@ def with_copied_meshes(urdf: str, location: Location) -> tuple[str, list[PackedF
 
 
 def _renamed(urdf: str, location: Location, name_of: Callable[[str, Path], str]) -> str:
-    """The URDF with other names for the files that are there."""
+    """Return the URDF with other names for the files that are there."""
     assert location.entry is not None
     root = parse_tree(urdf)
     for element in (one for tag in _NAMES_FILE for one in root.iter(tag)):
@@ -69,7 +69,7 @@ class _Copies:
     names: dict[Path, str] = field(default_factory=dict[Path, str])
 
     def name_of(self, file: Path) -> str:
-        """The name of a copy; the same for the same file."""
+        """Return the name of a copy; the same for the same file."""
         if file not in self.names:
             package = package_folder_of(file)
             inside = file.relative_to(package) if package else Path(file.name)
@@ -132,7 +132,7 @@ class Exports:
         self._scene, self._opened, self._packages_used = scene, opened, packages_used
 
     async def urdf(self, meshes: MeshNames) -> Download:
-        """The expanded URDF; with `copied` a zip that holds its meshes, too.
+        """Return the expanded URDF; with `copied` a zip that holds its meshes, too.
 
         Raises:
             CommandError: There was no good run yet.
@@ -147,7 +147,7 @@ class Exports:
         return Download(f"{name}.urdf", "application/xml", (text.encode(),))
 
     async def package(self, *, all_used: bool) -> Download:
-        """The package of the entry file, or every one that the robot uses, with the edits.
+        """Return the package of the entry file, or every one that the robot uses, with the edits.
 
         Raises:
             ExportError: It comes to too much.
@@ -157,7 +157,7 @@ class Exports:
         return Download(f"{name}.zip", _ZIP, zip_chunks(files, self._workspace.served))
 
     async def page(self, *, dark: bool) -> Download:
-        """The 3D view as one page that opens from the disk, with the robot as it stands.
+        """Return the 3D view as one page that opens from the disk, with the robot as it stands.
 
         Raises:
             CommandError: There is no robot to show.

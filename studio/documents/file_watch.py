@@ -154,7 +154,7 @@ def _touched(paths: Iterable[str], since_ns: int, until_ns: int) -> set[str]:
 
 
 def _changed_at_ns(path: Path) -> int:
-    """When it was last written, or its folder if it does not exist; 0 without either."""
+    """Return when it was last written, or its folder if it does not exist; 0 without either."""
     for one in (path, path.parent):
         with contextlib.suppress(OSError):
             return one.stat().st_mtime_ns

@@ -44,7 +44,7 @@ class Findings:
         return True
 
     def all(self) -> tuple[Problem, ...]:
-        """Every problem once: errors first, then by origin, each in its own order."""
+        """Return every problem once: errors first, then by origin, each in its own order."""
         distinct = dict.fromkeys(problem for found in self._by_origin.values() for problem in found)
         kept = _bounded(distinct)
         return tuple(sorted(kept, key=lambda problem: _RANK[problem.severity]))

@@ -82,7 +82,7 @@ COMMANDS.viewer(GetMasses, lambda inspection, c, _: inspection.masses(c))
 
 
 def masses_event(request: int, robot: Robot, of_mesh: MeshVolumes) -> Masses:
-    """The links with an inertial; `of_mesh` as for `shapes_volume`."""
+    """Return the links with an inertial; `of_mesh` as for `shapes_volume`."""
     found = ((link, link_mass(link)) for link in robot.links.values())
     views = (_view(link, mass, of_mesh) for link, mass in found if mass)
     return Masses.model_construct(request=request, links=tuple(views))

@@ -55,7 +55,7 @@ class Opener(Protocol):
         ...
 
     def document(self, name: str, /) -> Document:
-        """The open document of that id.
+        """Return the open document of that id.
 
         Raises:
             UnknownDocumentError: There is none.
@@ -63,7 +63,7 @@ class Opener(Protocol):
         ...
 
     def find_open(self, path: Path, /) -> Document | None:
-        """The document that shows this file."""
+        """Return the document that shows this file."""
         ...
 
     async def open_at(
@@ -96,7 +96,7 @@ class Library:
         return self._data_folder / ROBOTS
 
     async def recent(self, command: ListRecent | ForgetRecent) -> Recent:
-        """The recent files, newest first."""
+        """Return the recent files, newest first."""
         if isinstance(command, ForgetRecent):
             self._recent.forget(command.path)
         files = await asyncio.to_thread(self._recent_entries)
@@ -179,7 +179,7 @@ class Library:
         return opened
 
     def _place(self, folder: str) -> Path:
-        """The folder in which something is to be made.
+        """Return the folder in which something is to be made.
 
         Raises:
             PackageError: It is not served, or may not be written.
@@ -218,7 +218,7 @@ class Library:
         return "file"
 
     def examples(self, command: ListExamples) -> Examples:
-        """The robots that come with the studio."""
+        """Return the robots that come with the studio."""
         found = (
             ExampleEntry(name=one.package, robot=one.robot, text=one.text)
             for one in examples(self._models)

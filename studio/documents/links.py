@@ -79,7 +79,7 @@ class SharedRobot(Message):
 
 
 def link_to(sources: Sources, location: Location, request: int) -> Link:
-    """A link that opens a document as it is now.
+    """Return a link that opens a document as it is now.
 
     Raises:
         CommandError: Its unsaved edits are too many for a link.

@@ -163,7 +163,7 @@ class Model:
         self.scene.flush()
 
     def mesh_uris(self) -> Set[str]:
-        """Every mesh that the robot names, in the order of its links."""
+        """Return every mesh that the robot names, in the order of its links."""
         return dict.fromkeys(uri for uris in self._meshes.values() for uri in uris).keys()
 
     def mesh_users(self) -> dict[str, Part]:
@@ -176,6 +176,6 @@ class Model:
         return users
 
     def _axes_of(self, change: Change) -> frozenset[str]:
-        """Links whose drawn joint axis changed: the children of the changed joints."""
+        """Return links whose drawn joint axis changed: the children of the changed joints."""
         joints = change.robot.joints
         return frozenset(joints[name].child for name in change.changed_joints if name in joints)

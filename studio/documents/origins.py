@@ -155,5 +155,5 @@ def _with_all_below(links: Iterable[str], robot: Robot) -> Iterator[str]:
 
 
 def _name(part: str) -> str:
-    """The name in a part's key; of a repeated one too."""
+    """Return the name in a part's key; of a repeated one too."""
     return part.partition(":")[2].partition("#")[0]

@@ -119,7 +119,7 @@ def _initial(paths: Iterable[Path], served: ServedRoots) -> list[NamedPose]:
 
 
 def _once(poses: Iterable[NamedPose]) -> Iterable[NamedPose]:
-    """A pose that several copies of a file name, once."""
+    """Yield a pose that several copies of a file name, once."""
     seen: set[tuple[str, str, tuple[tuple[str, float], ...]]] = set()
     for pose in poses:
         key = (pose.name, pose.group, tuple(sorted(pose.positions.items())))

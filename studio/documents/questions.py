@@ -83,7 +83,7 @@ class QuestionQueue:
         """Askers of the last answer: the next one goes to another viewer, if one waits."""
 
     def __len__(self) -> int:
-        """The number of waiting questions."""
+        """Return the number of waiting questions."""
         return len(self._waiting)
 
     def add(self, query: Query, asker: Listener) -> asyncio.Future[Reply]:
@@ -99,7 +99,7 @@ class QuestionQueue:
         return answer
 
     def take(self, *, is_held: bool) -> Waiting | None:
-        """The one to answer next; while held, only what is asked in the midst of typing."""
+        """Return the one to answer next; while held, only what is asked in the midst of typing."""
         self._forget_those_left()
         ready = [one for one in self._waiting if not (is_held and _is_long(one.query))]
         if not ready:

@@ -233,7 +233,7 @@ class Rewriting:
         return await self._runs.answer(query, Renaming, asker)
 
     def _robot_texts(self, asker: Listener) -> list[tuple[str, bytes]]:
-        """The files of the robot that hold text, as they are edited."""
+        """Return the files of the robot that hold text, as they are edited."""
         found: list[tuple[str, bytes]] = []
         for file in self._runs.last.files:
             try:

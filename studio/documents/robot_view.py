@@ -59,7 +59,7 @@ class RobotView:
         self._audience.post(frame, binary=True, key="joints")
 
     def robot_event(self) -> RobotState:
-        """The robot's tree with the place where each part was written."""
+        """Return the robot's tree with the place where each part was written."""
         model, robot = self._model, self._model.robot
         return RobotState.model_construct(
             revision=model.revision,

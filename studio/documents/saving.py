@@ -52,7 +52,7 @@ class Saving:
         self._audience.send(Saved(files=written))
 
     async def changes(self, command: GetChanges) -> Changes:
-        """Every file with unsaved edits, and how they read."""
+        """Return every file with unsaved edits, and how they read."""
         sources, served = self._sources, self._workspace.served
         texts = [(file, sources.saved(file), sources.text(file)) for file in sources.unsaved_files]
 

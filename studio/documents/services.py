@@ -64,7 +64,7 @@ class Services:
         await asyncio.to_thread(_import_rest)
 
     def description_worker(self, opened: Opened | None = None) -> DescriptionWorker:
-        """A worker of one document's own, warm where one was spare; the next spare is made.
+        """Return a worker of one document's own, warm where one was spare; the next spare is made.
 
         Args:
             opened: Waits for an opening, for so many seconds at most; the next spare starts then.

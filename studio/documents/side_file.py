@@ -125,7 +125,7 @@ class NamedItems(Generic[Item]):
             self._fault = error
 
     def find(self, name: str) -> Item:
-        """The item of a name, as the file has it now.
+        """Return the item of a name, as the file has it now.
 
         Raises:
             CommandError: There is none.
@@ -137,7 +137,7 @@ class NamedItems(Generic[Item]):
         raise CommandError(f'There is no {self._kind.noun} "{name}" any more: choose another.')
 
     def free_name(self, wanted: str) -> str:
-        """A name for an item, without the blanks around it.
+        """Return a name for an item, without the blanks around it.
 
         Raises:
             CommandError: It is empty, too long, of several lines, or taken.

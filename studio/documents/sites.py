@@ -74,7 +74,7 @@ class SiteTable:
             self._audience.send(changed)
 
     def event(self) -> Sites:
-        """All sites as they were sent."""
+        """Return all sites as they were sent."""
         return Sites(order=self._order, changed=tuple(self._sent.values()))
 
     def argument_values(self) -> dict[str, str]:

@@ -77,7 +77,7 @@ class Texts:
         """What was typed and not sent yet."""
 
     def answer(self, command: GetText, role: Role) -> Text:
-        """A file's text; its changes are sent from now on.
+        """Return a file's text; its changes are sent from now on.
 
         Raises:
             CommandError: It is no text, too large, or no file of this document to a viewer.
@@ -97,7 +97,7 @@ class Texts:
         )
 
     def bytes_of(self, file: str, role: Role) -> tuple[str, bytes]:
-        """The name under which a file is known, and its bytes as they are edited.
+        """Return the name under which a file is known, and its bytes as they are edited.
 
         Raises:
             CommandError: It is too large, or no file of this document to a viewer.
@@ -190,7 +190,7 @@ class Texts:
         self._audience.send(event)
 
     def _name(self, file: str, role: Role) -> str:
-        """The name under which the sources hold a file: symlinks resolved."""
+        """Return the name under which the sources hold a file: symlinks resolved."""
         if not Path(file).is_absolute():
             raise CommandError(f"{file!r} is no whole path: name the file from the root on.")
         name = str(self._workspace.served.resolve(Path(file)))
@@ -212,7 +212,7 @@ COMMANDS.viewer(GetText, lambda texts, c, who: texts.answer(c, who.role))
 
 
 def _edits(file: str, text: EditorText, changes: Sequence[TextChange]) -> tuple[Edit, ...]:
-    """The edits one after the other, the last place first: so each one's offsets hold."""
+    """Return the edits one after the other, the last place first: so each one's offsets hold."""
     at = 0
     for change in changes:
         if not at <= change.start <= change.end:

@@ -85,7 +85,7 @@ class _Numbers:
         self._before = self._after = 0
 
     def part(self, old: Sequence[str], new: Sequence[str]) -> Iterator[DiffLine]:
-        """The lines of a part that both have."""
+        """Yield the lines of a part that both have."""
         if old == new:
             yield from self.same(new)
             return
@@ -99,27 +99,27 @@ class _Numbers:
                 yield from (*self.gone(old[i:j]), *self.come(new[k:m]))
 
     def same(self, lines: Iterable[str]) -> Iterator[DiffLine]:
-        """Lines of both."""
+        """Yield lines of both."""
         for text in lines:
             self._before += 1
             self._after += 1
             yield DiffLine("same", self._before, self._after, text)
 
     def gone(self, lines: Iterable[str]) -> Iterator[DiffLine]:
-        """Lines of the text before only."""
+        """Yield lines of the text before only."""
         for text in lines:
             self._before += 1
             yield DiffLine("old", self._before, None, text)
 
     def come(self, lines: Iterable[str]) -> Iterator[DiffLine]:
-        """Lines of the text after only."""
+        """Yield lines of the text after only."""
         for text in lines:
             self._after += 1
             yield DiffLine("new", None, self._after, text)
 
 
 def _hunks(lines: Sequence[DiffLine]) -> Iterator[tuple[DiffLine, ...]]:
-    """The lines that differ with those around them, what nearly touches in one."""
+    """Yield the lines that differ with those around them, what nearly touches in one."""
     differing = [at for at, line in enumerate(lines) if line.kind != "same"]
     start = end = -1
     for at in differing:
@@ -166,7 +166,7 @@ class UrdfText:
         self._turn = asyncio.Lock()
 
     async def text(self) -> str:
-        """The expanded URDF of the last good run, written in another thread.
+        """Return the expanded URDF of the last good run, written in another thread.
 
         Raises:
             CommandError: There was none yet.
@@ -178,7 +178,7 @@ class UrdfText:
         return await asyncio.to_thread(urdf_text, parts, root)
 
     async def answer(self, command: GetUrdf) -> Urdf:
-        """The URDF as it is now; raises as `text` does."""
+        """Return the URDF as it is now; raises as `text` does."""
         return Urdf(request=command.request, text=await self.text())
 
     async def changes(self, command: GetUrdfChanges) -> UrdfChanges:

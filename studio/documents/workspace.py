@@ -81,7 +81,7 @@ class Workspace:
         self.policy = read_policy(self.location, trusted=self._trusted)
 
     def packages_of(self, files: Iterable[str]) -> dict[str, str]:
-        """The package of each file: its name, and which copy it is.
+        """Return the package of each file: its name, and which copy it is.
 
         Returns:
             The same object while neither the files nor the location change.

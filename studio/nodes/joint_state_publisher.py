@@ -81,7 +81,7 @@ class JointStateNode(Node):
 
 
 def _at_zero(urdf: str) -> dict[str, float]:
-    """Every movable joint at zero, or as near as its limits let it."""
+    """Return every movable joint at zero, or as near as its limits let it."""
     kinematics = Kinematics(robot_from_urdf(urdf))
     return dict(zip(kinematics.movable, kinematics.zero_positions().tolist(), strict=True))
 

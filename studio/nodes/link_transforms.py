@@ -98,7 +98,7 @@ def _four(values: list[float]) -> tuple[float, float, float, float]:
 
 
 def _leaders_first(robot: Robot, movable: Iterable[str]) -> list[Joint]:
-    """The joints that mimic, each behind the one that it mimics."""
+    """Return the joints that mimic, each behind the one that it mimics."""
     ordered: dict[str, Joint] = {}
     for name in movable:
         chain: list[Joint] = []
@@ -190,7 +190,7 @@ def _distance_m(reading: _Reading, one: LinkTransform) -> float:
 
 
 def _angle_rad(reading: _Reading, one: LinkTransform) -> float:
-    """The turn about the axis, as near to the limits as whole turns bring it."""
+    """Return the turn about the axis, as near to the limits as whole turns bring it."""
     w, *vector = _product(reading.joint_from_parent_wxyz, np.array(one.wxyz))
     along = float(np.dot(vector, reading.axis))
     if along == 0 and w == 0:

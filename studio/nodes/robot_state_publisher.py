@@ -213,7 +213,7 @@ class RobotStateNode(Node):
 
 
 def _read_urdf(arguments: Sequence[str]) -> str:
-    """The text of the file that the first argument names; empty: none does.
+    """Return the text of the file that the first argument names; empty: none does.
 
     Raises:
         UnreadableFileError: It cannot be read.

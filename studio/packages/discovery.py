@@ -87,7 +87,7 @@ def discover(
 
 
 def robot_files(folder: Path, memory: FolderMemory) -> Iterator[Path]:
-    """The files that may be robot descriptions, in the sources below a folder.
+    """Yield the files that may be robot descriptions, in the sources below a folder.
 
     An install space is left out, unless it is the folder that was asked for.
     """
@@ -174,7 +174,7 @@ class _Search:
 
 
 def _inner(facts: FolderFacts, space: _Space) -> Iterator[tuple[str, _Space]]:
-    """The folders to enter next, and as what."""
+    """Return the folders to enter next, and as what."""
     if space in _SOURCES:
         into = _Space.NESTED if facts.has_manifest else space
         return ((name, into) for name in facts.subfolders)

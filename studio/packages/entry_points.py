@@ -180,7 +180,7 @@ class Includes:
             self._link(path, outline.includes)
 
     def includers(self, path: Path) -> list[Path]:
-        """The files that include this one, other than itself."""
+        """Return the files that include this one, other than itself."""
         return self._includers.get(path, [])
 
     def bring_content(self, path: Path) -> bool:
@@ -211,7 +211,7 @@ class Includes:
                 self._includers[target].append(path)
 
     def _targets(self, path: Path, written: str) -> list[Path]:
-        """The files that a written name may mean; several when only its end is certain."""
+        """Return the files that a written name may mean; several when only its end is certain."""
         found = _FIND.fullmatch(written.strip())
         if found:
             folder, inside = self._folders.get(found[1] or found[3]), found[2] or found[4]
@@ -350,7 +350,7 @@ class _Survey:
 
 
 def _why_not(path: Path, outline: Outline, includes: Includes) -> str:
-    """The picker's rule; empty when the file is a robot."""
+    """Return the picker's rule; empty when the file is a robot."""
     if outline.error and not _is_broken_robot(outline):
         return f"not readable: {outline.error}"
     if outline.root != "robot":

@@ -39,7 +39,7 @@ def _example(manifest: Path) -> Example:
 
 
 def working_copy(models_folder: Path, data_folder: Path, package: str, *, fresh: bool) -> Path:
-    """The working copy of a shipped package, with all others beside it.
+    """Return the working copy of a shipped package, with all others beside it.
 
     A copy that is there is kept, and packages that a newer studio ships are added. `fresh` renews
     the package that is asked for; its old copy is moved to `models_replaced`, one of each.

@@ -106,7 +106,7 @@ class PackageIndex:
         return tuple(sorted(serving, key=lambda folder: _distance(folder, asking)))
 
     def best(self, name: str, asking_file: Path | str) -> Path:
-        """The folder that a name means for a file.
+        """Return the folder that a name means for a file.
 
         Raises:
             PackageNotFoundError: No folder has that name.
@@ -117,20 +117,20 @@ class PackageIndex:
         return folders[0]
 
     def mapping_for(self, entry: Path | str) -> dict[str, tuple[str, ...]]:
-        """Every name with its folders, best first, as a file's reading policy holds them."""
+        """Return every name with its folders, best first, as a file's reading policy holds them."""
         asking = os.path.realpath(entry)
         return {name: tuple(map(str, self.candidates(name, asking))) for name in sorted(self.names)}
 
     def duplicates(
         self, asking_file: Path | str, names: Iterable[str] | None = None
     ) -> list[Problem]:
-        """A warning for each name (of all, or of these) that several folders could serve."""
+        """Return a warning for each name (of all, or of these) that several folders could serve."""
         wanted = sorted(self.names if names is None else set(names) & self.names)
         found = ((name, self.candidates(name, asking_file)) for name in wanted)
         return [_duplicate(name, folders) for name, folders in found if len(folders) > 1]
 
     def with_chosen(self, name: str, folder: Path) -> PackageIndex:
-        """The same index with one more choice."""
+        """Return the same index with one more choice."""
         return PackageIndex(self.packages, {**self.chosen, name: folder})
 
 

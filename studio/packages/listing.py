@@ -68,7 +68,7 @@ def list_folder(path: str, roots: ServedRoots) -> Listing:
 
 
 def _outermost(roots: ServedRoots) -> list[Path]:
-    """The roots without those that are reached from another one."""
+    """Return the roots without those that are reached from another one."""
     return [
         root
         for root in roots.all
@@ -81,7 +81,7 @@ def _is_shown(name: str) -> bool:
 
 
 def _parent(folder: Path, roots: ServedRoots) -> str:
-    """The folder above, or the list of roots when that is not served."""
+    """Return the folder above, or the list of roots when that is not served."""
     return str(folder.parent) if roots.serves(folder.parent) else ""
 
 

@@ -52,7 +52,7 @@ class PackedFile:
 
 
 def package_files(folder: Path, name: str, served: ServedRoots) -> list[PackedFile]:
-    """Every file of a folder, as `name/...`; links to what is not served are left out.
+    """Return every file of a folder, as `name/...`; links to what is not served are left out.
 
     Links to folders are not followed. Version control, caches and what a killed studio left are
     left out.
@@ -103,7 +103,7 @@ def _size_of(source: Path | bytes) -> int:
 
 
 def zip_chunks(files: Iterable[PackedFile], served: ServedRoots) -> Iterator[bytes]:
-    """The zip piece by piece; a file that went meanwhile is left out."""
+    """Yield the zip piece by piece; a file that went meanwhile is left out."""
     sink = _Sink()
     with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED) as archive:
         for one in files:

@@ -88,7 +88,7 @@ def _shared_letters(one: str, other: str) -> int:
 
 
 def _files_below(folder: Path, places: list[Path]) -> Iterator[Path]:
-    """The files, in order; `places` is given the folders as they are read."""
+    """Yield the files, in order; `places` is given the folders as they are read."""
     waiting = [(folder, 0)]
     for _ in range(_FOLDER_LIMIT):
         if not waiting:

@@ -82,7 +82,7 @@ def _as_robot(text: str) -> str:
 
 
 def _without_declaration(text: str) -> str:
-    """The text without its first `<?xml ...?>`, and without the blanks around that.
+    """Return the text without its first `<?xml ...?>`, and without the blanks around that.
 
     Looked for step by step: a pattern for it takes for ever on many blanks or many beginnings.
     """

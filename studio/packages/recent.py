@@ -39,14 +39,14 @@ class RecentFiles:
         self._file = data_folder / _FILE
 
     def all(self) -> tuple[RecentFile, ...]:
-        """Every entry, also of files that are gone."""
+        """Return every entry, also of files that are gone."""
         with contextlib.suppress(OSError, msgspec.MsgspecError):
             if self._file.stat().st_size <= _SIZE_LIMIT_BYTES:
                 return msgspec.json.decode(self._file.read_bytes(), type=_Store).files
         return ()
 
     def find(self, path: str) -> RecentFile | None:
-        """The entry of a path."""
+        """Return the entry of a path."""
         return next((one for one in self.all() if one.path == path), None)
 
     def note(self, path: str, title: str, arguments: Mapping[str, str], time_s: float) -> None:
@@ -67,6 +67,6 @@ class RecentFiles:
 
 
 def last_opened(data_folder: Path) -> RecentFile | None:
-    """The newest entry whose file is still there."""
+    """Return the newest entry whose file is still there."""
     there = (one for one in RecentFiles(data_folder).all() if Path(one.path).is_file())
     return next(there, None)

@@ -104,7 +104,7 @@ class ServedRoots:
         return True
 
     def root_of(self, resolved: Path) -> Path | None:
-        """The innermost served folder that holds an already resolved path."""
+        """Return the innermost served folder that holds an already resolved path."""
         holding = (root for root in self.all if is_below(resolved, root))
         return max(holding, key=lambda root: len(root.parts), default=None)
 
@@ -141,7 +141,7 @@ class ServedRoots:
         return not is_there(real) or (is_file(real) and is_writable(real))
 
     def _locate(self, path: Path | str) -> tuple[Path, Path]:
-        """The real path, and the innermost root that holds it."""
+        """Return the real path, and the innermost root that holds it."""
         try:
             real = Path(os.path.realpath(path))
         except ValueError as error:  # a NUL character
@@ -188,7 +188,7 @@ def served_roots_for(opened: Path) -> tuple[Path, ...]:
 
 
 def package_folder_of(path: Path) -> Path | None:
-    """The nearest folder at or above a path that holds a package.xml; never `/` or home."""
+    """Return the nearest folder at or above a path that holds a package.xml; never `/` or home."""
     for folder in (path, *path.parents):
         if is_too_wide(folder):
             return None

@@ -44,7 +44,7 @@ def robot_of(package: str) -> str:
 
 
 def template_text(template: Template, robot: str) -> bytes:
-    """The text of a template for a robot of that name."""
+    """Return the text of a template for a robot of that name."""
     return _filled(f"{template}{_SUFFIX}", {"ROBOT": robot})
 
 
@@ -123,7 +123,7 @@ def _filled(template: str, values: dict[str, str]) -> bytes:
 
 
 def _root_of(text: bytes) -> str:
-    """The frame that RViz holds still: the first link, which is the root in most files."""
+    """Return the frame that RViz holds still: the first link, which is the root in most files."""
     found = _FIRST_LINK.search(text)
     return found[1].decode() if found else "base_link"
 

@@ -79,7 +79,7 @@ def _places(written: str, asking_file: Path, index: PackageIndex) -> list[Path]:
 
 
 def _split(written: str) -> tuple[str, str]:
-    """The scheme in lower case, empty when there is none (`C:/a` has none), and the rest."""
+    """Return the scheme in lower case, empty when there is none (`C:/a` has none), and the rest."""
     found = None if _DRIVE.match(written) else _SCHEME.fullmatch(written)
     return (found[1].lower(), found[2]) if found else ("", written)
 

@@ -150,7 +150,7 @@ def _roots_to_serve(real: Path) -> tuple[Path, ...]:
 
 
 def _roots_within(real: Path, within: ServedRoots) -> tuple[Path, ...]:
-    """The same, cut down to the folder served already that holds the path."""
+    """Return the same, cut down to the folder served already that holds the path."""
     within.resolve(real)
     roots = tuple(one for one in _roots_to_serve(real) if within.root_of(one) is not None)
     around = within.root_of(real)

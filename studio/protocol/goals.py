@@ -43,7 +43,7 @@ class CancelGoal(Command):
 
 
 class GetGoalStatuses(Command):
-    """Ask how all goals of an action stand, those of others too."""
+    """Ask for the states of all goals of an action, those of others too."""
 
     type: Literal["get_goal_statuses"] = "get_goal_statuses"
     name: Name

@@ -51,7 +51,7 @@ _Kind = TypeVar("_Kind", bound=Command | Event)
 
 
 def type_of(kind: type[Command | Event]) -> str:
-    """The `type` that all messages of one kind carry."""
+    """Return the `type` that all messages of one kind carry."""
     return kind.model_fields["type"].default
 
 
@@ -63,7 +63,7 @@ def adapter_of(kinds: Iterable[type[_Kind]]) -> TypeAdapter[_Kind]:
 
 
 def all_events() -> set[type[Event]]:
-    """Every kind of event that was defined."""
+    """Return every kind of event that was defined."""
     return {kind for kind in _below(Event) if "type" in kind.model_fields}
 
 

@@ -1,4 +1,4 @@
-"""Messages of the data lane: subscribe a topic, how that stands. Samples are binary."""
+"""Messages of the data lane: subscribe to a topic, and its state. Samples are binary."""
 
 from __future__ import annotations
 

@@ -176,7 +176,7 @@ class DiffLineView(Message):
 
 
 def hunk_views(diff: LineDiff) -> tuple[tuple[DiffLineView, ...], ...]:
-    """The stretches of lines of a difference."""
+    """Return the stretches of lines of a difference."""
     return tuple(tuple(DiffLineView(**asdict(line)) for line in hunk) for hunk in diff.hunks)
 
 

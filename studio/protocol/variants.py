@@ -14,7 +14,7 @@ TEXT_SHOWN: Final = 200
 
 
 def shown(text: str) -> str:
-    """A text as lists show it."""
+    """Return a text as lists show it."""
     return text if len(text) <= TEXT_SHOWN else f"{text[:TEXT_SHOWN]}…"
 
 

@@ -73,7 +73,7 @@ class Assembly:
         return element.part if element else None
 
     def parts(self) -> tuple[Part, ...]:
-        """All elements of the last `apply`, in document order."""
+        """Return all elements of the last `apply`, in document order."""
         return tuple(self._elements[key].part for key in self._order if key in self._elements)
 
     def apply(self, order: tuple[str, ...] | None, changed_parts: Iterable[Part]) -> Change:

@@ -62,7 +62,7 @@ def is_near(one: float, other: float, absolute: float = ABSOLUTE) -> bool:
 def number_row(
     what: str, one: float | None, other: float | None, unit: str, absolute: float = ABSOLUTE
 ) -> Iterator[Row]:
-    """A row for a number, where it differs or only one has it."""
+    """Yield a row for a number, where it differs or only one has it."""
     if one is None or other is None:
         if one is not other:
             yield Row(what, one, other, unit)
@@ -73,13 +73,13 @@ def number_row(
 def vector_rows(
     what: str, one: Sequence[float], other: Sequence[float], unit: str
 ) -> Iterator[Row]:
-    """A row for each of x, y and z that differs."""
+    """Yield a row for each of x, y and z that differs."""
     for axis, a, b in zip(AXES, one, other, strict=True):
         yield from number_row(f"{what}.{axis}", a, b, unit)
 
 
 def text_row(what: str, one: str | None, other: str | None) -> Iterator[Row]:
-    """A row for a text, where it differs."""
+    """Yield a row for a text, where it differs."""
     if one != other:
         yield Row(what, one, other)
 
@@ -102,7 +102,7 @@ def _is_same_turn(one: Vector3, other: Vector3) -> bool:
 
 
 def _entries(rpy_rad: Vector3) -> tuple[float, ...]:
-    """The nine numbers of the rotation matrix."""
+    """Return the nine numbers of the rotation matrix."""
     (cr, cp, cy), (sr, sp, sy) = map(math.cos, rpy_rad), map(math.sin, rpy_rad)
     return (
         *(cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
@@ -186,7 +186,7 @@ def _shapes_rows(
     one: Sequence[Visual] | Sequence[Collision],
     other: Sequence[Visual] | Sequence[Collision],
 ) -> Iterator[Row]:
-    """Shape by shape as they are listed; one that only one robot has is named by its kind."""
+    """Yield shape by shape as they are listed; one that only one robot has is named by its kind."""
     for at in range(max(len(one), len(other))):
         a = one[at] if at < len(one) else None
         b = other[at] if at < len(other) else None
@@ -271,7 +271,7 @@ def _limit_rows(one: Limit | None, other: Limit | None, *, slides: bool) -> Iter
 
 
 def _unit(axis: Vector3) -> Vector3:
-    """The axis at length 1: only where it points matters."""
+    """Return the axis at length 1: only where it points matters."""
     size = math.hypot(*axis)
     return (axis[0] / size, axis[1] / size, axis[2] / size) if 0 < size < math.inf else axis
 

@@ -62,7 +62,7 @@ def read_element(element: Element) -> ParsedElement:
 
 
 def _attempt(faults: list[RobotError], read: Callable[[], Value], otherwise: Value) -> Value:
-    """The value of `read`, or `otherwise` with the fault noted."""
+    """Return the value of `read`, or `otherwise` with the fault noted."""
     try:
         return read()
     except RobotError as error:
@@ -240,7 +240,7 @@ def _read_limit(element: Element, where: str) -> Limit:
 
 
 def _bound(element: Element, key: str, where: str) -> float:
-    """A number of any size: many robots write a very large one where they mean no bound."""
+    """Return a number of any size: many robots write a very large one where they mean no bound."""
     if element.get(key) is None:
         return 0.0
     numbers = _numbers(element, key, where, math.inf)

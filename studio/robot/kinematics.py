@@ -60,7 +60,7 @@ class Kinematics:
         self._link_up(joints)
 
     def refitted(self, robot: Robot, changed: Iterable[str]) -> Kinematics:
-        """The kinematics of `robot`, which has the same links and joints but for numbers.
+        """Return the kinematics of `robot`, which has the same links and joints but for numbers.
 
         Args:
             robot: Its links, and its joints' types, parents, children and leaders, are as here.
@@ -95,7 +95,7 @@ class Kinematics:
         )
 
     def clamp(self, name: str, value: float) -> float:
-        """The nearest position within the limits of a movable joint.
+        """Return the nearest position within the limits of a movable joint.
 
         Raises:
             KeyError: No movable joint has that name.
@@ -121,11 +121,11 @@ class Kinematics:
         return leaders[..., self._leader] * self._multiplier + self._offset
 
     def world_from_links(self, positions: Floats) -> Floats:
-        """Pose of every link, (..., L, 4, 4); roots stand at the identity."""
+        """Return the pose of every link, (..., L, 4, 4); roots stand at the identity."""
         return self._chain(self._parent_from_child(positions))[..., :-1, :, :]
 
     def wxyz_xyz(self, positions: Floats) -> Floats:
-        """Pose of every link, (..., L, 7): unit quaternion with w >= 0, then metres."""
+        """Return the pose of every link, (..., L, 7): unit quaternion with w >= 0, then metres."""
         world_from_links = self.world_from_links(positions)
         wxyz = self._wxyz(world_from_links[..., :3, :3])
         return np.concatenate((wxyz, world_from_links[..., :3, 3]), axis=-1)
@@ -223,7 +223,7 @@ class Kinematics:
     def _stood_shifted(
         self, rows: Sequence[int], joints: Sequence[Joint]
     ) -> tuple[Floats, Floats] | None:
-        """The last poses with the origins of other joints in some rows; None: not known."""
+        """Return the last poses with the origins of other joints in some rows; None: not known."""
         if self._stood is None or any(one.type is JointType.PRISMATIC for one in joints):
             return None
         positions, links = self._stood[0], self._stood[1].copy()
@@ -295,7 +295,7 @@ class _Motion(NamedTuple):
         return cls(parent_from_joint, axes, sine, sine @ cross, slide)
 
     def with_rows(self, rows: Sequence[int], joints: Sequence[Joint]) -> _Motion:
-        """The same with other joints in some rows."""
+        """Return the same with other joints in some rows."""
         if not rows:
             return self
         new = _Motion.of(joints)
@@ -305,7 +305,7 @@ class _Motion(NamedTuple):
         return _Motion(*copies)
 
     def shifted(self, rows: Sequence[int], joints: Sequence[Joint]) -> _Motion:
-        """The same with the origins of other joints in some rows, turned as those before."""
+        """Return the same with the origins of other joints in some rows, turned as those before."""
         if not rows:
             return self
         parent_from_joint = self.parent_from_joint.copy()

@@ -42,7 +42,7 @@ class Total:
 
 
 def inertia_box(link: Link) -> InertiaBox | None:
-    """The equivalent box of a link; None when it has no mass."""
+    """Return the equivalent box of a link; None when it has no mass."""
     inertial = link.inertial
     if inertial is None or inertial.mass_kg <= 0:
         return None

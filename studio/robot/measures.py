@@ -95,7 +95,7 @@ def box_around(
     positions: Floats,
     mesh_bounds: Callable[[str], Bounds | None],
 ) -> Bounds | None:
-    """The box around all visuals in a pose, in the root's frame; arguments as for `measure`.
+    """Return the box around all visuals in a pose, in the root's frame; arguments as for `measure`.
 
     Returns:
         None while a mesh is not known, for a robot without visuals, and where numbers are none.
@@ -132,7 +132,7 @@ def _link_corners(link: Link, mesh_bounds: Callable[[str], Bounds | None]) -> Fl
 def geometry_bounds(
     geometry: Geometry, mesh_bounds: Callable[[str], Bounds | None]
 ) -> Bounds | None:
-    """The box around a geometry in its own frame; None while its mesh is not known."""
+    """Return the box around a geometry in its own frame; None while its mesh is not known."""
     match geometry:
         case Box((x, y, z)):
             half = (x / 2, y / 2, z / 2)

@@ -68,7 +68,7 @@ def _shape(robot: Robot) -> _Shape:
 
 
 def _held_joints(robot: Robot, findings: list[Finding]) -> dict[str, Joint]:
-    """The joints that tie two links; of several with one child, the first."""
+    """Return the joints that tie two links; of several with one child, the first."""
     held: dict[str, Joint] = {}
     holder: dict[str, str] = {}
     for joint in robot.joints.values():

@@ -21,7 +21,7 @@ class WireProfile:
     best_available: bool
 
     def type_hash(self, computed: str) -> str:
-        """Return what stands in keys and tokens for a hash of ours."""
+        """Return what a hash of ours is in keys and tokens."""
         return computed if self.has_type_hash else NO_HASH
 
 

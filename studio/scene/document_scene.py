@@ -66,7 +66,7 @@ _STEP_M = 1e-5
 
 
 def checked(display: str, name: str, value: Value) -> Value:
-    """The value as the display takes it: numbers within their range.
+    """Return the value as the display takes it: numbers within their range.
 
     Raises:
         SceneError: No such display or setting, or a value of another kind.
@@ -187,7 +187,7 @@ class DocumentScene:
             self._robot.switch(name, shown=bool(value))
 
     def displays(self) -> dict[str, dict[str, Value]]:
-        """All present settings: by display, then name."""
+        """Return all present settings: by display, then name."""
         return deepcopy(self._settings)
 
     def flush(self) -> None:

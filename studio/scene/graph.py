@@ -133,12 +133,12 @@ class Graph:
 
 
 def link_node(link: str) -> str:
-    """The node that carries the pose of a link."""
+    """Return the node that carries the pose of a link."""
     return f"{ROBOT}/{_quoted(link)}"
 
 
 def ghost_node(link: str) -> str:
-    """The node that carries the pose of a link of the ghost."""
+    """Return the node that carries the pose of a link of the ghost."""
     return f"{GHOST}/{_quoted(link)}"
 
 

@@ -58,7 +58,7 @@ class Connection(Protocol):
     """One accepted websocket of viser's page; messages are binary."""
 
     async def receive(self) -> bytes | None:
-        """The next message, or None when the socket is closed."""
+        """Return the next message, or None when the socket is closed."""
         ...
 
     def write(self, data: bytes, /) -> None:
@@ -154,7 +154,7 @@ def check_version() -> None:
 
 
 def make_server(loop: asyncio.AbstractEventLoop) -> tuple[viser.ViserServer, HostedServer]:
-    """A viser server that opens no port and prints nothing; call on the loop's thread.
+    """Return a viser server that opens no port and prints nothing; call on the loop's thread.
 
     Raises:
         SceneError: Another version of viser is installed.
@@ -411,7 +411,7 @@ class HostedServer(infra.WebsockServer):
 
 
 def _understood(raw: bytes, allowed: Callable[[str], bool]) -> _messages.Message | None:
-    """The message, or None when this page may not send its kind.
+    """Return the message, or None when this page may not send its kind.
 
     Raises:
         SceneError: It is none of viser's, or its fields are not what they must be.

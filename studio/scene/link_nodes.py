@@ -69,12 +69,12 @@ def wxyz_from_rpy(rpy_rad: Vector3) -> Quaternion:
 
 
 def wxyz_and_position(origin: Origin) -> tuple[Quaternion, Vector3]:
-    """The pose of an `<origin>`."""
+    """Return the pose of an `<origin>`."""
     return wxyz_from_rpy(origin.rpy), origin.xyz
 
 
 def wxyz_and_translation(a_from_b: NDArray[np.float64]) -> tuple[Quaternion, Vector3]:
-    """The pose of a matrix (4, 4)."""
+    """Return the pose of a matrix (4, 4)."""
     w, x, y, z = wxyz_from_matrices(a_from_b[:3, :3]).tolist()
     at_x, at_y, at_z = a_from_b[:3, 3].tolist()
     return (w, x, y, z), (at_x, at_y, at_z)
@@ -205,17 +205,17 @@ def collision_nodes(context: LinkContext) -> Nodes:
 
 
 def frame_nodes(_: LinkContext) -> Nodes:
-    """The frame of the link."""
+    """Return the frame of the link."""
     return {"frame": node.axes(FRAME_LENGTH_M)}
 
 
 def name_nodes(context: LinkContext) -> Nodes:
-    """The link's name at its origin."""
+    """Return the link's name at its origin."""
     return {"name": node.label(context.link.name)}
 
 
 def axis_nodes(context: LinkContext) -> Nodes:
-    """The axis that the link turns about or slides along, from its origin."""
+    """Return the axis that the link turns about or slides along, from its origin."""
     joint = context.joint
     if joint is None or joint.type not in _AXIS_RGB:
         return {}
@@ -224,7 +224,7 @@ def axis_nodes(context: LinkContext) -> Nodes:
 
 
 def inertia_nodes(context: LinkContext) -> Nodes:
-    """The box of even density that turns as the link does."""
+    """Return the box of even density that turns as the link does."""
     found = inertia_box(context.link)
     if found is None:
         return {}
@@ -234,7 +234,7 @@ def inertia_nodes(context: LinkContext) -> Nodes:
 
 
 def com_nodes(context: LinkContext) -> Nodes:
-    """The centre of mass, as a ball of lead of the link's mass, as RViz draws it."""
+    """Return the centre of mass, as a ball of lead of the link's mass, as RViz draws it."""
     found = inertia_box(context.link)
     if found is None:
         return {}

@@ -82,7 +82,7 @@ def surface(style: Style) -> dict[str, Any]:
 
 
 def group(wxyz: Quaternion = NO_TURN, position: Vector3 = ORIGIN, *, visible: bool = True) -> Node:
-    """A frame that is not drawn itself."""
+    """Return a frame that is not drawn itself."""
     return _frame(0.0, wxyz, position, visible=visible)
 
 
@@ -104,18 +104,18 @@ def _frame(length_m: float, wxyz: Quaternion, position: Vector3, *, visible: boo
 
 
 def box(size_m: Vector3, style: Style, wxyz: Quaternion = NO_TURN, at: Vector3 = ORIGIN) -> Node:
-    """A box centred on its pose."""
+    """Return a box centred on its pose."""
     return Node(_messages.BoxMessage, {**surface(style), "dimensions": size_m}, wxyz, at)
 
 
 def cylinder(radius_m: float, length_m: float, style: Style, wxyz: Quaternion, at: Vector3) -> Node:
-    """A cylinder along z, centred on its pose."""
+    """Return a cylinder along z, centred on its pose."""
     size = {"radius": radius_m, "height": length_m, "radial_segments": 48}
     return Node(_messages.CylinderMessage, {**surface(style), **size}, wxyz, at)
 
 
 def sphere(radius_m: float, style: Style, wxyz: Quaternion, at: Vector3) -> Node:
-    """A ball."""
+    """Return a ball."""
     size = {"radius": radius_m, "subdivisions": 3}
     return Node(_messages.IcosphereMessage, {**surface(style), **size}, wxyz, at)
 
@@ -128,7 +128,7 @@ def mesh(loaded: LoadedMesh, scale: Vector3, style: Style, wxyz: Quaternion, at:
 
 
 def colored_mesh(loaded: LoadedMesh, scale: Vector3, wxyz: Quaternion, at: Vector3) -> Node:
-    """A mesh with the materials of its own file."""
+    """Return a mesh with the materials of its own file."""
     props = {"scale": scale, "cast_shadow": True, "receive_shadow": True}
     # As an array the GLB travels beside the compressed part of the frame, as it is.
     arrays: dict[str, NDArray[Any]] = {"glb_data": np.frombuffer(loaded.glb, np.uint8)}
@@ -149,7 +149,7 @@ def label(text: str, *, visible: bool = True) -> Node:
 
 
 def arrow(tail: Vector3, tip: Vector3, rgb: Rgb, *, visible: bool = True) -> Node:
-    """An arrow as thick as becomes its length."""
+    """Return an arrow as thick as becomes its length."""
     points = np.array([[tail, tip]], dtype=np.float32)
     length = float(np.linalg.norm(points[0, 1] - points[0, 0]))
     props = {

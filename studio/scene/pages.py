@@ -60,7 +60,7 @@ _POLICY: Final = (
 
 
 def viser_page(assets_prefix: str, first: str = "") -> bytes:
-    """The page as HTML; send it with `no-store`, for an old one cannot talk to a new server.
+    """Return the page as HTML; send it with `no-store`, for an old one cannot talk to a new server.
 
     Args:
         assets_prefix: Address below which `frontend_assets` and `CLIENT_PATH` are served, without a

@@ -71,7 +71,7 @@ class EncodedShelf:
     def png(
         self, pixels: NDArray[np.uint8], digest: str, palette: NDArray[np.uint8] | None = None
     ) -> NDArray[np.uint8]:
-        """A PNG, made if it is not there.
+        """Return a PNG, made if it is not there.
 
         Args:
             pixels: Shape (H, W, 4), RGBA; or (H, W), rows of the palette.
@@ -102,7 +102,7 @@ def _encoded(pixels: NDArray[np.uint8], kind: str, **options: int) -> NDArray[np
 
 
 def tiles_of(shape: Picture, shelf: EncodedShelf) -> dict[str, Node]:
-    """A picture as nodes, by row and column of each tile."""
+    """Return a picture as nodes, by row and column of each tile."""
     rows, columns = shape.pixels.shape[:2]
     return {
         f"{row // TILE_PX}-{column // TILE_PX}": _tile(shape, row, column, shelf)
@@ -146,7 +146,7 @@ def _tile(shape: Picture, row: int, column: int, shelf: EncodedShelf) -> Node:
 
 
 def frustum_of(shape: Frustum, stream: str) -> Node:
-    """The edges of what a camera sees, and its picture at their far end."""
+    """Return the edges of what a camera sees, and its picture at their far end."""
     fov_rad = min(max(shape.fov_y_rad, 1e-3), np.pi - 1e-3)
     half_y = float(np.tan(fov_rad / 2))
     # viser draws a pyramid of volume 1/3 for scale 1; ours is as long as the message has it.
@@ -171,6 +171,6 @@ def frustum_of(shape: Frustum, stream: str) -> Node:
 
 
 def _jpeg(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """A picture of bounded size: every second pixel of a large one, or every third, ..."""
+    """Return a picture of bounded size: every second pixel of a large one, or every third, ..."""
     step = -(-max(image.shape[:2]) // _FRUSTUM_PX)
     return _encoded(image[::step, ::step], "JPEG", quality=_JPEG_QUALITY)

@@ -103,13 +103,13 @@ class Ground:
 
 
 def _up_in_link(pose: Floats) -> Floats:
-    """The third row of the rotation: how much each axis of the link points up."""
+    """Return the third row of the rotation: how much each axis of the link points up."""
     w, x, y, z = pose[:4].tolist()
     return np.array([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)])
 
 
 def _rows_of_turn(wxyz: Iterable[float]) -> tuple[Vector3, Vector3, Vector3]:
-    """The rotation matrix of a unit quaternion, row by row."""
+    """Return the rotation matrix of a unit quaternion, row by row."""
     w, x, y, z = wxyz
     return (
         (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),

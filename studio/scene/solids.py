@@ -65,7 +65,7 @@ def _box() -> tuple[NDArray[np.float64], NDArray[np.intp]]:
 
 
 def _quads(corners: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Two triangles for each row of four corners."""
+    """Return two triangles for each row of four corners."""
     return np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
 
 
@@ -95,7 +95,7 @@ def _circle(z_m: float) -> NDArray[np.float64]:
 
 
 def _fan(first: int, *, down: bool) -> NDArray[np.intp]:
-    """A round plate of corners from `first` on."""
+    """Return a round plate of corners from `first` on."""
     near = np.arange(1, _SEGMENTS - 1)
     corners = np.stack([np.zeros_like(near), near, near + 1], axis=1) + first
     return corners[:, ::-1] if down else corners

@@ -58,7 +58,7 @@ def _plain(
 def glb_of(
     vertices: NDArray[np.float32], faces: NDArray[np.uint32], colors: NDArray[np.uint8]
 ) -> bytes:
-    """A glTF 2.0 of one mesh that is seen from both sides.
+    """Return a glTF 2.0 of one mesh that is seen from both sides.
 
     Args:
         vertices: Shape (V, 3), m.

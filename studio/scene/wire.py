@@ -140,7 +140,7 @@ _HEAD = msgspec.msgpack.Decoder(_Head)
 
 
 def message_type(raw: bytes) -> str:
-    """The type name of a message from the page.
+    """Return the type name of a message from the page.
 
     Raises:
         SceneError: It is not a viser message.

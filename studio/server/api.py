@@ -90,7 +90,7 @@ class Api:
         return next(event for event in listener.events if isinstance(event, Documents))
 
     async def urdf(self, document: str, request: Request) -> Response:
-        """The expanded URDF of the last good run, as a file."""
+        """Return the expanded URDF of the last good run, as a file."""
         command = GetUrdf(document=document).model_dump_json().encode()
         events = await Answers(_visitor(request)).collect(self._engine, command)
         for event in events:
@@ -117,7 +117,7 @@ def _visitor(request: Request) -> Visitor:
 
 
 def _refusal(events: list[Event]) -> Response | None:
-    """The answer for a command that was refused."""
+    """Return the answer for a command that was refused."""
     for event in events:
         if isinstance(event, Refused):
             status = _STATUS.get(event.kind, HTTPStatus.CONFLICT)
@@ -126,7 +126,7 @@ def _refusal(events: list[Event]) -> Response | None:
 
 
 async def _body(request: Request) -> bytes:
-    """The whole body, as long as it is no longer than a command may be.
+    """Return the whole body, as long as it is no longer than a command may be.
 
     Raises:
         CommandError: It is longer.
@@ -149,7 +149,7 @@ class LogOut:
         self._credentials = credentials
 
     def router(self) -> APIRouter:
-        """The one route."""
+        """Return the one route."""
         router = APIRouter(prefix="/api")
         router.add_api_route(
             "/log-out",
@@ -202,12 +202,12 @@ class Exports:
     async def package(
         self, document: str, packages: Literal["entry", "used"] = "entry"
     ) -> Response:
-        """A zip of the robot's package, or of all it uses, with the unsaved edits."""
+        """Return a zip of the robot's package, or of all it uses, with the unsaved edits."""
         exports = self._engine.document(document).exports
         return _sent(await exports.package(all_used=packages == "used"))
 
     async def page(self, document: str, theme: Literal["dark", "light"] = "dark") -> Response:
-        """The 3D view as one page that needs no server."""
+        """Return the 3D view as one page that needs no server."""
         return _sent(await self._engine.document(document).exports.page(dark=theme == "dark"))
 
 

@@ -40,7 +40,7 @@ def make_app(
     session: str,
     bound: tuple[str, int],
 ) -> ASGIApp:
-    """The whole application; `bound` is host and port that the server listens on.
+    """Return the whole application; `bound` is host and port that the server listens on.
 
     The caller starts and closes the engine.
     """

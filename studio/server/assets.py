@@ -89,7 +89,7 @@ class Asset:
         return self._content
 
     def packed(self, coding: Coding) -> bytes | None:
-        """The content in that coding, made when it is first asked for; None: not smaller."""
+        """Return the content in that coding, made when it is first asked for; None: not smaller."""
         if not self._compressible:
             return None
         if coding not in self._packed:
@@ -105,7 +105,7 @@ _PACK: Final[Mapping[Coding, Callable[[bytes], bytes]]] = {
 
 
 def accepted_coding(accept_encoding: str) -> Coding | None:
-    """The best coding that the header of a request names; None: none that we have."""
+    """Return the best coding that the header of a request names; None: none that we have."""
     named = {one.partition(";")[0].strip() for one in accept_encoding.split(",")}
     return "zstd" if "zstd" in named else "gzip" if "gzip" in named else None
 
@@ -144,14 +144,14 @@ class Assets:
         self._tree = Tree("none", {}, _WITHOUT_INDEX, Modules({}))
 
     def current(self) -> Tree:
-        """The tree as the folder is now; read again only when a stamp changed."""
+        """Return the tree as the folder is now; read again only when a stamp changed."""
         stamp = _stamp(self._folder)
         if stamp != self._stamp:
             self._tree, self._stamp = _read(self._folder, stamp, self._more), stamp
         return self._tree
 
     def find(self, digest: str, path: str) -> tuple[Asset, bool] | None:
-        """The file, and whether it is of that very tree (then it never changes)."""
+        """Return the file, and whether it is of that very tree (then it never changes)."""
         if self._stamp is None:  # the first to ask may be a tab from before a restart
             self.current()
         asset = self._tree.files.get(path)

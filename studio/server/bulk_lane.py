@@ -146,7 +146,7 @@ class BulkKeys:
         return key
 
     def lane_of(self, key: str) -> SendsBulk:
-        """The lane whose key this is.
+        """Return the lane whose key this is.
 
         Raises:
             UnknownLaneError: It is no open lane's.

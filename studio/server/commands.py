@@ -61,7 +61,7 @@ def parse_command(text: bytes) -> Command:
 
 
 def malformed(what: str, error: ValidationError) -> str:
-    """The first thing that is wrong, without repeating what was sent at length."""
+    """Return the first thing that is wrong, without repeating what was sent at length."""
     first = error.errors(include_url=False, include_context=False, include_input=False)[0]
     place = ".".join(str(step) for step in first["loc"]) or "its text"
     return f"The {what} is malformed at {place}: {first['msg']}"[:_REASON_LIMIT]

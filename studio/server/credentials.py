@@ -22,7 +22,7 @@ _OTHERS = stat.S_IRWXG | stat.S_IRWXO
 
 
 def new_token() -> str:
-    """A presenter's token, fresh for every start."""
+    """Return a presenter's token, fresh for every start."""
     return secrets.token_urlsafe(24)
 
 
@@ -56,14 +56,14 @@ class Credentials:
         return code
 
     def redeem(self, code: str) -> Role | None:
-        """The role that a one-time code gives, once."""
+        """Return the role that a one-time code gives, once."""
         if code not in self._codes:
             return None
         self._codes.discard(code)
         return Role.PRESENTER
 
     def cookie_of(self, role: Role) -> str:
-        """The value of a new cookie: who has it is a person, apart from all others."""
+        """Return the value of a new cookie: who has it is a person, apart from all others."""
         person = secrets.token_hex(8)
         return f"{person}.{self._signed(role, person)}"
 
@@ -106,7 +106,7 @@ def _match(given: str, proofs: dict[Role, str]) -> Role | None:
 
 
 def cookie_key(data_folder: Path, now_s: float) -> bytes:
-    """The key of the last day's cookies, or a new one; a file that only its owner may read.
+    """Return the key of the last day's cookies, or a new one; a file that only its owner may read.
 
     Args:
         data_folder: Where `cookie.key` lives.
@@ -129,7 +129,7 @@ def cookie_key(data_folder: Path, now_s: float) -> bytes:
 
 
 def _kept_key(path: Path, now_s: float) -> bytes | None:
-    """The key in the file; None when there is none, or one that is too old or broken."""
+    """Return the key in the file; None when there is none, or one that is too old or broken."""
     try:
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0))
     except FileNotFoundError:

@@ -52,7 +52,7 @@ class Guard:
             await (answer or self._app)(scope, receive, send)
 
     def _settle(self, scope: Scope) -> tuple[Response | None, Visitor | None]:
-        """The answer to a caller who may not pass, or is sent on; and who it is."""
+        """Return the answer to a caller who may not pass, or is sent on; and who it is."""
         headers = Headers(scope=scope)
         host = self._host(headers)
         if host is None:
@@ -76,7 +76,7 @@ class Guard:
         return None if role else _stranger(scope, headers), visitor
 
     def _host(self, headers: Headers) -> Authority | None:
-        """The one known name that the request is addressed to."""
+        """Return the one known name that the request is addressed to."""
         given = headers.getlist("host")
         host = parse_authority(given[0]) if len(given) == 1 else None
         return host if host and self._hosts.knows(host) else None
@@ -135,7 +135,7 @@ class Guard:
     def _earned(
         self, query: list[tuple[str, str]], *, is_head: bool
     ) -> tuple[Role | None, list[tuple[str, str]]]:
-        """The role that a query gives, and what else is in it."""
+        """Return the role that a query gives, and what else is in it."""
         given = dict(query)
         earned = self._credentials.role_of_token(given.get("token", ""))
         if earned is None and not is_head:  # HEAD does not spend the code

@@ -207,6 +207,6 @@ class StudioConnection(HttpToolsProtocol):
 
 
 def connection_of(scope: Scope) -> StudioConnection:
-    """The protocol that serves this request."""
+    """Return the protocol that serves this request."""
     extension = cast("dict[str, StudioConnection]", scope["extensions"][_EXTENSION])
     return extension["protocol"]

@@ -108,7 +108,7 @@ def readable_folder(browser: str, home: Path, data_folder: Path) -> Path:
 
 
 def _default_browser() -> str:
-    """The desktop entry of the usual browser; empty where that is not known."""
+    """Return the desktop entry of the usual browser; empty where that is not known."""
     settings = shutil.which("xdg-settings")
     if settings is None:
         return ""

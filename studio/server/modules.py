@@ -137,7 +137,7 @@ class Modules:
             self._file_of |= dict.fromkeys(members, file)
 
     def _needed(self, path: str) -> list[str]:
-        """The module behind all that it imports."""
+        """Return the module behind all that it imports."""
         found: dict[str, None] = {}
 
         def add(path: str) -> None:
@@ -171,7 +171,7 @@ class Modules:
         return "".join(lines) + "".join(bodies)
 
     def _line(self, one: _Import, file: str) -> str:
-        """The line by which a file takes a module from elsewhere."""
+        """Return the line by which a file takes a module from elsewhere."""
         home = self._file_of.get(one.path)
         if home is None:  # a library, or served as written
             address = _address(one.path, file) if one.address[0] == "." else one.address
@@ -190,7 +190,7 @@ def _imported(path: str, match: re.Match[str]) -> _Import:
 
 
 def _beside(path: str, address: str) -> str:
-    """The path that an address in this module means; of a library it is the address."""
+    """Return the path that an address in this module means; of a library it is the address."""
     if address[0] != ".":
         return address
     return posixpath.normpath(posixpath.join(posixpath.dirname(path), address))
@@ -223,7 +223,7 @@ def _taken(one: _Import) -> str:
 
 
 def _function(module: _Module, body: str) -> str:
-    """The module as a function that is called at once, and answers what it exports."""
+    """Return the module as a function that is called at once, and answers what it exports."""
     body = _EXPORT.sub("", body)
     waits = _AWAITS.search(body)
     begin = "await (async () => {" if waits else "(() => {"
@@ -258,7 +258,7 @@ def _in_circles(names: Mapping[str, list[str]]) -> set[str]:
 
 
 def bare(text: str) -> str:
-    """A module without its comments, its indentation and its empty lines."""
+    """Return a module without its comments, its indentation and its empty lines."""
     pieces: list[str] = []
     for piece in _bare(text):
         if piece and (piece != "\n" or (pieces and pieces[-1][-1] != "\n")):

@@ -29,7 +29,7 @@ WORKER_POLICY: Final = (
 
 
 def page_policy(nonce: str) -> str:
-    """The studio's page: its own files, and the one inline script that carries the nonce."""
+    """Return the studio's page: its own files, and the one inline script that carries the nonce."""
     return "; ".join(
         (
             "default-src 'self'",

@@ -56,7 +56,7 @@ def _listen(host: str, port: int) -> socket.socket:
 
 
 def port_of(listener: socket.socket) -> int:
-    """The port that it got."""
+    """Return the port that it got."""
     return int(listener.getsockname()[1])
 
 
@@ -66,7 +66,7 @@ def address(host: str, port: int, token: str | None) -> str:
 
 
 def code_address(host: str, port: int, code: str) -> str:
-    """The same with a one-time code instead of the token."""
+    """Return the same with a one-time code instead of the token."""
     return f"{_page(host, port)}?{CODE}={code}"
 
 

@@ -48,7 +48,7 @@ def wire_schemas() -> dict[str, Schema]:
 
 
 def openapi(routes: list[BaseRoute]) -> Schema:
-    """The OpenAPI document of these routes, with the whole wire in it."""
+    """Return the OpenAPI document of these routes, with the whole wire in it."""
     document = get_openapi(
         title="Robot description studio",
         version=studio.__version__,
@@ -78,7 +78,7 @@ _WIDTH: Final = 96
 
 
 def wire_types() -> str:
-    """The whole file."""
+    """Return the whole file."""
     schemas = wire_schemas()
     unions = ("Command", "Event")
     parts = [_HEADER]
@@ -112,7 +112,7 @@ def _union(name: str, schema: Schema) -> str:
 
 
 def _type(schema: Schema) -> str:
-    """The TypeScript type of one schema."""
+    """Return the TypeScript type of one schema."""
     if "$ref" in schema:
         return str(schema["$ref"]).rsplit("/", 1)[-1]
     if "const" in schema or "enum" in schema:
@@ -125,7 +125,7 @@ def _type(schema: Schema) -> str:
 
 
 def _array(schema: Schema) -> str:
-    """A tuple of fixed length, or any number of one type."""
+    """Return a tuple of fixed length, or any number of one type."""
     if "prefixItems" in schema:
         return f"[{', '.join(_type(one) for one in schema['prefixItems'])}]"
     item = _type(schema["items"])

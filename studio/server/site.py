@@ -88,7 +88,7 @@ class Site:
         return RedirectResponse(f"/d/{document}", HTTPStatus.SEE_OTHER)
 
     async def page(self, document: str) -> Response:
-        """The studio's page for one document."""
+        """Return the studio's page for one document."""
         self._engine.document(document)
         return studio_page(self._assets.current())
 
@@ -147,7 +147,7 @@ def _scene_page(tree: Tree) -> Asset:
 
 
 def _send(asset: Asset, request: Request, caching: str) -> Response:
-    """The file, compressed where the browser takes it."""
+    """Return the file, compressed where the browser takes it."""
     headers = {"content-type": asset.type, "cache-control": caching, "vary": "accept-encoding"}
     coding = accepted_coding(request.headers.get("accept-encoding", ""))
     packed = asset.packed(coding) if coding else None

@@ -29,15 +29,15 @@ class MakesDownloads(Protocol):
     """A document for other programs. Each raises a StudioError when it cannot be made."""
 
     async def urdf(self, meshes: MeshNames, /) -> Download:
-        """The expanded URDF."""
+        """Return the expanded URDF."""
         ...
 
     async def package(self, *, all_used: bool) -> Download:
-        """The robot's package as a zip, or all that it uses."""
+        """Return the robot's package as a zip, or all that it uses."""
         ...
 
     async def page(self, *, dark: bool) -> Download:
-        """The 3D view as a page of its own."""
+        """Return the 3D view as a page of its own."""
         ...
 
 

@@ -39,7 +39,7 @@ class Uploads:
         self._engine = engine
 
     def router(self) -> APIRouter:
-        """The one route."""
+        """Return the one route."""
         router = APIRouter(prefix="/api")
         router.add_api_route(
             "/uploads",
@@ -67,7 +67,7 @@ class Uploads:
 
 
 async def _first_line(stream: AsyncIterator[bytes]) -> tuple[bytes, bytes]:
-    """The announcement, and what came with it of the files.
+    """Return the announcement, and what came with it of the files.
 
     Raises:
         UploadError: It does not end.

@@ -142,7 +142,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
             super().handle_parser_exception()
 
     async def receive(self) -> ASGIReceiveEvent:
-        """The next event; what was held while the application was busy is parsed then."""
+        """Return the next event; what was held while the application was busy is parsed then."""
         event = await super().receive()
         if self._held or self._rest is not None:
             self._read_on()
@@ -221,7 +221,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
 
 
 def socket_of(scope: Scope) -> StudioSocket:
-    """The protocol that serves this websocket."""
+    """Return the protocol that serves this websocket."""
     extension = cast("dict[str, StudioSocket]", scope["extensions"][_EXTENSION])
     return extension["protocol"]
 
@@ -235,7 +235,7 @@ class Framer:
         self._frame = b""
 
     def frame(self, payload: bytes, *, binary: bool) -> bytes:
-        """The frame of one whole message, unmasked."""
+        """Return the frame of one whole message, unmasked."""
         if payload is not self._payload or binary is not self._binary:
             self._frame = _head(len(payload), binary=binary) + payload
             self._payload, self._binary = payload, binary
@@ -261,12 +261,12 @@ _GOODBYE_S: Final = 5.0
 
 
 def text_frame(payload: bytes) -> bytes:
-    """The frame of one text message."""
+    """Return the frame of one text message."""
     return _FRAMER.frame(payload, binary=False)
 
 
 def binary_frame(payload: bytes) -> bytes:
-    """The frame of one binary message."""
+    """Return the frame of one binary message."""
     return _FRAMER.frame(payload, binary=True)
 
 
@@ -286,7 +286,7 @@ class Lane:
         """Set once `receive` answers None: whether it was the studio that went."""
 
     async def receive(self) -> bytes | None:
-        """The next whole message, text as UTF-8; None once the other side is gone."""
+        """Return the next whole message, text as UTF-8; None once the other side is gone."""
         message = await self._websocket.receive()
         if message["type"] == "websocket.disconnect":
             self.server_ends = message["code"] == SERVER_ENDS

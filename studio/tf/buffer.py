@@ -140,17 +140,17 @@ class TransformBuffer:
             )
 
     def frames(self) -> list[str]:
-        """All frames, sorted."""
+        """Return all frames, sorted."""
         with self._lock:
             return sorted(name for name in self._forest.names if name)
 
     def count(self) -> int:
-        """The number of frames."""
+        """Return the number of frames."""
         with self._lock:
             return len(self._forest)
 
     def roots(self) -> list[str]:
-        """The frame that each tree hangs on, from that of the largest tree."""
+        """Return the frame that each tree hangs on, from that of the largest tree."""
         with self._lock:
             return list(self._all.shape().tree_sizes)
 

@@ -38,11 +38,11 @@ class Forest:
         return len(self._numbers)
 
     def number(self, name: str) -> int | None:
-        """The number of a frame, if any edge names it."""
+        """Return the number of a frame, if any edge names it."""
         return self._numbers.get(name)
 
     def numbers(self) -> list[int]:
-        """All numbers in use, sorted."""
+        """Return all numbers in use, sorted."""
         return sorted(self._numbers.values())
 
     def room_for(self, *names: str) -> bool:

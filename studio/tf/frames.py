@@ -44,7 +44,7 @@ class FramesNow:
     ages_s: Floats
 
     def pose_of(self, frame: str) -> Pose | None:
-        """The pose of a frame in the fixed frame; None when it is not connected."""
+        """Return the pose of a frame in the fixed frame; None when it is not connected."""
         row = self.rows.get(frame)
         if row is None or not self.connected[row]:
             return IDENTITY if frame == self.fixed else None
@@ -110,7 +110,7 @@ class AllFrames:
         return self._shape
 
     def _edges(self, stamp_ns: int) -> tuple[Floats, Flags]:
-        """The poses of all frames that hang on one, and which of them are known then."""
+        """Return the poses of all frames that hang on one, and which of them are known then."""
         if stamp_ns == 0:
             return self._histories.newest(self._frames), np.ones(len(self._frames), np.bool_)
         return self._histories.at(self._frames, stamp_ns)
@@ -122,7 +122,7 @@ class AllFrames:
         return matrices
 
     def _without(self, unknown: Flags) -> Structure:
-        """The structure without edges that are not known at a time."""
+        """Return the structure without edges that are not known at a time."""
         key = unknown.tobytes()
         if key not in self._cut:
             if len(self._cut) >= _KEPT_MAX:

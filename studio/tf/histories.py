@@ -22,7 +22,7 @@ _STEPS_TOGETHER: Final = 3
 
 
 def grown(array: NDArray[_T], rows: int) -> NDArray[_T]:
-    """The array, or a longer copy with zeros at its end, so that it has this many rows."""
+    """Return the array, or a longer copy with zeros at its end, so that it has this many rows."""
     if rows <= len(array):
         return array
     longer: NDArray[Any] = np.zeros((max(rows, 2 * len(array)), *array.shape[1:]), array.dtype)
@@ -66,15 +66,15 @@ class Histories:
         return bool(self._end[frame] > self._first[frame])
 
     def newest_ns(self, frames: Numbers) -> Numbers:
-        """The newest stamp of each; each has rows."""
+        """Return the newest stamp of each; each has rows."""
         return self._stamps_ns[self._end[frames] - 1]
 
     def oldest_ns(self, frames: Numbers) -> Numbers:
-        """The oldest stamp of each; each has rows."""
+        """Return the oldest stamp of each; each has rows."""
         return self._stamps_ns[self._first[frames]]
 
     def newest(self, frames: Numbers) -> Floats:
-        """The newest pose of each, shape (N, 7); each has rows."""
+        """Return the newest pose of each, shape (N, 7); each has rows."""
         return self._poses[self._end[frames] - 1]
 
     def put_static(self, frame: int, stamp_ns: int, pose: Floats) -> None:
@@ -141,7 +141,7 @@ class Histories:
         self._static[frame] = False
 
     def at(self, frames: Numbers, stamp_ns: int) -> tuple[Floats, Flags]:
-        """The poses of frames that have rows at one time, and which of them are known then.
+        """Return the poses of frames that have rows at one time, and which of them are known then.
 
         Returns:
             Shape (N, 7), any pose for those that are not known; and (N,).

@@ -148,7 +148,7 @@ def quaternions_from_matrices(matrices: Floats) -> Floats:
 
 
 def inverse_of(a_from_b: Floats) -> Floats:
-    """The inverse of a homogeneous matrix (4, 4) without scale."""
+    """Return the inverse of a homogeneous matrix (4, 4) without scale."""
     b_from_a = np.eye(4)
     b_from_a[:3, :3] = a_from_b[:3, :3].T
     b_from_a[:3, 3] = -b_from_a[:3, :3] @ a_from_b[:3, 3]
@@ -156,7 +156,7 @@ def inverse_of(a_from_b: Floats) -> Floats:
 
 
 def compose(a_from_b: Pose, b_from_c: Pose) -> Pose:
-    """The pose of c in a."""
+    """Return the pose of c in a."""
     w, x, y, z, px, py, pz = a_from_b
     ow, ox, oy, oz, qx, qy, qz = b_from_c
     rx, ry, rz = turned(a_from_b, qx, qy, qz)
@@ -172,7 +172,7 @@ def compose(a_from_b: Pose, b_from_c: Pose) -> Pose:
 
 
 def inverse(a_from_b: Pose) -> Pose:
-    """The pose of a in b."""
+    """Return the pose of a in b."""
     w, x, y, z, px, py, pz = a_from_b
     back: Pose = (w, -x, -y, -z, 0.0, 0.0, 0.0)
     rx, ry, rz = turned(back, px, py, pz)
@@ -180,7 +180,7 @@ def inverse(a_from_b: Pose) -> Pose:
 
 
 def turned(turn: Sequence[float], x: float, y: float, z: float) -> tuple[float, float, float]:
-    """A point turned about the origin by the unit quaternion that `turn` begins with."""
+    """Return a point turned about the origin by the unit quaternion that `turn` begins with."""
     w, i, j, k = turn[:4]
     cx, cy, cz = 2 * (j * z - k * y), 2 * (k * x - i * z), 2 * (i * y - j * x)
     return (

@@ -46,7 +46,7 @@ def picture(x: float, y: float, yaw: float) -> NDArray[np.uint8]:
 
 
 def _wall_colors(hits: NDArray[np.intp], depths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Shape (WIDTH_PX, 3): each wall has its paint, and is paler where it is far."""
+    """Return shape (WIDTH_PX, 3): each wall has its paint, and is paler where it is far."""
     known = np.concatenate(
         [
             _WALL_COLORS[np.arange(len(WALLS_M)) % len(_WALL_COLORS)],
@@ -58,7 +58,7 @@ def _wall_colors(hits: NDArray[np.intp], depths: NDArray[np.float64]) -> NDArray
 
 
 def _ground(rows: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Shape (HEIGHT_PX, 1, 3): sky above the horizon, floor that pales towards it."""
+    """Return shape (HEIGHT_PX, 1, 3): sky above the horizon, floor that pales towards it."""
     middle = (HEIGHT_PX - 1) / 2
     near = np.clip((rows - middle) / middle, 0.0, 1.0)[..., None]
     floor = _FLOOR_FAR + (_FLOOR_NEAR - _FLOOR_FAR) * np.sqrt(near)

@@ -45,7 +45,7 @@ def is_published_by_others(rover: Node, topic: str) -> bool:
 
 
 def model_file() -> Path:
-    """The rover's xacro, as it comes with the studio."""
+    """Return the rover's xacro, as it comes with the studio."""
     return repository_or_wheel("models") / _PACKAGE / "urdf" / "rover.urdf.xacro"
 
 

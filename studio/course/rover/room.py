@@ -72,7 +72,7 @@ def occupancy() -> tuple[NDArray[np.int8], float, float]:
 
 
 def _to_walls(x: float, y: float, directions: Floats) -> Floats:
-    """Shape (W, N): where each ray meets each wall, inf where it does not."""
+    """Return shape (W, N): where each ray meets each wall, inf where it does not."""
     starts, spans = WALLS_M[:, :2], WALLS_M[:, 2:] - WALLS_M[:, :2]
     to_start = starts - np.array([x, y])
     cross = directions[0] * spans[:, 1:] - directions[1] * spans[:, :1]
@@ -84,7 +84,7 @@ def _to_walls(x: float, y: float, directions: Floats) -> Floats:
 
 
 def _to_posts(x: float, y: float, directions: Floats) -> Floats:
-    """Shape (P, N): where each ray enters each post; 0 from within."""
+    """Return shape (P, N): where each ray enters each post; 0 from within."""
     to_middle = POSTS_M[:, :2] - np.array([x, y])
     ahead = to_middle @ directions
     beside_squared = (to_middle**2).sum(axis=1)[:, None] - ahead**2
@@ -95,7 +95,7 @@ def _to_posts(x: float, y: float, directions: Floats) -> Floats:
 
 
 def _near_a_wall(xs: NDArray[np.floating], ys: NDArray[np.floating]) -> NDArray[np.bool_]:
-    """Shape (rows, columns): the cells that a wall or post reaches into."""
+    """Return shape (rows, columns): the cells that a wall or post reaches into."""
     half_cell = MAP_CELL_M / 2 + 1e-9  # a wall between two cells takes both
     near = np.zeros((len(ys), len(xs)), dtype=np.bool_)
     for x0, y0, x1, y1 in WALLS_M:

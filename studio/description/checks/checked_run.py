@@ -41,7 +41,7 @@ class CheckedRun:
         fix: Fix | None = None,
         parts: tuple[str, ...] = (),
     ) -> Problem:
-        """A finding at an element that came out."""
+        """Return a finding at an element that came out."""
         place = at.origin.place
         calls = macro_calls(at.calls)
         return Problem(
@@ -49,6 +49,6 @@ class CheckedRun:
         )
 
     def note(self, code: str, sentence: str, at: SourceElement, fix: Fix | None = None) -> Problem:
-        """A finding of little weight at an element as it is written."""
+        """Return a finding of little weight at an element as it is written."""
         chain = self.chain_to(at.place.file)
         return Problem(Severity.INFO, code, sentence, at.place, chain, fix=fix)

@@ -157,7 +157,7 @@ def _edits(code: str, element: SourceElement, wrong: str, meant: str) -> Iterato
 
 
 def _file_name(element: SourceElement, wrong: str, meant: str) -> Iterator[Replacement]:
-    """The end of the path that an include or an expression names."""
+    """Yield the end of the path that an include or an expression names."""
     tree = element.tree
     mends = TextMends(tree.path, tree.data, tree.encoding)
     name = re.compile(rb"(?<=[/'\"])" + re.escape(wrong.encode()) + rb"(?=['\"])")
@@ -172,7 +172,7 @@ def _file_name(element: SourceElement, wrong: str, meant: str) -> Iterator[Repla
 
 
 def _in_expressions(element: SourceElement, wrong: str, meant: str) -> Iterator[Replacement]:
-    """The name wherever an attribute of the element evaluates it."""
+    """Yield the name wherever an attribute of the element evaluates it."""
     tree = element.tree
     if not any(wrong in text for text in element.attributes.values()):
         return

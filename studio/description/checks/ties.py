@@ -106,7 +106,7 @@ class Holding:
         return [name for name in self.links if name not in self._holders]
 
     def _root(self, link: str) -> str:
-        """The link above all; empty in a round."""
+        """Return the link above all; empty in a round."""
         seen: set[str] = set()
         while link not in self._known_roots and link not in seen and link in self._holders:
             seen.add(link)
@@ -187,7 +187,7 @@ def _only(names: list[str]) -> str:
 
 
 def _content(joint: _Joint) -> tuple[str | None, list[str]]:
-    """All of a joint but its name."""
+    """Return all of a joint but its name."""
     element = joint.element
     return element.attributes.get("type"), [write_xml(one) for one in element.elements()]
 
@@ -336,7 +336,7 @@ def _fix_of_roots(
 
 
 def _held(link: SourceElement, base: str) -> Replacement | None:
-    """A fixed joint behind a link, by the name as it is written there."""
+    """Return a fixed joint behind a link, by the name as it is written there."""
     name = link.attributes.get("name")
     if name is None:
         return None

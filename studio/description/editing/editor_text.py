@@ -55,7 +55,7 @@ class EditorText:
         return self.offset_of(len(self.text))
 
     def byte_at(self, offset: int) -> int:
-        """The byte at which the character at an editor's offset begins.
+        """Return the byte at which the character at an editor's offset begins.
 
         Raises:
             EditError: The offset lies outside the text, or within a character.
@@ -70,7 +70,7 @@ class EditorText:
         return self.offset_of(len(before) - before.count("\r\n") - in_break)
 
     def index_of(self, offset: int) -> int:
-        """The index into `text` of an editor's offset.
+        """Return the index into `text` of an editor's offset.
 
         Raises:
             EditError: The offset lies outside the text, or within a character.
@@ -82,11 +82,11 @@ class EditorText:
         return offset - passed
 
     def offset_of(self, index: int) -> int:
-        """The editor's offset of an index into `text`."""
+        """Return the editor's offset of an index into `text`."""
         return index + bisect_left(self._wide_indices, index)
 
     def edit(self, file: str, start: int, end: int, text: str) -> Edit:
-        """The edit of the bytes that puts `text` in the place of the editor's [start, end).
+        """Return the edit of the bytes that puts `text` in the place of the editor's [start, end).
 
         Line breaks of `text` become the file's own.
 
@@ -99,7 +99,7 @@ class EditorText:
         return Edit(file, self.byte_at(start), self.byte_at(end), self._encoded(new))
 
     def replacements(self, file: str, spans: Iterable[tuple[int, int]], text: str) -> list[Edit]:
-        """The edits that put `text` in the place of [start, end)s, the last place first.
+        """Return the edits that put `text` in the place of [start, end)s, the last place first.
 
         Args:
             file: Of this text.
@@ -195,7 +195,7 @@ class Piece:
 
 
 def changes_between(old: str, new: str) -> tuple[Piece, ...]:
-    """The pieces that lead from `old` to `new`, in order, none touching another.
+    """Return the pieces that lead from `old` to `new`, in order, none touching another.
 
     A single stretch, except where as many lines stood there before: then each changed line alone,
     so that what stands between them stays in place.
@@ -212,7 +212,7 @@ def changes_between(old: str, new: str) -> tuple[Piece, ...]:
 
 
 def patched(old: str, pieces: Iterable[Piece]) -> str:
-    """The text that the pieces lead to; in order, none overlapping."""
+    """Return the text that the pieces lead to; in order, none overlapping."""
     parts: list[str] = []
     at = 0
     for piece in pieces:

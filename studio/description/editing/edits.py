@@ -29,7 +29,7 @@ _PLAIN: Final = re.compile(rb"[ !#-%(-;=-~]*")
 
 
 def decode(data: bytes, span: Span) -> str:
-    """The text that stands at `span`: quotes off, references and escapes resolved.
+    """Return the text that stands at `span`: quotes off, references and escapes resolved.
 
     Raises:
         EditError: The bytes there are not of the file's encoding.
@@ -64,7 +64,7 @@ def encode(text: str, data: bytes, span: Span) -> bytes:
 
 
 def edit_at(file: str, data: bytes, span: Span, text: str) -> Edit:
-    """The edit that writes `text` at `span` of `file`, whose bytes now are `data`.
+    """Return the edit that writes `text` at `span` of `file`, whose bytes now are `data`.
 
     Raises:
         EditError: The place cannot hold the text.
@@ -98,13 +98,13 @@ def apply_to(text: bytearray, edit: Edit) -> bytes:
 
 
 def inverse(data: bytes, edit: Edit) -> Edit:
-    """The edit that takes `edit`, applied to `data`, back."""
+    """Return the edit that takes `edit`, applied to `data`, back."""
     old = data[edit.start : edit.end]
     return Edit(edit.file, edit.start, edit.start + len(edit.new), old)
 
 
 def difference(file: str, old: bytes, new: bytes) -> Edit | None:
-    """The shortest single edit from `old` to `new`; None when they are equal."""
+    """Return the shortest single edit from `old` to `new`; None when they are equal."""
     if old == new:
         return None
     start = common_start(old, new)
@@ -142,7 +142,7 @@ def edits_of(
 
 
 def apart(fixes: Iterable[Sequence[Replacement]]) -> list[Replacement]:
-    """The replacements of all fixes that want a place of their own, the earlier fix first.
+    """Return the replacements of all fixes that want a place of their own, the earlier fix first.
 
     Fixes that repeat the same text beside what they put in do not hinder one another.
     """
@@ -183,7 +183,7 @@ def _collide(one: Replacement, other: Replacement) -> bool:
 
 
 def _changed(one: Replacement) -> tuple[int, int]:
-    """The bytes that really change, in the file, as far as letters of one byte go."""
+    """Return the bytes that really change, in the file, as far as letters of one byte go."""
     head = common_start(one.before, one.text)
     tail = common_start(one.before[head:][::-1], one.text[head:][::-1])
     lead = len(one.before[:head].encode())

@@ -84,7 +84,7 @@ class _Change:
 
 
 def _groups(old: Sequence[str], new: Sequence[str]) -> list[list[_Change]]:
-    """The changes, those that stand near each other in one group."""
+    """Return the changes, those that stand near each other in one group."""
     groups: list[list[_Change]] = []
     for change in _changes(old, new):
         if groups and change.start - groups[-1][-1].end <= 2 * _AROUND:
@@ -128,6 +128,6 @@ def _drawn(group: list[_Change], old: Sequence[str], new: Sequence[str]) -> Iter
 
 
 def _same(old: Sequence[str], start: int, end: int, further: int) -> Iterator[DiffLine]:
-    """Lines that both have, in the text after so many lines further down."""
+    """Yield lines that both have, in the text after so many lines further down."""
     for at in range(start, end):
         yield DiffLine("same", at + 1, at + further + 1, old[at][:_LETTERS_SHOWN])

@@ -54,7 +54,7 @@ class Merge:
     """Number of places with a change of mine alone."""
 
     def text(self, wins: Side = "mine", each: Sequence[Side] = ()) -> bytes:
-        """Both sides' changes; at a collision those of the winner.
+        """Return both sides' changes; at a collision those of the winner.
 
         `each` names the winners of the first collisions, in their order; `wins` has the others.
         """
@@ -95,7 +95,7 @@ def hunks_between(old: bytes, new: bytes) -> list[Hunk]:
 
 
 def patched(old: bytes, hunks: Iterable[Hunk]) -> bytes:
-    """The text that hunks lead to; they are in order, none overlapping."""
+    """Return the text that hunks lead to; they are in order, none overlapping."""
     parts: list[bytes] = []
     at = 0
     for hunk in hunks:

@@ -70,7 +70,7 @@ class HeldText:
         return None if is_same else decode(self.disk, base)
 
     def rebased(self, disk: bytes) -> HeldText:
-        """The same text, with its differences counted against another text of the disk."""
+        """Return the same text, with its differences counted against another text of the disk."""
         text = HeldText(self.file, disk)
         text.apply(edits_between(self.file, disk, self.now))
         return text
@@ -177,11 +177,11 @@ class Sources:
         return tuple(edit for one in texts for edit in edits_between(one.file, one.disk, one.now))
 
     def overlay(self) -> dict[str, bytes]:
-        """The edited texts by file, for a run that starts from the disk."""
+        """Return the edited texts by file, for a run that starts from the disk."""
         return {file: self._texts[file].now for file in self.unsaved_files}
 
     def text(self, file: str) -> bytes:
-        """A file's text as it is now.
+        """Return a file's text as it is now.
 
         Raises:
             PackageError: It is not held and cannot be read.
@@ -189,7 +189,7 @@ class Sources:
         return self._held(file).now
 
     def saved(self, file: str) -> bytes:
-        """A file's text as it was last read from the disk or written to it.
+        """Return a file's text as it was last read from the disk or written to it.
 
         Raises:
             PackageError: It is not held and cannot be read.
@@ -391,7 +391,7 @@ class Sources:
         return DiskChange(what, edits, merged.kept)
 
     def collisions(self, file: str) -> Merge:
-        """The unsaved edits and the disk's changes of a file, as they stand now.
+        """Return the unsaved edits and the disk's changes of a file, as they stand now.
 
         Raises:
             EditError: They do not collide.

@@ -45,7 +45,7 @@ class ChangedRegions:
         """A place in the list, and how much the regions above it have grown together."""
 
     def __len__(self) -> int:
-        """The number of regions."""
+        """Return the number of regions."""
         return len(self._regions)
 
     def note(self, edit: Edit, text: bytes | bytearray | None) -> None:
@@ -85,7 +85,7 @@ class ChangedRegions:
         return replace(span, start=start, end=start + (span.end - span.start) - growth)
 
     def _touched(self, start: int, end: int) -> list[Region]:
-        """The regions that meet [start, end) or an end of it, from `_at` on."""
+        """Return the regions that meet [start, end) or an end of it, from `_at` on."""
         self._seek(start)
         touched: list[Region] = []
         shift = self._shift
@@ -225,7 +225,7 @@ class SpanTable:
         self._shifts.clear()
 
     def site(self, site_id: str) -> Site:
-        """A site as the last run had it.
+        """Return a site as the last run had it.
 
         Raises:
             StaleEditError: The last run had no such site.
@@ -266,7 +266,7 @@ class SpanTable:
 
 
 def moved(span: Span, edit: Edit) -> Span | None:
-    """A span after an edit of its file; None when another text may stand there now.
+    """Return a span after an edit of its file; None when another text may stand there now.
 
     That is so when the edit touched an end of it, or what ends it, or wrote something into it that
     may end it earlier. An edit of a part of it, or of all, otherwise stretches it.

@@ -25,15 +25,15 @@ class Splice:
     new: bytes
 
     def forward(self) -> Edit:
-        """The edit that does it."""
+        """Return the edit that does it."""
         return Edit(self.file, self.start, self.start + len(self.old), self.new)
 
     def backward(self) -> Edit:
-        """The edit that takes it back."""
+        """Return the edit that takes it back."""
         return Edit(self.file, self.start, self.start + len(self.new), self.old)
 
     def then(self, later: Splice) -> Splice | None:
-        """Both as one, when the later one touched nothing but what this one wrote."""
+        """Return both as one, when the later one touched nothing but what this one wrote."""
         begin = later.start - self.start
         end = begin + len(later.old)
         if self.file != later.file or not 0 <= begin <= end <= len(self.new):
@@ -70,7 +70,7 @@ class Step:
         return f"{self.name} {old} → {new}"
 
     def _texts(self) -> tuple[str, str] | None:
-        """The one value that changed, before and after."""
+        """Return the one value that changed, before and after."""
         if len(self.arguments) == 1 and not self.splices:
             return (self.arguments[0].old or "", self.arguments[0].new or "")
         if self.arguments or len(self.splices) != 1 or not self.is_value:
@@ -85,7 +85,7 @@ class Step:
         return kept and all(splice.old == splice.new for splice in self.splices)
 
     def with_later(self, later: Step) -> Step:
-        """This step and a later one of the same gesture, as one."""
+        """Return this step and a later one of the same gesture, as one."""
         splices = list(self.splices)
         for splice in later.splices:
             joined = splices[-1].then(splice) if splices else None
@@ -118,7 +118,7 @@ class Change:
     arguments: dict[str, str] | None = None
 
     def then(self, later: Change) -> Change:
-        """Both as one, under the later one's name."""
+        """Return both as one, under the later one's name."""
         arguments = self.arguments if later.arguments is None else later.arguments
         return Change(later.label, self.edits + later.edits, arguments)
 
@@ -164,7 +164,7 @@ class UndoStack:
         return self.done[-1]
 
     def files(self) -> frozenset[str]:
-        """Every file that a step changed or would change."""
+        """Return every file that a step changed or would change."""
         steps = (*self.done, *self.undone)
         return frozenset(splice.file for step in steps for splice in step.splices)
 
@@ -226,7 +226,7 @@ class KeptSources:
 
 
 def _reversed_steps(done: tuple[Step, ...]) -> list[Step]:
-    """The steps that take those done back, in the order in which they do."""
+    """Return the steps that take those done back, in the order in which they do."""
     return [
         replace(step, splices=tuple(_reversed(one) for one in reversed(step.splices)))
         for step in reversed(done)

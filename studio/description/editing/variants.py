@@ -143,7 +143,7 @@ class NamedTexts:
         return found.text if found else None
 
     def line_of(self, name: TextName) -> int:
-        """The line (from 1) where the disk has a text; 0 when it has none."""
+        """Return the line (from 1) where the disk has a text; 0 when it has none."""
         found = self._names[self.disk].get(name)
         return found.place.line if found else 0
 
@@ -175,12 +175,12 @@ class NamedTexts:
         return Placed(tuple(edits), tuple(left_out))
 
     def with_texts(self, texts: Mapping[TextName, str]) -> tuple[bytes, tuple[str, ...]]:
-        """The disk's bytes with these texts in them, and what found no place."""
+        """Return the disk's bytes with these texts in them, and what found no place."""
         placed = self.edits_to(self.disk, texts)
         return apply(self.disk, placed.edits), placed.left_out
 
     def _at(self, now: bytes) -> dict[TextName, FileSite]:
-        """The texts of other bytes; those of the disk's and of the last ones are kept."""
+        """Return the texts of other bytes; those of the disk's and of the last ones are kept."""
         known = self._names.get(now)
         if known is None:
             known = _named(self.file, _sites_of(self.path, now, self._saved))
@@ -189,12 +189,12 @@ class NamedTexts:
 
 
 def differing_names(one: Mapping[TextName, str], other: Mapping[TextName, str]) -> list[TextName]:
-    """Names of texts that two sets do not both have alike, in order."""
+    """Return names of texts that two sets do not both have alike, in order."""
     return sorted(name for name in {**one, **other} if one.get(name) != other.get(name))
 
 
 def _sites_of(path: str, data: bytes, before: FileSites | None) -> FileSites:
-    """The texts of a file; none while it cannot be read as what it is."""
+    """Return the texts of a file; none while it cannot be read as what it is."""
     if path.lower().endswith(_YAML_ENDINGS):
         return yaml_sites(path, data)
     try:
@@ -227,7 +227,7 @@ def _label(name: TextName) -> str:
 
 
 def texts_by_file(texts: Mapping[TextName, str]) -> dict[str, dict[TextName, str]]:
-    """The same, file by file."""
+    """Return the same, file by file."""
     found: dict[str, dict[TextName, str]] = {}
     for name, text in texts.items():
         found.setdefault(name.file, {})[name] = text
@@ -297,7 +297,7 @@ def _whole(variants: Sequence[Variant]) -> bytes:
 
 
 def _woven(path: str, before: bytes, variants: Sequence[Variant]) -> bytes | None:
-    """The old text with the items exchanged; None where it is not one item a line."""
+    """Return the old text with the items exchanged; None where it is not one item a line."""
     items = list(_Reading(path, before).items())
     lines = before.decode("utf-8-sig").splitlines(keepends=True)
     indent = _indent([lines[item.start] for item in items])

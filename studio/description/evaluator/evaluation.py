@@ -158,7 +158,7 @@ def _warn_scope(run: Evaluation, node: Node, name: str) -> None:
 
 
 def _target(run: Evaluation, node: Node, name: str, scope: Scope) -> tuple[Scope, bool]:
-    """The scope to bind in, and whether the text may wait for its first reader.
+    """Return the scope to bind in, and whether the text may wait for its first reader.
 
     Raises:
         Fault: It asks for the parent of the outermost scope, which ends xacro, too.

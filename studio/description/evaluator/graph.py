@@ -204,7 +204,7 @@ class NameReplay(Protocol):
     """Answers for the scopes while a text is evaluated once more."""
 
     def value_of(self, name: str, scope: Scope) -> Any:  # noqa: ANN401
-        """The value now of what the name meant in the run."""
+        """Return the value now of what the name meant in the run."""
         ...
 
     def refuse(self, reason: str) -> None:
@@ -274,7 +274,7 @@ class Scope:
         return self.find(name) is not None or name in self.run.symbols
 
     def value_of(self, name: str) -> Any:  # noqa: ANN401
-        """The value of a name.
+        """Return the value of a name.
 
         Raises:
             Fault: It is not defined, or its text cannot be evaluated.
@@ -309,14 +309,14 @@ class Scope:
         return False
 
     def top(self) -> Scope:
-        """The outermost scope: that of the opened file."""
+        """Return the outermost scope: that of the opened file."""
         scope = self
         while scope.parent is not None:
             scope = scope.parent
         return scope
 
     def all_names(self) -> Iterator[str]:
-        """Every name that can be read here, for hints."""
+        """Yield every name that can be read here, for hints."""
         scope: Scope | None = self
         while scope is not None:
             yield from scope.cells

@@ -35,7 +35,7 @@ class MacroTable:
         self.parent = parent
 
     def own(self, name: str) -> Macro | None:
-        """The macro defined in this very table."""
+        """Return the macro defined in this very table."""
         found = self._entries.get(name)
         return found if isinstance(found, Macro) else None
 
@@ -53,7 +53,7 @@ class MacroTable:
         self._entries[name] = entry
 
     def all_names(self, prefix: str = "") -> Iterator[str]:
-        """Every macro that can be called from here, for hints."""
+        """Yield every macro that can be called from here, for hints."""
         table: MacroTable | None = self
         while table is not None:
             for name, entry in table._entries.items():

@@ -81,7 +81,7 @@ ChildNode: TypeAlias = SourceElement | OutputElement | SourceText | SourceCommen
 
 
 def macro_calls(frame: CallFrame | None) -> tuple[MacroCall, ...]:
-    """The calls that lead to a frame, the outermost first."""
+    """Return the calls that lead to a frame, the outermost first."""
     calls: list[MacroCall] = []
     while frame is not None:
         calls.append(MacroCall(frame.macro, frame.call.place))
@@ -99,7 +99,7 @@ def write_xml(element: OutputElement) -> str:
 
 
 def plain_element(element: OutputElement) -> Element:
-    """An element and all below it as a value; comments are left out.
+    """Return an element and all below it as a value; comments are left out.
 
     Raises:
         Refusal: It is longer than OUTPUT_LIMIT: few texts in a file can come out often.
@@ -179,7 +179,7 @@ def plain_part(root: OutputElement, key: str, output: OutputElement) -> PlainPar
 
 
 def part_of(part: PlainPart) -> Part:
-    """A part with where it was written and the macro calls that led to it."""
+    """Return a part with where it was written and the macro calls that led to it."""
     return Part(part.key, part.element, part.output.origin.place, macro_calls(part.output.calls))
 
 
@@ -192,7 +192,7 @@ def _prefixes(root: OutputElement) -> dict[str, tuple[str, str]]:
 
 
 def _declaring(element: Element, prefixes: Mapping[str, tuple[str, str]]) -> Element:
-    """An element that declares the prefixes in it itself, as the root does."""
+    """Return an element that declares the prefixes in it itself, as the root does."""
     if not prefixes:
         return element
     xml = element.xml

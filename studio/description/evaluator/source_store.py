@@ -44,7 +44,7 @@ class Roots(Protocol):
         ...
 
     def read(self, path: Path | str) -> bytes:
-        """A regular file whole; UnreadableFileError or OutsideRootsError."""
+        """Return a regular file whole; UnreadableFileError or OutsideRootsError."""
         ...
 
 
@@ -67,7 +67,7 @@ class SourceStore:
         self.asked = {}
 
     def resolve(self, path: str) -> str:
-        """The name under which a file is known here.
+        """Return the name under which a file is known here.
 
         Raises:
             Refusal: It lies outside the roots.
@@ -84,7 +84,7 @@ class SourceStore:
         return real
 
     def read(self, path: str) -> tuple[str, bytes]:
-        """A file's resolved path and bytes as edited.
+        """Return a file's resolved path and bytes as edited.
 
         Raises:
             Refusal: It lies outside the roots.
@@ -104,7 +104,7 @@ class SourceStore:
         return real, data
 
     def tree(self, path: str) -> SourceTree:
-        """A file parsed.
+        """Return a file parsed.
 
         Raises:
             Fault: As `read`, or it is no XML that may be read; the place is then in that file.
@@ -133,7 +133,7 @@ class SourceStore:
         return real, data, known[1]
 
     def glob(self, pattern: str) -> list[str]:
-        """Files that a pattern with `*`, `?` or `[` matches, sorted.
+        """Return files that a pattern with `*`, `?` or `[` matches, sorted.
 
         Raises:
             Refusal: Its folder lies outside the roots, it climbs after its first wildcard, or it

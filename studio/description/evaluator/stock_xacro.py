@@ -208,18 +208,18 @@ class _Guard:
         return self.environment.get(name, default)
 
     def argument(self, name: str) -> str:
-        """The value of an arg."""
+        """Return the value of an arg."""
         try:
             return xacro.substitution_args_context["arg"][name]
         except KeyError:
             raise Fault("undefined-argument", f'The arg "{name}" is not given.') from None
 
     def find_package(self, name: str) -> str:
-        """The folder of a package, seen from the file being processed."""
+        """Return the folder of a package, seen from the file being processed."""
         return find_package(self._policy.packages, name, xacro.filestack[-1])
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
-        """The items of a loop, each counted."""
+        """Return the items of a loop, each counted."""
         return self._budget.steps(items)
 
 

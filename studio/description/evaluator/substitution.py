@@ -34,11 +34,11 @@ class Context(Protocol):
         ...
 
     def find_package(self, name: str) -> str:
-        """The folder of a package; Fault when there is none."""
+        """Return the folder of a package; Fault when there is none."""
         ...
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
-        """The items of a loop, each counted."""
+        """Return the items of a loop, each counted."""
         ...
 
 
@@ -106,7 +106,7 @@ def variable(name: str, context: Context) -> str:
 
 @lru_cache(maxsize=4096)
 def _commands_in(text: str) -> tuple[str, ...]:
-    """The insides of all `$(...)` of a text."""
+    """Return the insides of all `$(...)` of a text."""
     if _NESTED.search(text):
         raise Fault("bad-substitution", f'"$" or "(" stands inside $(...) in "{shorten(text)}".')
     return tuple(_COMMAND.findall(text))

@@ -59,7 +59,7 @@ _SEVERITIES: Final = {
 
 
 def pure_value(text: str) -> Any:  # noqa: ANN401
-    """An expression of a YAML file: no names but mathematics and builtins.
+    """Return an expression of a YAML file: no names but mathematics and builtins.
 
     Raises:
         Fault: It cannot be evaluated.
@@ -181,7 +181,7 @@ class Texts:
     def evaluated(
         self, text: str, scope: Scope, sink: Sink, consumer: Consumer | None = None
     ) -> Record:
-        """A text with its value and what it read."""
+        """Return a text with its value and what it read."""
         record = Record(text, scope, self.files[-1], sink, consumer)
         outer, self._now = self._now, record
         record.value = self.value(text, scope)
@@ -192,7 +192,7 @@ class Texts:
         return record
 
     def consumed(self, text: str, scope: Scope, consumer: Consumer, role: Role = _STRUCTURE) -> Any:  # noqa: ANN401
-        """A text's value where it is neither output nor bound to a name."""
+        """Return a text's value where it is neither output nor bound to a name."""
         return text if "$" not in text else self.evaluated(text, scope, role, consumer).value
 
     def echoed(self, text: str, scope: Scope) -> Any:  # noqa: ANN401
@@ -272,7 +272,7 @@ class Texts:
     # What scopes ask for
 
     def read(self, name: str, cell: Cell, scope: Scope) -> Any:  # noqa: ANN401
-        """The value of a cell, evaluated in its own scope at the first read."""
+        """Return the value of a cell, evaluated in its own scope at the first read."""
         if cell.pending is not None:
             self._resolve(name, cell, scope)
         self._now.reads.append(cell)
@@ -318,7 +318,7 @@ class Texts:
     # What symbols and substitutions ask for
 
     def argument(self, name: str) -> str:
-        """The value of an arg, noted as read.
+        """Return the value of an arg, noted as read.
 
         Raises:
             Fault: Neither given nor declared.
@@ -332,21 +332,21 @@ class Texts:
         return found.value
 
     def find_package(self, name: str) -> str:
-        """The folder of a package, seen from the file being processed."""
+        """Return the folder of a package, seen from the file being processed."""
         return find_package(self.policy.packages, name, self.files[-1])
 
     def absolute(self, path: str) -> str:
-        """A path as seen from the file being processed."""
+        """Return a path as seen from the file being processed."""
         if os.path.isabs(path):  # noqa: PTH117 - texts, as xacro joins them
             return path
         return os.path.join(os.path.dirname(self.files[-1]), path)  # noqa: PTH118, PTH120
 
     def dotify(self, items: dict[Any, Any]) -> Any:  # noqa: ANN401
-        """A mapping whose keys are read with dots, too."""
+        """Return a mapping whose keys are read with dots, too."""
         return YamlMapping(items, None, ())
 
     def load_yaml(self, path: str) -> Any:  # noqa: ANN401
-        """The values of a YAML file, every read of them noted."""
+        """Return the values of a YAML file, every read of them noted."""
         real, data, values = self.store.yaml(self.absolute(path), pure_value)
         if real not in self.yaml:
             self.asked_for(real)
@@ -369,7 +369,7 @@ class Texts:
             self.warn(f"xacro-{severity}", message, _SEVERITIES[severity])
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
-        """The items of a loop, each counted."""
+        """Return the items of a loop, each counted."""
         return self.budget.steps(items)
 
     # Segments
@@ -382,7 +382,7 @@ class Texts:
         return text
 
     def _inner(self, text: str, scope: Scope) -> str:
-        """The text of an expression that is put together first."""
+        """Return the text of an expression that is put together first."""
         inner = text_of(self.value(text, scope))
         if compile_expression(inner).compared:
             self._note_effect("what is compared depends on a value")
@@ -414,7 +414,7 @@ class Texts:
         return self._counted(value)
 
     def _counted(self, value: Any) -> Any:  # noqa: ANN401
-        """The value; a text can be written as XML, and is counted when it is long."""
+        """Return the value; a text can be written as XML, and is counted when it is long."""
         if type(value) is str:
             if len(value) > _LONG:
                 self.budget.text(len(value))

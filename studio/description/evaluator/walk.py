@@ -66,7 +66,7 @@ def _is_about_comments(child: ChildNode) -> bool:
 
 
 def plan_of(node: Node) -> Plan:
-    """The plan of a node; kept with source elements."""
+    """Return the plan of a node; kept with source elements."""
     if not isinstance(node, SourceElement):
         return Plan(node)
     if node.plan is None:
@@ -113,7 +113,7 @@ class Walk(ABC):
         return tuple(reversed(chain))
 
     def source(self, path: str) -> SourceElement:
-        """The root of a file; what is written there gives the run its time and room.
+        """Return the root of a file; what is written there gives the run its time and room.
 
         Raises:
             Fault: It cannot be read.
@@ -125,7 +125,7 @@ class Walk(ABC):
     def binding(
         self, kind: SiteKind | None, name: str, element: SourceElement, attribute: str, text: str
     ) -> Binding:
-        """The one binding for a named text of a source element."""
+        """Return the one binding for a named text of a source element."""
         key = (element, attribute, name)
         found = self.bindings.get(key)
         if found is None:
@@ -249,7 +249,7 @@ def warn_hidden(run: Walk, name: str) -> None:
 
 
 def required(node: Node, *names: str) -> tuple[str, ...]:
-    """The raw texts of attributes that must be there.
+    """Return the raw texts of attributes that must be there.
 
     Raises:
         Fault: One is missing.
@@ -292,7 +292,7 @@ def xml_name(node: Node, value: Any, *, written: bool = True) -> str:  # noqa: A
 
 
 def attribute_text(name: str, value: Any) -> str:  # noqa: ANN401
-    """The value of an `xacro:attribute` that comes out.
+    """Return the value of an `xacro:attribute` that comes out.
 
     Raises:
         Fault: It is a number or list, which xacro fails to write.

@@ -81,7 +81,7 @@ class YamlMapping(dict[Any, Any]):
         return {key: self._wrapped(key, value, plain=True) for key, value in super().items()}
 
     def get(self, key: Any, default: Any = None) -> Any:  # noqa: ANN401
-        """The value of a key, or a default."""
+        """Return the value of a key, or a default."""
         return self._wrapped(key, super().__getitem__(key), plain=True) if key in self else default
 
     def __iter__(self) -> Iterator[Any]:  # so that `dict(m)` asks for each item
@@ -96,7 +96,7 @@ class YamlMapping(dict[Any, Any]):
         return self._plain().values()
 
     def copy(self) -> Any:  # noqa: ANN401
-        """An ordinary dict of it."""
+        """Return an ordinary dict of it."""
         return self._plain()
 
     def pop(self, key: Any, *default: Any) -> Any:  # noqa: ANN401
@@ -172,7 +172,7 @@ class YamlSequence(list[Any]):
     __rmul__ = __mul__
 
     def copy(self) -> Any:  # noqa: ANN401
-        """An ordinary list of it."""
+        """Return an ordinary list of it."""
         return self._plain()
 
     def pop(self, index: Any = -1) -> Any:  # noqa: ANN401
@@ -266,7 +266,7 @@ def replace_item(container: Any, key: str | int, value: Any) -> None:  # noqa: A
 
 
 def origin_of(value: object) -> tuple[str, KeyPath] | None:
-    """The file and key path that a container was read from; None for any other value."""
+    """Return the file and key path that a container was read from; None for any other value."""
     if not isinstance(value, YamlMapping | YamlSequence) or value.reader is None:
         return None
     return value.reader.reads.path, value.path

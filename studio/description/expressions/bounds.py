@@ -58,7 +58,7 @@ def too_large() -> Refusal:
 
 
 def made(value: Any) -> Any:  # noqa: ANN401 - any value of a description
-    """The value itself.
+    """Return the value itself.
 
     Raises:
         Refusal: It is too large.
@@ -226,7 +226,7 @@ class Budget:
             )
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
-        """The items of a loop inside an expression, each counted."""
+        """Yield the items of a loop inside an expression, each counted."""
         for item in items:
             self.evaluation()
             yield item

@@ -76,7 +76,7 @@ def _weighing(value: Any, method: Callable[..., Any]) -> Callable[..., Any]:  # 
 
 
 def _bounded(argument: Any) -> Any:  # noqa: ANN401
-    """The argument; an iterator ends in a Refusal where it gives too much.
+    """Return the argument; an iterator ends in a Refusal where it gives too much.
 
     One that reads the very list that it extends would never end.
     """
@@ -102,7 +102,7 @@ def _sorting(method: Callable[..., None]) -> Callable[..., None]:
 
 
 def _comparing(value: str, method: Callable[..., Any]) -> Callable[..., Any]:
-    """A method that may compare each character of the value with each of its arguments."""
+    """Return a method that may compare each character of the value with each of its arguments."""
 
     def call(*arguments: Any) -> Any:  # noqa: ANN401
         if len(value) * sum(map(_characters, arguments)) > WORK_LIMIT:

@@ -224,19 +224,19 @@ class Services(Protocol):
     """The part of a run that xacro's own functions use."""
 
     def load_yaml(self, path: str) -> Any:  # noqa: ANN401
-        """The values of a YAML file."""
+        """Return the values of a YAML file."""
         ...
 
     def absolute(self, path: str) -> str:
-        """A path as seen from the file being processed."""
+        """Return a path as seen from the file being processed."""
         ...
 
     def dotify(self, items: dict[Any, Any]) -> Any:  # noqa: ANN401
-        """A mapping whose keys are read with dots, too."""
+        """Return a mapping whose keys are read with dots, too."""
         ...
 
     def argument(self, name: str) -> str:
-        """The value of an arg."""
+        """Return the value of an arg."""
         ...
 
     def log(self, severity: str, text: str) -> None:
@@ -244,7 +244,7 @@ class Services(Protocol):
         ...
 
     def steps(self, items: Iterable[Any]) -> Iterator[Any]:
-        """The items of a loop, each counted."""
+        """Return the items of a loop, each counted."""
         ...
 
 

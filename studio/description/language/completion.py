@@ -119,7 +119,7 @@ def _close(snippet: Snippet, label: str, *, has_content: bool) -> None:
 
 
 def _macro_calls(cursor: Cursor, opening: str, *, is_begun: bool) -> Iterator[Offer]:
-    """A call of each macro, with the parameters that it needs."""
+    """Yield a call of each macro, with the parameters that it needs."""
     for name, params, doc in _macros(cursor):
         label = f"xacro:{name}"
         parameters = parameters_of(params)
@@ -132,7 +132,7 @@ def _macro_calls(cursor: Cursor, opening: str, *, is_begun: bool) -> Iterator[Of
 
 
 def call_snippet(name: str, parameters: tuple[Parameter, ...], opening: str = "<") -> Snippet:
-    """A call with the values that it must give, and a place for its blocks."""
+    """Return a call with the values that it must give, and a place for its blocks."""
     label = f"xacro:{name}"
     snippet = Snippet().write(opening + label)
     for one in parameters:
@@ -181,7 +181,7 @@ def _elements(cursor: Cursor, opening: str, *, is_begun: bool) -> Iterator[Offer
 
 
 def closing_offers(cursor: Cursor) -> Iterator[Offer]:
-    """The closing tags of what is open, the innermost first."""
+    """Yield the closing tags of what is open, the innermost first."""
     rest = "" if cursor.text[cursor.token.end :][:1] == ">" else ">"
     start = cursor.text.rfind("<", 0, cursor.index)
     names = [one.name for one in reversed(cursor.open_before(start))]
@@ -222,7 +222,7 @@ def _attribute(
 
 
 def _parameters(cursor: Cursor, macro: str, given: set[str]) -> Iterator[Offer]:
-    """The parameters of the macro that a tag calls."""
+    """Yield the parameters of the macro that a tag calls."""
     for name, params, doc in _macros(cursor):
         if name != macro:
             continue
@@ -270,7 +270,7 @@ def _values(cursor: Cursor, tag: Tag, attribute: Attribute) -> Iterator[Offer]:
 
 
 def _parts(cursor: Cursor, tag: str) -> Iterator[Offer]:
-    """Links or joints: as this file writes them, then as they came out."""
+    """Yield links or joints: as this file writes them, then as they came out."""
     kind = Kind(tag)
     definitions = cursor.reading.definitions
     if definitions is None:
@@ -313,7 +313,7 @@ def _switches(cursor: Cursor, macro: str, name: str) -> Iterator[Offer]:
 def _files(
     cursor: Cursor, attribute: Attribute, endings: tuple[str, ...]
 ) -> tuple[list[Offer], int, int]:
-    """Files and folders below the folder that is typed so far, or packages to begin with."""
+    """Return files and folders below the folder that is typed so far, or packages to begin with."""
     typed = cursor.text[attribute.start : cursor.index]
     folder, slash, _ = typed.rpartition("/")
     start = attribute.start + len(folder) + len(slash)

@@ -89,17 +89,17 @@ class Cursor:
         return next((one for one in reversed(self.around) if one.name == "xacro:macro"), None)
 
     def element_of(self, tag: Tag) -> SourceElement | None:
-        """The element of the run that a tag of this text is."""
+        """Return the element of the run that a tag of this text is."""
         byte = self.editor.byte_at(self.editor.offset_of(tag.start))
         return self.reading.element_at(self.file, byte, tag.name)
 
     def written(self, tag: Tag, attribute: str) -> str:
-        """The text of an attribute; empty when it has none."""
+        """Return the text of an attribute; empty when it has none."""
         found = next((one for one in tag.attributes if one.name == attribute), None)
         return "" if found is None or found.start < 0 else self.plain(found.start, found.end)
 
     def plain(self, start: int, end: int) -> str:
-        """A stretch of the text as XML reads it: references resolved, blanks to spaces."""
+        """Return a stretch of the text as XML reads it: references resolved, blanks to spaces."""
         return attribute_text(self.text[start:end].encode("utf-8", "replace"))
 
     def offsets(self, start: int, end: int) -> tuple[int, int]:
@@ -120,7 +120,7 @@ class Cursor:
         return found or []
 
     def scopes(self) -> list[Scope]:
-        """The names that can be read here, as the run had them; the likeliest first."""
+        """Return the names that can be read here, as the run had them; the likeliest first."""
         if self.trace is None:
             return []
         if self.segment and (exact := self.evaluated(self.segment)):
@@ -138,7 +138,7 @@ class Cursor:
         return tuple(declarations_in(self.text))
 
     def open_before(self, index: int) -> tuple[Tag, ...]:
-        """The tags that are open before a character, the outermost first."""
+        """Return the tags that are open before a character, the outermost first."""
         return open_tags(self.text, index)
 
     def defining(self, tag: str, name: str) -> tuple[SourceElement, ...]:
@@ -172,6 +172,6 @@ class Cursor:
         return self.place(params.start + at, params.start + at + len(name))
 
     def place(self, start: int, end: int) -> TextPlace:
-        """A stretch of this text as a place."""
+        """Return a stretch of this text as a place."""
         first, last = (self.editor.byte_at(offset) for offset in self.offsets(start, end))
         return self.reading.places(self.file).place(first, last)

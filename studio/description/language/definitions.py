@@ -65,7 +65,7 @@ class Definitions:
         return [one for one in elements if one.tag in _VALUES and one.attributes.get("name")]
 
     def named(self, tag: str, name: str) -> list[SourceElement]:
-        """The properties or args of a name."""
+        """Return the properties or args of a name."""
         return [one for one in self.values if one.tag == tag and one.attributes["name"] == name]
 
     @cached_property
@@ -119,7 +119,7 @@ class Definitions:
         return found
 
     def namespace_of(self, one: Included) -> str:
-        """The namespace of an include; empty without one."""
+        """Return the namespace of an include; empty without one."""
         text = one.element.attributes.get("ns", "")
         if not text.startswith("${") or not text.endswith("}"):
             return text

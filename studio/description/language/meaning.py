@@ -109,7 +109,7 @@ def _calls(macro: SourceElement, reading: Reading) -> int:
 
 
 def _written(subject: Subject, first: SourceElement | None, cursor: Cursor) -> str:
-    """The text of a definition as it stands in its file."""
+    """Return the text of a definition as it stands in its file."""
     if subject.yaml:
         scalar = next(iter(_yaml_scalars(subject, cursor.reading)), None)
         return scalar.text if scalar else ""
@@ -124,7 +124,7 @@ def _written(subject: Subject, first: SourceElement | None, cursor: Cursor) -> s
 
 
 def _widget(subject: Subject, first: SourceElement | None, reading: Reading) -> Widget:
-    """The widget of the subject's site, which knows unit and help."""
+    """Return the widget of the subject's site, which knows unit and help."""
     if subject.yaml:
         file, path = subject.yaml
         site = reading.sites.get(f"{file}#{key_path_text(path)}")
@@ -162,7 +162,7 @@ def _place(element: SourceElement, subject: Subject, reading: Reading) -> TextPl
 
 
 def _yaml_scalars(subject: Subject, reading: Reading) -> list[YamlScalar]:
-    """The scalar of a key path; of a mapping or list the first one in it."""
+    """Return the scalar of a key path; of a mapping or list the first one in it."""
     assert subject.yaml is not None
     file, path = subject.yaml
     scalars = read_yaml_document(reading.text(file) or b"").scalars
@@ -189,7 +189,7 @@ def _tag(cursor: Cursor) -> Subject | None:
 
 
 def _called(cursor: Cursor, name: str) -> tuple[SourceElement, ...]:
-    """The macros that a call means: those that it called, else those of its name."""
+    """Return the macros that a call means: those that it called, else those of its name."""
     definitions = cursor.reading.definitions
     if definitions is None:
         return ()
@@ -214,7 +214,7 @@ def _attribute_name(cursor: Cursor) -> Subject | None:
 
 
 def _argument(cursor: Cursor, attribute: Attribute) -> Subject:
-    """The parameter that an attribute of a call gives."""
+    """Return the parameter that an attribute of a call gives."""
     tag = cursor.tag
     assert tag is not None
     macros = _called(cursor, tag.name.removeprefix("xacro:"))
@@ -239,7 +239,7 @@ def _has_parameter(macro: SourceElement, name: str) -> bool:
 
 
 def parameter_subject(cursor: Cursor, macros: tuple[SourceElement, ...], name: str) -> Subject:
-    """A parameter of macros, with what it came to in their calls."""
+    """Return a parameter of macros, with what it came to in their calls."""
     is_block = any(
         one.name == name and one.kind != "value"
         for macro in macros
@@ -273,7 +273,7 @@ def _whole(cursor: Cursor, segment: Segment) -> Subject:
 
 
 def _string(cursor: Cursor, segment: Segment, text: str) -> Subject | None:
-    """A quoted text of an expression, if it names a file, such as that of `load_yaml`."""
+    """Return a quoted text of an expression, if it names a file, such as that of `load_yaml`."""
     found = string_at(text, cursor.index - segment.start)
     if found is None:
         return None
@@ -305,7 +305,7 @@ def chain_subject(cursor: Cursor, chain: Chain) -> Subject | None:
 
 
 def _parameter_around(cursor: Cursor, chain: Chain) -> Subject | None:
-    """The parameter of the macro around, when the run did not come by here."""
+    """Return the parameter of the macro around, when the run did not come by here."""
     macro = cursor.macro
     if macro is None or chain.keys:
         return None
@@ -358,7 +358,7 @@ def _operand(cursor: Cursor, command: str, part: str) -> Subject | None:
 
 
 def _eval(cursor: Cursor, segment: Segment, text: str) -> Subject | None:
-    """A name in `$(eval ...)`, where args are read by their names."""
+    """Return a name in `$(eval ...)`, where args are read by their names."""
     chain = chain_at(text, cursor.index - segment.start)
     if chain is None or cursor.trace is None or chain.base not in cursor.trace.arguments:
         return _whole(cursor, segment)
@@ -368,7 +368,7 @@ def _eval(cursor: Cursor, segment: Segment, text: str) -> Subject | None:
 
 
 def arg_subject(cursor: Cursor, name: str) -> Subject:
-    """An arg with its value."""
+    """Return an arg with its value."""
     given = cursor.trace.arguments.get(name) if cursor.trace else None
     elements = cursor.defining("xacro:arg", name)
     values = () if given is None else distinct([given.value])
@@ -377,13 +377,13 @@ def arg_subject(cursor: Cursor, name: str) -> Subject:
 
 
 def package_subject(cursor: Cursor, name: str) -> Subject:
-    """A package with its folder."""
+    """Return a package with its folder."""
     folder = package_folder(cursor.reading, name, cursor.file)
     return Subject(Kind.PACKAGE, name, target=folder)
 
 
 def _value(cursor: Cursor, tag: Tag, attribute: Attribute) -> Subject | None:
-    """A value, or a part of one, without any `$`."""
+    """Return a value, or a part of one, without any `$`."""
     text = cursor.plain(attribute.start, attribute.end)
     kind = _NAMING.get(tag.name) if attribute.name == "name" else None
     subject = _named_here(cursor, kind, text) if kind else _named_elsewhere(cursor, tag, attribute)
@@ -457,7 +457,7 @@ def _files(cursor: Cursor, attribute: Attribute, text: str) -> Subject | None:
 
 
 def part_subject(cursor: Cursor, kind: Kind, name: str) -> Subject:
-    """A link or joint of the robot."""
+    """Return a link or joint of the robot."""
     definitions = cursor.reading.definitions
     part = definitions.parts.get((kind.value, name)) if definitions else None
     return Subject(kind, name, elements=(part.origin,) if part else ())
@@ -477,7 +477,7 @@ def _block(cursor: Cursor, name: str) -> Subject:
 
 
 def _written_parameter(cursor: Cursor, attribute: Attribute) -> Subject | None:
-    """The parameter that is written in `params` under the cursor."""
+    """Return the parameter that is written in `params` under the cursor."""
     for found in _WORD.finditer(cursor.text, attribute.start, attribute.end):
         if found.start() <= cursor.index <= found.end():
             name = found[0].lstrip("*")

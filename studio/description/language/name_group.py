@@ -54,7 +54,7 @@ class NameGroup:
         self.members = self._grown(frozenset(elements))
 
     def reads(self) -> Iterator[Read]:
-        """The readers of the group.
+        """Yield the readers of the group.
 
         Raises:
             EditError: One reads something else as well, or may.
@@ -232,7 +232,7 @@ def has_parameter(macro: SourceElement, name: str) -> bool:
 
 
 def called_name(element: SourceElement) -> str:
-    """The macro that an element calls, as it is written; empty: it is no call."""
+    """Return the macro that an element calls, as it is written; empty: it is no call."""
     own = element.xacro_name
     if own is None or own in XACRO_TAGS:
         return element.attributes.get("macro", "") if own == "call" else ""

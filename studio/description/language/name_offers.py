@@ -39,7 +39,7 @@ _BLANK_FREE: Final = re.compile(r"[^\s)]*")
 
 
 def name_around(cursor: Cursor) -> tuple[int, int]:
-    """The name under the cursor: where it begins and ends, in characters of the text."""
+    """Return the name under the cursor: where it begins and ends, in characters of the text."""
     before = cursor.text[max(0, cursor.index - 200) : cursor.index]
     typed = _NAME.search(before)
     start = cursor.index - (len(typed[0]) if typed else 0)
@@ -48,7 +48,7 @@ def name_around(cursor: Cursor) -> tuple[int, int]:
 
 
 def expression_offers(cursor: Cursor, segment: Segment) -> Iterator[Offer]:
-    """Names that can be read at the cursor of an expression."""
+    """Yield names that can be read at the cursor of an expression."""
     start, _ = name_around(cursor)
     before = cursor.text[segment.start : start]
     below = _BELOW.search(before)
@@ -61,7 +61,7 @@ def expression_offers(cursor: Cursor, segment: Segment) -> Iterator[Offer]:
 
 
 def _members(cursor: Cursor, chain: Chain, *, is_key: bool) -> Iterator[Offer]:
-    """Names or keys behind what the chain means."""
+    """Yield names or keys behind what the chain means."""
     for scope in cursor.scopes()[:1] or ():
         found = found_in(scope, chain)
         if found is None:
@@ -97,7 +97,7 @@ def _names(cursor: Cursor) -> Iterator[Offer]:
 
 
 def _in_scope(cursor: Cursor, scope: Scope) -> Iterator[Offer]:
-    """Names of the run that can be read here, with what they came to."""
+    """Yield names of the run that can be read here, with what they came to."""
     inner: Scope | None = scope
     while inner is not None:
         for name, cell in inner.cells.items():

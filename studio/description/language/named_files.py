@@ -25,7 +25,7 @@ _URI: Final = re.compile(r"(?:package|model)://([^/]*)(.*)", re.DOTALL)
 
 
 def package_folder(reading: Reading, name: str, asking_file: str) -> str:
-    """The folder of a package; empty when there is none."""
+    """Return the folder of a package; empty when there is none."""
     try:
         return find_package(reading.policy.packages, name, asking_file)
     except Fault:

@@ -55,7 +55,7 @@ def plain(
     group: int, kind: SubjectKind, label: str, *, insert: str | None = None, detail: str = "",
     doc: str = "",
 ) -> Offer:  # fmt: skip
-    """An offer of a text without places to visit."""
+    """Return an offer of a text without places to visit."""
     text = label if insert is None else insert
     return Offer(group, Completion(label, kind, text, detail=detail, doc=doc))
 
@@ -63,7 +63,7 @@ def plain(
 def written(
     group: int, kind: SubjectKind, label: str, snippet: Snippet, *, detail: str = "", doc: str = ""
 ) -> Offer:
-    """An offer of a snippet."""
+    """Return an offer of a snippet."""
     stops = tuple(snippet.stops)
     return Offer(group, Completion(label, kind, snippet.text, stops, detail=detail, doc=doc))
 

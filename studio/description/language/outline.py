@@ -26,7 +26,7 @@ _VALUES_SHOWN: Final = 10_000
 
 
 def outline_of(reading: Reading) -> Outline:
-    """The outline of the last run that was watched; empty before there was one."""
+    """Return the outline of the last run that was watched; empty before there was one."""
     definitions = reading.definitions
     if definitions is None:
         return Outline((), (), (), is_current=False)
@@ -39,7 +39,7 @@ def outline_of(reading: Reading) -> Outline:
 
 
 def _files(definitions: Definitions, reading: Reading) -> list[OutlineFile]:
-    """The entry, then every include where it happens; the same one in the same file once."""
+    """Return the entry, then every include where it happens; the same one in the same file once."""
     trace = definitions.trace
     found = [OutlineFile(trace.entry, -1, None, "", is_yaml=False)]
     numbers: list[int] = []

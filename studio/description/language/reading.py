@@ -38,7 +38,7 @@ class TextPlaces:
         self._bom_bytes = len(codecs.BOM_UTF8) if data.startswith(codecs.BOM_UTF8) else 0
 
     def place(self, start: int, end: int | None = None) -> TextPlace:
-        """The place of the bytes [start, end); outside the file the nearest end of it."""
+        """Return the place of the bytes [start, end); outside the file the nearest end of it."""
         start = max(self._bom_bytes, min(start, len(self.data)))
         line = bisect_right(self._line_starts, start) - 1
         first = self._line_starts[line]
@@ -47,7 +47,7 @@ class TextPlaces:
         return TextPlace(self.file, line + 1, column, length)
 
     def line(self, number: int) -> str:
-        """The line of text of a number from 1, without the blanks around it."""
+        """Return the line of text of a number from 1, without the blanks around it."""
         starts = self._line_starts
         first = starts[min(number, len(starts)) - 1]
         end = starts[number] if number < len(starts) else len(self.data)
@@ -77,11 +77,11 @@ class Drift:
         self._before = 0 if self._is_same else _common(old[:left], new[:left])
 
     def to_new(self, byte: int) -> int:
-        """The place in the new text; what is gone is where the change begins."""
+        """Return the place in the new text; what is gone is where the change begins."""
         return self._moved(byte, self._old, self._new)
 
     def to_old(self, byte: int) -> int:
-        """The place in the old text; what is new is where the change begins."""
+        """Return the place in the old text; what is new is where the change begins."""
         return self._moved(byte, self._new, self._old)
 
     def _moved(self, byte: int, length: int, to_length: int) -> int:
@@ -267,21 +267,21 @@ class Reading:
         return all(self.text(path) == data for path, data in texts.items())
 
     def text(self, path: str) -> bytes | None:
-        """The bytes of a file as they are now; None when it cannot be read."""
+        """Return the bytes of a file as they are now; None when it cannot be read."""
         try:
             return self._mirror.read(path)[1]
         except Fault:
             return None
 
     def resolve(self, path: str) -> str | None:
-        """The name under which a file is known; None when it may not be read."""
+        """Return the name under which a file is known; None when it may not be read."""
         try:
             return self._mirror.resolve(path)
         except Fault:
             return None
 
     def element_at(self, file: str, byte: int, tag: str) -> SourceElement | None:
-        """The element of the watched run whose `<` is there in the text of now."""
+        """Return the element of the watched run whose `<` is there in the text of now."""
         tree = self.trace.trees.get(file) if self.trace else None
         if tree is None:
             return None
@@ -319,7 +319,7 @@ class Reading:
         return self.place(macro.tree.path, *named) if named else self.element_place(macro)
 
     def places(self, file: str) -> TextPlaces:
-        """Places in the text of now."""
+        """Return places in the text of now."""
         data = self.text(file) or b""
         known = self._places.get(file)
         if known is None or known.data is not data:

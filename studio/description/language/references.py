@@ -46,7 +46,7 @@ class UsesBook:
         self._known: dict[str, tuple[SourceTree, tuple[Use, ...]]] = {}
 
     def of(self, tree: SourceTree) -> tuple[Use, ...]:
-        """The uses of one file."""
+        """Return the uses of one file."""
         known = self._known.get(tree.path)
         if known is None or known[0] is not tree:
             known = self._known[tree.path] = tree, uses_in(tree)
@@ -80,7 +80,7 @@ def _reference(
 def spots_of(
     subject: Subject, definitions: Definitions, reading: Reading, book: UsesBook
 ) -> Iterator[Spot]:
-    """The places that name a subject beside those that define it; one may come twice."""
+    """Yield the places that name a subject beside those that define it; one may come twice."""
     trees = definitions.trace.trees.values()
     if subject.kind in _SCOPED:
         yield from _reads(subject, definitions, book)
@@ -164,7 +164,7 @@ def _means(found: Found, subject: Subject, definitions: Definitions) -> bool:
 
 
 def macro_around(element: SourceElement) -> SourceElement | None:
-    """The macro that an element stands in or is."""
+    """Return the macro that an element stands in or is."""
     above: SourceElement | None = element
     while above is not None and above.tag != "xacro:macro":
         above = above.parent
@@ -241,7 +241,7 @@ def _files(subject: Subject, definitions: Definitions, reading: Reading) -> Iter
 
 
 def attribute_value(element: SourceElement, attribute: str) -> Iterator[Spot]:
-    """The value of an attribute."""
+    """Yield the value of an attribute."""
     try:
         span = attribute_spans(element.tree.data, element.offset)[attribute]
     except (EditError, KeyError):
@@ -252,7 +252,7 @@ def attribute_value(element: SourceElement, attribute: str) -> Iterator[Spot]:
 def attribute_name(
     element: SourceElement, attribute: str, *, in_run: bool = True
 ) -> Iterator[Spot]:
-    """The name of an attribute: it stands before its value, its `=` and its quote."""
+    """Yield the name of an attribute: it stands before its value, its `=` and its quote."""
     tree = element.tree
     for spot in attribute_value(element, attribute):
         start = tree.data.rfind(attribute.encode(tree.encoding), element.offset, spot.start)

@@ -94,7 +94,7 @@ def _spots(subject: Subject, new: str, definitions: Definitions, book: UsesBook)
 
 
 def _elements(subject: Subject, definitions: Definitions) -> Iterator[SourceElement]:
-    """The elements that define a subject: of a value in a call, the macros called."""
+    """Yield the elements that define a subject: of a value in a call, the macros called."""
     for element in subject.elements:
         if element.tag in {"xacro:property", "xacro:macro"}:
             yield element
@@ -155,7 +155,7 @@ def _try(renaming: Renaming, reading: Reading) -> None:
 
 
 def renamed(data: bytes, file: str, renaming: Renaming) -> bytes:
-    """The bytes of a file with the new name."""
+    """Return the bytes of a file with the new name."""
     new, parts, at = renaming.new.encode(), list[bytes](), 0
     for one in renaming.places:
         if one.place.file == file:
@@ -165,7 +165,7 @@ def renamed(data: bytes, file: str, renaming: Renaming) -> bytes:
 
 
 def renamed_arguments(renaming: Renaming, arguments: Mapping[str, str]) -> dict[str, str]:
-    """The arguments that are passed, the renamed one under its new name."""
+    """Return the arguments that are passed, the renamed one under its new name."""
     if renaming.kind is not Kind.ARG:
         return dict(arguments)
     return {renaming.new if name == renaming.old else name: v for name, v in arguments.items()}
@@ -247,7 +247,7 @@ def check_macro(name: str, new: str, definitions: Definitions) -> None:
 
 
 def arg_spots(name: str, definitions: Definitions, book: UsesBook) -> Iterator[Spot]:
-    """The declarations of an arg, `$(arg name)`, its name in `$(eval ...)`, `arg('name')`.
+    """Yield the declarations of an arg, `$(arg name)`, its name in `$(eval ...)`, `arg('name')`.
 
     Raises:
         EditError: `arg(...)` is called with what is no plain text.
@@ -262,7 +262,7 @@ def arg_spots(name: str, definitions: Definitions, book: UsesBook) -> Iterator[S
 
 
 def _asked_for(tree: SourceTree, use: Use, name: str) -> Iterator[Spot]:
-    """The text in `arg('name')` and `xacro.arg('name')`."""
+    """Yield the text in `arg('name')` and `xacro.arg('name')`."""
     if use.chain is None or use.chain.steps[-1].key != "arg":
         return
     if not _CALLED.match(tree.data, use.ends[-1]):  # of `$(arg name)`
@@ -281,7 +281,7 @@ def _asked_for(tree: SourceTree, use: Use, name: str) -> Iterator[Spot]:
 def macro_spots(
     name: str, elements: Iterable[SourceElement], definitions: Definitions
 ) -> Iterator[Spot]:
-    """The definitions of a macro and its calls, opening and closing tags.
+    """Yield the definitions of a macro and its calls, opening and closing tags.
 
     Raises:
         EditError: A call may mean another macro of that name as well.
@@ -315,7 +315,7 @@ def same_macros(
 
 
 def own_name(macro: SourceElement) -> str:
-    """The name of a macro as calls have it, without namespaces."""
+    """Return the name of a macro as calls have it, without namespaces."""
     return macro.attributes.get("name", "").removeprefix("xacro:")
 
 
@@ -336,7 +336,7 @@ def _calls(
 def given_spots(
     name: str, members: frozenset[SourceElement], definitions: Definitions
 ) -> Iterator[Spot]:
-    """The attributes of calls that give a parameter.
+    """Yield the attributes of calls that give a parameter.
 
     Raises:
         EditError: A call may mean another macro as well.
@@ -367,7 +367,7 @@ def _is_of(
 
 
 def _homes(group: NameGroup) -> set[SourceElement | None]:
-    """The macros in which a group is defined or read; None: outside of all."""
+    """Return the macros in which a group is defined or read; None: outside of all."""
     homes = {one if one.tag == "xacro:macro" else macro_around(one) for one in group.members}
     return homes | {macro_around(read.element) for read in group.reads()}
 
@@ -379,7 +379,7 @@ def _taken(new: str, element: SourceElement) -> EditError:
 
 
 def _built(definitions: Definitions) -> Iterator[tuple[SourceElement, str]]:
-    """The names that are made by expressions, as they are written."""
+    """Yield the names that are made by expressions, as they are written."""
     for tree in definitions.trace.trees.values():
         for element in tree.elements:
             own = element.xacro_name

@@ -58,7 +58,7 @@ class Subject:
 
 
 def printed(value: Any) -> str:  # noqa: ANN401
-    """A value as xacro prints it, for one line."""
+    """Return a value as xacro prints it, for one line."""
     if isinstance(value, dict):
         return "{...}"
     try:
@@ -107,7 +107,7 @@ def found_of(name: str, cell: Cell) -> Found:
 
 
 def _bringing(view: ScopeView) -> tuple[SourceElement, ...]:
-    """The include that a namespace comes from."""
+    """Return the include that a namespace comes from."""
     element = view.scope.included_by
     return (element,) if element is not None else ()
 
@@ -172,7 +172,7 @@ def subject_of(founds: Iterable[Found | None]) -> Subject | None:
 
 
 def keys_below(found: Found) -> list[tuple[str, Any]]:
-    """Names that can be read behind what was found, with their values."""
+    """Return names that can be read behind what was found, with their values."""
     value = found.value
     if isinstance(value, ScopeView):
         cells = value.scope.cells.items()

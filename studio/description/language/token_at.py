@@ -171,7 +171,7 @@ def read_tag(text: str, start: int) -> Tag:
 
 
 def _read_value(text: str, found: re.Match[str], stop: int) -> tuple[Attribute, int]:
-    """The attribute that begins with this match, and where to go on."""
+    """Return the attribute that begins with this match, and where to go on."""
     name, at = found[1], found.start(1)
     quote = text[found.end() : found.end() + 1] if found[2] else ""
     if found.end() >= stop or quote not in {'"', "'"}:
@@ -196,7 +196,7 @@ def _next(text: str, wanted: str, position: int) -> int:
 
 
 def open_tags(text: str, index: int) -> tuple[Tag, ...]:
-    """The start tags that are open where the cursor is, the outermost first.
+    """Return the start tags that are open where the cursor is, the outermost first.
 
     A closing tag closes the nearest open one of its name; what lies between is taken as closed.
     """
@@ -213,7 +213,7 @@ def open_tags(text: str, index: int) -> tuple[Tag, ...]:
 
 
 def declarations_in(text: str) -> Iterator[Tag]:
-    """The properties, args and macros of a text, with their attributes."""
+    """Yield the properties, args and macros of a text, with their attributes."""
     position = 0
     while found := _DECLARATION.search(text, position, WALK_LIMIT):
         tag = read_tag(text, found.start())
@@ -258,7 +258,7 @@ def segments_in(text: str, start: int, end: int) -> Iterator[Segment]:
 
 
 def segment_at(text: str, token: Token, index: int) -> Segment | None:
-    """The innermost segment that a cursor is in, of a value or a text between tags."""
+    """Return the innermost segment that a cursor is in, of a value or a text between tags."""
     inside: Segment | None = None
     start, end = token.start, token.end
     while found := next((s for s in segments_in(text, start, end) if s.holds(index)), None):

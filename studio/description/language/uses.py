@@ -65,7 +65,7 @@ class Chain:
         return tuple(step.key for step in self.steps[1:])
 
     def up_to(self, index: int) -> Chain | None:
-        """The chain up to the step that a cursor is in; None when it is in none."""
+        """Return the chain up to the step that a cursor is in; None when it is in none."""
         for count, step in enumerate(self.steps, 1):
             if step.start <= index <= step.end:
                 return Chain(self.steps[:count], self.is_local)
@@ -82,13 +82,13 @@ def chains_of(text: str) -> tuple[Chain, ...]:
 
 
 def chain_at(text: str, index: int) -> Chain | None:
-    """The chain under a cursor, up to the step that it is in."""
+    """Return the chain under a cursor, up to the step that it is in."""
     found = (chain.up_to(index) for chain in chains_of(text))
     return next((chain for chain in found if chain is not None), None)
 
 
 def string_at(text: str, index: int) -> Step | None:
-    """The quoted text under a cursor."""
+    """Return the quoted text under a cursor."""
     for found in _tokens(text):
         if found.lastgroup == "string":
             step = _quoted(found)
@@ -195,7 +195,7 @@ def _of_contents(tree: SourceTree) -> Iterator[Use]:
 
 
 def _contents(element: SourceElement) -> Iterator[tuple[SourceElement, int, int]]:
-    """The texts between tags that hold a `$`: the element around, and the bytes."""
+    """Yield the texts between tags that hold a `$`: the element around, and the bytes."""
     if element.closes_itself:
         return
     data, behind = element.tree.data, element.inside

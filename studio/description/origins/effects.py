@@ -158,7 +158,7 @@ class Readers:
 
 
 def _all_governors(trace: Trace) -> list[Governor]:
-    """Every governor of the run that something came to be under."""
+    """Return every governor of the run that something came to be under."""
     found: dict[Governor, None] = {}
     front = [one for binding in trace.bindings for one in binding.inputs]
     front += trace.governors.values()

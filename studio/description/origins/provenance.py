@@ -270,7 +270,7 @@ def attribute_place(element: SourceElement, attribute: str, param: str = "") -> 
 
 
 def _place_at(element: SourceElement, byte: int) -> Place:
-    """The place of a byte at or behind the `<` of an element."""
+    """Return the place of a byte at or behind the `<` of an element."""
     before = element.tree.data[element.offset : byte]
     ends = list(_LINE_END.finditer(before))
     if not ends:
@@ -301,5 +301,5 @@ def walk_named(top: OutputElement, path: str = "") -> Iterator[tuple[str, Output
 
 
 def tags_of(path: str) -> tuple[str, ...]:
-    """The tags of a path, without their numbers."""
+    """Return the tags of a path, without their numbers."""
     return tuple(step.partition("[")[0] for step in path.split("/")) if path else ()

@@ -188,7 +188,7 @@ class TracedEvaluation(Evaluation):
     def binding(
         self, kind: SiteKind | None, name: str, element: SourceElement, attribute: str, text: str
     ) -> Binding:
-        """A binding of its own for each time that a name is bound."""
+        """Return a binding of its own for each time that a name is bound."""
         made = TracedBinding(kind, name, element, attribute, text)
         if governor := self._governor():
             made.inputs = (governor,)
@@ -267,7 +267,7 @@ class TracedEvaluation(Evaluation):
         return solid
 
     def _governor(self) -> Governor | None:
-        """The governor of the current element; one that read nothing decides nothing."""
+        """Return the governor of the current element; one that read nothing decides nothing."""
         governor = self.traced.governor
         while governor is not None and not governor.inputs:
             governor = governor.outer
@@ -368,7 +368,7 @@ class YamlSites:
         return file.sites.get(path_as_written(scalar.path, file.written, file.aliases))
 
     def inputs_by_site(self) -> Iterator[tuple[str, Input]]:
-        """Every scalar that was read, itself or with all that stands around it."""
+        """Yield every scalar that was read, itself or with all that stands around it."""
         for path, reads in self._yaml.items():
             file = self._file(path)
             whole = {path_as_written(one, file.written, file.aliases) for one in reads.whole}

@@ -268,7 +268,7 @@ class _Work:
             self._propagation.touch(scalar)
 
     def _container(self, path: str, site: FileSite) -> object:
-        """The mapping or list of plain values that a scalar stands in."""
+        """Return the mapping or list of plain values that a scalar stands in."""
         container = self._run.evaluation.store.held(path)[1]
         if not site.path or path not in self._run.record.yaml:
             raise PatchRefused("the file is one value")
@@ -311,7 +311,7 @@ class TextEdits:
         return frozenset(self._live)
 
     def live(self, path: str) -> LiveSites:
-        """The sites of a file as they are now."""
+        """Return the sites of a file as they are now."""
         live = self._live.get(path)
         if live is None:
             live = self._live[path] = LiveSites(self._files[path])

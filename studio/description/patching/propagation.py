@@ -55,7 +55,7 @@ class Replay:
         return self._texts.replayed(self)
 
     def again(self, record: Record) -> Any:  # noqa: ANN401
-        """The value of a record's text now; the record stays as it is.
+        """Return the value of a record's text now; the record stays as it is.
 
         Raises:
             PatchRefused: It fails, warns, or reads other things than it did.
@@ -309,21 +309,21 @@ def _order(record: Record) -> float:
 
 
 def _triggered(record: Record) -> Iterator[tuple[Cell, Record]]:
-    """The properties that a record was the first to read."""
+    """Yield the properties that a record was the first to read."""
     for read in dict.fromkeys(record.reads):
         if isinstance(read, Cell) and read.record is not None and read.record.trigger is record:
             yield read, read.record
 
 
 def _around(record: Record) -> Iterator[Record]:
-    """The evaluations within which a record was evaluated."""
+    """Yield the evaluations within which a record was evaluated."""
     while record.trigger is not None:
         record = record.trigger
         yield record
 
 
 def _with_nested(record: Record) -> Iterator[Record]:
-    """A record behind those that it was the first to read."""
+    """Yield a record behind those that it was the first to read."""
     for _, nested in _triggered(record):
         yield from _with_nested(nested)
     yield record

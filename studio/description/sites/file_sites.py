@@ -82,7 +82,7 @@ class FileSite:
     """Of a YAML scalar, as written: `!degrees`."""
 
     def rewritten(self, text: str) -> FileSite:
-        """The site when another text stands there, on the same line."""
+        """Return the site when another text stands there, on the same line."""
         if not any("," in one for one in self.remarks):  # only choices are read beside the text
             return replace(self, text=text)
         if self.kind is SiteKind.YAML:
@@ -116,7 +116,7 @@ class LiveSites:
         self.has_aliases = bool(file.aliases)
 
     def find(self, edit: Edit) -> int | None:
-        """The site that an edit lies in."""
+        """Return the site that an edit lies in."""
         at = bisect_right(self._in_order, edit.start, key=self._start)
         if not at:
             return None
@@ -124,18 +124,18 @@ class LiveSites:
         return index if edit.end <= self._end(index) else None
 
     def site(self, index: int) -> FileSite:
-        """A site as it stands now."""
+        """Return a site as it stands now."""
         site, start, end = self._sites[index], self._start(index), self._end(index)
         if (site.span.start, site.span.end) != (start, end):
             site = self._sites[index] = replace(site, span=Span(start, end, site.span.syntax))
         return site
 
     def by_id(self, site_id: str) -> FileSite:
-        """A site as it stands now, by its id."""
+        """Return a site as it stands now, by its id."""
         return self.site(self.index_of[site_id])
 
     def without_span(self, site_id: str) -> FileSite:
-        """A site as it is now by its id; its span may be an earlier one."""
+        """Return a site as it is now by its id; its span may be an earlier one."""
         return self._sites[self.index_of[site_id]]
 
     def write(self, index: int, edit: Edit, text: str) -> None:
@@ -222,7 +222,7 @@ def _yaml_remarks(document: YamlDocument) -> list[Remark]:
 def xml_sites(
     tree: SourceTree, before: FileSites | None = None, known: Set[str] = frozenset()
 ) -> FileSites:
-    """Every arg, property, macro default and plain URDF number of an XML file.
+    """Return every arg, property, macro default and plain URDF number of an XML file.
 
     What was one of them in the sites before, or is known by its id, stays one, whatever is
     written there now.
@@ -285,7 +285,7 @@ def _macro_defaults(element: SourceElement) -> Iterator[FileSite]:
 def _literals(
     element: SourceElement, known: Set[str], shown: dict[SourceElement, str]
 ) -> Iterator[FileSite]:
-    """The attributes of a URDF element that are plain numbers, or were."""
+    """Yield the attributes of a URDF element that are plain numbers, or were."""
     start = f"{element.tree.path}#{element.ordinal}@"
     wanted = [
         name

@@ -91,7 +91,7 @@ def compared(text: str) -> Iterator[tuple[Named, str]]:
 
 
 def truth(text: str) -> Named | None:
-    """The one name whose truth a condition asks for."""
+    """Return the one name whose truth a condition asks for."""
     found = _TRUTH.fullmatch(text.strip())
     return Named(found[1] or found[2], bool(found[1])) if found else None
 
@@ -108,7 +108,7 @@ def paths_in(text: str, *, is_filename: bool) -> Iterator[str]:
 
 
 def reads(path: str) -> Iterator[tuple[Named, re.Match[str]]]:
-    """Every name that stands in a path, and where."""
+    """Yield every name that stands in a path, and where."""
     for found in _READ.finditer(path):
         yield Named(found[1] or found[2], bool(found[1])), found
 
@@ -116,7 +116,7 @@ def reads(path: str) -> Iterator[tuple[Named, re.Match[str]]]:
 def folder_choices(
     path: str, at: re.Match[str], resolve: Callable[[str, str | None], str | None], folders: Folders
 ) -> tuple[str, ...]:
-    """The values for which a path leads somewhere.
+    """Return the values for which a path leads somewhere.
 
     Args:
         path: As written, with the name at `at`.
@@ -179,11 +179,11 @@ class World(Folders, Protocol):
     """The files and packages that may be read."""
 
     def read(self, path: str) -> bytes:
-        """A file's text as it is edited; PackageError when it may not or cannot be read."""
+        """Return a file's text as it is edited; PackageError when it may not or cannot be read."""
         ...
 
     def find(self, package: str, asking_file: str) -> str | None:
-        """The folder of a package."""
+        """Return the folder of a package."""
         ...
 
 
@@ -222,7 +222,7 @@ class _Declared:
 def launch_arguments(
     entry: str, arguments: Mapping[str, str], world: World, also: Iterable[str] = ()
 ) -> tuple[LaunchArgument, ...]:
-    """Every argument of a file and what it includes, those without a default first.
+    """Return every argument of a file and what it includes, those without a default first.
 
     Args:
         entry: The file that is launched.
@@ -260,11 +260,11 @@ class _Scan:
                 return
 
     def used_undeclared(self) -> list[str]:
-        """Names that are read and that no file declares."""
+        """Return names that are read and that no file declares."""
         return [name for name in self._used if name not in self.declared]
 
     def early(self, entry: str) -> list[str]:
-        """Names that the entry's root element reads."""
+        """Return names that the entry's root element reads."""
         tree = self._trees.get(entry)
         texts = tree.root.attributes.values() if tree else ()
         return [name for text in texts for name in _ARG.findall(text)]
@@ -333,7 +333,7 @@ class _Scan:
     def _resolve(
         self, text: str, path: str, known: Mapping[str, str] | None = None, depth: int = 0
     ) -> str | None:
-        """A text's value as far as finding packages, args and plain properties give it."""
+        """Return a text's value as far as finding packages, args and plain properties give it."""
         parts: list[str] = []
         at = 0
         for found in _SUBSTITUTION.finditer(text):
@@ -430,7 +430,7 @@ def _texts_of(tree: SourceTree) -> Iterator[_Text]:
 
 
 def _holder(text: _Text) -> str:
-    """The property or macro parameter that a text gives its value."""
+    """Return the property or macro parameter that a text gives its value."""
     element = text.element
     if element.tag == "xacro:property":
         return element.attributes.get("name", "")

@@ -140,7 +140,7 @@ class RunReads:
     def site_of(
         self, one: Binding | YamlValue, files: Mapping[str, FileSites]
     ) -> tuple[str, str | None]:
-        """The file and site id of what was read; None when it is no site."""
+        """Return the file and site id of what was read; None when it is no site."""
         if isinstance(one, YamlValue):
             path = one.document
             return path, self._inputs_of(path, files[path]).site_of(one.path)
@@ -229,7 +229,7 @@ class _YamlInputs:
         return self._inputs.get(path, [])
 
     def site_of(self, path: KeyPath) -> str | None:
-        """The site that a value was read from; a container is none."""
+        """Return the site that a value was read from; a container is none."""
         return self._ids.get(self._written.get(path, path))
 
     def reads_of_whole(self, path: KeyPath) -> int:
@@ -334,7 +334,7 @@ class SiteBuilder:
         return tuple(changed)
 
     def _read(self, record: RunRecord) -> Iterator[tuple[str, FileSites]]:
-        """The sites of each file that was read, those of unchanged bytes as they were."""
+        """Yield the sites of each file that was read, those of unchanged bytes as they were."""
         for path in dict.fromkeys(record.files):
             tree, document = record.trees.get(path), record.yaml.get(path)
             data = tree.data if tree else document.data if document else None

@@ -359,7 +359,7 @@ def _annotated(annotation: Annotation, unit: str, shown: str) -> Widget | None:
 
 
 def _numbers(shown: str) -> list[float]:
-    """The numbers that a text consists of; none when anything else is in it."""
+    """Return the numbers that a text consists of; none when anything else is in it."""
     words = shown.split()
     if len(words) > _VECTOR_LENGTH:
         return []
@@ -444,10 +444,10 @@ def _symmetric(reach: float) -> tuple[float, float, float]:
 
 
 def _step_across(width: float) -> float:
-    """The power of ten that makes at least a hundred steps."""
+    """Return the power of ten that makes at least a hundred steps."""
     return float(f"1e{math.floor(math.log10(width / _STEPS_ACROSS) + 1e-9)}")
 
 
 def _to_step(number: float, step: float) -> float:
-    """The nearest multiple of a step, without noise."""
+    """Return the nearest multiple of a step, without noise."""
     return round(round(number / step) * step, decimals_of(format(step, "g")))

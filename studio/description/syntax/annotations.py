@@ -197,7 +197,7 @@ def _holds_numbers(text: str) -> bool:
 
 
 def _number(text: str) -> float | None:
-    """A number, or a multiple of pi such as `-pi/2`."""
+    """Return a number, or a multiple of pi such as `-pi/2`."""
     if _NUMBER.fullmatch(text):
         number = float(text)
         return number if math.isfinite(number) else None
@@ -213,7 +213,7 @@ def _unquoted(text: str) -> str:
 
 
 def _split_unit(text: str) -> tuple[str, str]:
-    """The unit that `text` begins with, and what follows; no unit: all of it."""
+    """Return the unit that `text` begins with, and what follows; no unit: all of it."""
     found = _UNIT.match(text)
     if found is None or found.lastgroup is None:
         return "", text
@@ -287,7 +287,7 @@ def _last_heading(entries: Sequence[Entry], index: int, block: Sequence[Comment]
 def _directly_above(
     entries: Sequence[Entry], index: int, block: Sequence[Comment]
 ) -> list[Comment]:
-    """The comments on the lines right above an entry, without a heading."""
+    """Return the comments on the lines right above an entry, without a heading."""
     line = entries[index].first_line
     chosen: list[Comment] = []
     for comment in reversed(block):

@@ -53,7 +53,7 @@ def _declared_encoding(data: bytes) -> str:
 
 
 def attribute_spans(data: bytes, offset: int) -> dict[str, Span]:
-    """The value span of each attribute, by its name, of the tag whose `<` is at `offset`.
+    """Return the value span of each attribute, by its name, of the tag whose `<` is at `offset`.
 
     Raises:
         EditError: No start tag is there.

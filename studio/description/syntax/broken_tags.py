@@ -68,7 +68,7 @@ class TagReader:
         self._begin = self._last_end = 0
 
     def read(self, at: int) -> BrokenTag | None:
-        """The tag whose `<` is at a place; None when no name follows."""
+        """Return the tag whose `<` is at a place; None when no name follows."""
         named = NAME.match(self._data, at + 1)
         if named is None:
             return None
@@ -85,7 +85,7 @@ class TagReader:
             self._last_end = position
 
     def _ending(self, at: int) -> BrokenTag | None:
-        """The whole tag when it ends here, as it should or because another one begins."""
+        """Return the whole tag when it ends here, as it should or because another one begins."""
         data = self._data
         if data.startswith((b"/>", b">"), at):
             is_empty = data.startswith(b"/", at)
@@ -178,7 +178,7 @@ class TagReader:
         return end
 
     def _quoted(self, name: str, begin: int, at: int) -> int:
-        """A value whose opening quote is at a place."""
+        """Return a value whose opening quote is at a place."""
         data, quote = self._data, self._data[at : at + 1]
         close = data.find(quote, at + 1, at + _VALUE_LIMIT)
         raw = data[at + 1 : close]

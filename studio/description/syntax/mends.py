@@ -28,7 +28,7 @@ class TextMends:
         self.line_break: Final = "\r\n" if b"\r\n" in data[: 1 << 16] else "\n"
 
     def text(self, start: int, end: int) -> str:
-        """The text there."""
+        """Return the text there."""
         return self._data[start:end].decode(self._encoding, "replace")
 
     def replaced(self, start: int, end: int, text: str) -> Replacement:
@@ -48,11 +48,11 @@ class TextMends:
         return Replacement(self._file, 0, end, before, text + before)
 
     def fix(self, label: str, *edits: Replacement) -> Fix:
-        """A fix that is these edits."""
+        """Return a fix that is these edits."""
         return Fix(label, "edit", edits=edits)
 
     def indent_at(self, at: int) -> str:
-        """The blanks before what stands there on its line; empty when it begins no line."""
+        """Return the blanks before what stands there on its line; empty when it begins no line."""
         line = self._data[self._data.rfind(b"\n", 0, at) + 1 : at]
         return "" if line.strip() else line.decode(self._encoding, "replace")
 
@@ -77,7 +77,7 @@ class ElementMends:
         self._mends = TextMends(element.tree.path, element.tree.data, element.tree.encoding)
 
     def fix(self, label: str, *edits: Replacement | None) -> Fix | None:
-        """A fix that is these edits; none when one of them cannot be made."""
+        """Return a fix that is these edits; none when one of them cannot be made."""
         made = [edit for edit in edits if edit is not None]
         return self._mends.fix(label, *made) if made and len(made) == len(edits) else None
 
@@ -130,13 +130,13 @@ class ElementMends:
         return (first, self._mends.replaced(closing, closing + len(name), other))
 
     def before(self, xml: str) -> Replacement:
-        """An element put in on a line before this one."""
+        """Return an element put in on a line before this one."""
         offset = self._element.offset
         indent = self._mends.indent_at(offset)
         return self._mends.put_in(offset, f"{xml}{self._mends.line_break}{indent}")
 
     def after(self, xml: str) -> Replacement | None:
-        """An element put in on a line behind this one."""
+        """Return an element put in on a line behind this one."""
         try:
             end = self._element.end
         except EditError:
@@ -145,7 +145,7 @@ class ElementMends:
         return self._mends.put_in(end, f"{self._mends.line_break}{indent}{xml}")
 
     def gone(self) -> Replacement | None:
-        """The element taken out, with its line when it has that for itself."""
+        """Return the element taken out, with its line when it has that for itself."""
         data, start = self._tree.data, self._element.offset
         try:
             end = self._element.end

@@ -50,7 +50,7 @@ class NamedList:
         self._path, self._data, self._kind = path, data, kind
 
     def items(self) -> Sequence[yaml.Node]:
-        """The items of the list; an empty file has none.
+        """Return the items of the list; an empty file has none.
 
         Raises:
             DescriptionError: The kind's: it is no YAML, too large, or no list of such items.
@@ -82,7 +82,7 @@ class NamedList:
         return name
 
     def mapping(self, node: yaml.Node, allowed: set[str] | None) -> dict[str, yaml.Node]:
-        """The values by key; `allowed` None: any keys. Errors as for `items`."""
+        """Return the values by key; `allowed` None: any keys. Errors as for `items`."""
         if not isinstance(node, yaml.MappingNode) or len(node.value) > self._kind.entry_limit:
             raise self.fault(node, "must be keys with values")
         pairs = [(self.text(key), value) for key, value in node.value]
@@ -147,7 +147,7 @@ def is_null(node: yaml.Node) -> bool:
 
 
 def lines_of(node: yaml.Node) -> tuple[int, int]:
-    """The lines [start, end) of an item, from 0; comments below it are not its own."""
+    """Return the lines [start, end) of an item, from 0; comments below it are not its own."""
     return node.start_mark.line, _last_line(node) + 1
 
 

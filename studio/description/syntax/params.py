@@ -66,7 +66,7 @@ def read_parameters(text: str) -> tuple[list[str], dict[str, Default]]:
 
 
 def parameter(text: str) -> tuple[str, Default | None, str]:
-    """The first parameter of a `params`, its default, and the text behind it."""
+    """Return the first parameter of a `params`, its default, and the text behind it."""
     quotes = sum(map(text.count, "'\""))
     match = (_AS_XACRO if quotes <= _QUOTES_LIMIT else _PARAMETER).match(text)
     if match is None:
@@ -86,7 +86,7 @@ class ParamDefault:
 
 
 def param_defaults(data: bytes, params: Span, encoding: str = "utf-8") -> tuple[ParamDefault, ...]:
-    """The written defaults of a macro, given the span of its `params` attribute.
+    """Return the written defaults of a macro, given the span of its `params` attribute.
 
     Raises:
         EditError: The bytes are not of that encoding.
@@ -115,7 +115,7 @@ def _unquoted(default: str) -> str:
 
 
 def param_text(raw: bytes, encoding: str = "utf-8") -> str:
-    """The text of one default from its raw bytes: references resolved, outer quotes off."""
+    """Return the text of one default from its raw bytes: references resolved, outer quotes off."""
     return _unquoted(attribute_text(raw, encoding))
 
 

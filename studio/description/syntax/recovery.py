@@ -255,7 +255,7 @@ class OpenElements:
 
 
 def _unclosed_tags(data: bytes) -> set[str]:
-    """Names of which more begin than end."""
+    """Return names of which more begin than end."""
     counts: Counter[bytes] = Counter()
     for found in _TAG_COUNTED.finditer(data):
         if found[1]:

@@ -160,7 +160,7 @@ class _OpenTag:
 
     @classmethod
     def around(cls, before: bytes) -> _OpenTag | None:
-        """The tag within which a text ends."""
+        """Return the tag within which a text ends."""
         found = _IN_TAG.search(before)
         if found is None:
             return None
@@ -230,7 +230,7 @@ class FaultBook:
         return Place(self._path, self._line, self._column)
 
     def place(self, at: int) -> Place:
-        """The place of any byte."""
+        """Return the place of any byte."""
         if at >= self._at:
             return Place(self._path, *self._counted(self._at, self._line, self._column, at))
         return Place(self._path, *self._counted(0, 1, 1, at))

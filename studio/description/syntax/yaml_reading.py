@@ -55,7 +55,7 @@ def scalar_of(text: str, tag: str, evaluate: Callable[[str], Any]) -> Any:  # no
 
 
 def read_yaml(path: str, data: bytes, evaluate: Callable[[str], Any]) -> Any:  # noqa: ANN401
-    """The values of a YAML file as plain Python.
+    """Return the values of a YAML file as plain Python.
 
     Args:
         path: Named in errors.

@@ -52,7 +52,7 @@ _SIMPLE_KEY = re.compile(r"[^\s.\[\]\"']+")
 
 
 def yaml_text(raw: bytes) -> str:
-    """The text of a scalar from its bytes.
+    """Return the text of a scalar from its bytes.
 
     Raises:
         EditError: The bytes are not UTF-8.
@@ -298,7 +298,7 @@ class _Reader:
         return bool(self.open) and self.open[-1].key is None
 
     def _next_path(self) -> KeyPath:
-        """The path of the value that comes now; the container moves on."""
+        """Return the path of the value that comes now; the container moves on."""
         if not self.open:
             return ()
         container = self.open[-1]

@@ -121,7 +121,7 @@ class _Paths:
             heapq.heappush(self._free, int(self._of.pop(place)[1:]))
 
     def of(self, place: _Place) -> str:
-        """The path of a group; the lowest that is free for a new one."""
+        """Return the path of a group; the lowest that is free for a new one."""
         path = self._of.get(place)
         if path is None:
             if not self._free:

@@ -48,7 +48,7 @@ def statuses_of(store: MarkerStore, hidden: Collection[str]) -> list[Status]:
 
 
 def marker_name(key: Key) -> str:
-    """A marker as RViz writes it: namespace, slash, id."""
+    """Return a marker as RViz writes it: namespace, slash, id."""
     namespace, marker_id = key
     return f"{namespace[:_NAME_MAX]}/{marker_id}"
 

@@ -149,7 +149,7 @@ def problems_of(markers: Columns) -> NDArray[np.uint8]:
 
 
 def _all_of(markers: Columns) -> list[tuple[Problem, Flags]]:
-    """Every problem and for which markers it holds, the worst at last."""
+    """Return every problem and for which markers it holds, the worst at last."""
     types, scales, points = markers.types, markers.scales, markers.points
     is_arrow = types == Kind.ARROW
     # As RViz has it: points are between both ends only if there are two of them.

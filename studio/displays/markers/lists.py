@@ -111,7 +111,7 @@ def _in_pairs(colors: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _surface_colors(drawn: Rows) -> NDArray[np.float32]:
-    """The colour of each vertex (V, 4), with RViz's own rules on what is blended.
+    """Return the colour of each vertex (V, 4), with RViz's own rules on what is blended.
 
     Colours of vertices are opaque unless one of the marker's is not, whatever its own alpha; those
     of whole triangles are opaque if the marker is.
@@ -136,7 +136,7 @@ def _blended(own: NDArray[np.float32], alpha: np.float32, blends: bool) -> NDArr
 
 
 def singles_of(markers: Rows) -> dict[str, Shape]:
-    """Texts and meshes by name."""
+    """Return texts and meshes by name."""
     shapes: dict[str, Shape] = dict(_texts(markers.of_types(Kind.TEXT)))
     shapes.update(_meshes(markers.of_types(Kind.MESH)))
     return shapes

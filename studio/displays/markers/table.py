@@ -307,7 +307,7 @@ def _items_of(  # noqa: PLR0913 - numbers of one marker
 
 
 def _color_counts(kind: int, points: int) -> tuple[int, ...]:
-    """How many colours colour each point of a marker; for triangles one each is enough."""
+    """Return how many colours colour each point of a marker; for triangles one each is enough."""
     if kind == Kind.TRIANGLES:
         return points, points // 3
     return (points,) if kind in COLOURED_POINTS else ()

@@ -79,6 +79,6 @@ COMMANDS.presenter(MendAll, lambda fixes, _, __: fixes.apply_all())
 
 
 def _fixes(problems: Sequence[Problem]) -> Iterator[Fix]:
-    """The fixes that are edits, of what hinders; several problems may share one."""
+    """Yield the fixes that are edits, of what hinders; several problems may share one."""
     fixes = (one.fix for one in problems if one.severity is not Severity.INFO)
     yield from dict.fromkeys(fix for fix in fixes if fix and fix.edits)

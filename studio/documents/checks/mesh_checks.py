@@ -200,7 +200,7 @@ class MeshChecks:
         return await self._hidden.read(self._hidden_uris())
 
     def bounds(self) -> dict[str, Bounds]:
-        """The boxes of all meshes that are known, by URI."""
+        """Return the boxes of all meshes that are known, by URI."""
         shown = ((uri, self._model.scene.mesh(uri)) for uri in self._model.mesh_uris())
         of_scene = {uri: mesh.bounds_m for uri, mesh in shown if mesh is not None}
         return {**self._hidden.bounds, **of_scene}

@@ -67,7 +67,7 @@ class RobotChecks:
         self._findings.replace("checks", (*found, *of_meshes))
 
     def _snapshot(self) -> CheckedRobot:
-        """The robot and all that is known around it, as values that no edit changes."""
+        """Return the robot and all that is known around it, as values that no edit changes."""
         model = self._model
         parts = {part.key: part for part in model.assembly.parts()}
         texts = {file: self._text(file) for file in self._last_run.files}

@@ -175,7 +175,7 @@ async def second_opinion(
 
 
 def placed(problem: Problem, part: Callable[[str], Part | None]) -> Problem:
-    """A problem of a part of the robot, at the place where that is written."""
+    """Return a problem of a part of the robot, at the place where that is written."""
     found = part(problem.parts[0]) if problem.parts else None
     return replace(problem, place=found.place, macro_stack=found.calls) if found else problem
 

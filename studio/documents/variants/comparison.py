@@ -46,7 +46,7 @@ def robot_differences(
 def input_differences(
     book: RecipeBook, one: SecondRobot, other: SecondRobot
 ) -> tuple[InputDifference, ...]:
-    """The arguments that come to different values, and the texts that differ."""
+    """Return the arguments that come to different values, and the texts that differ."""
     return (*_argument_rows(one, other), *_text_rows(book, one, other))[:_INPUTS_SHOWN]
 
 

@@ -61,7 +61,7 @@ class RecipeBook:
         self._texts: dict[str, NamedTexts] = {}
 
     def saved(self) -> Recipe:
-        """The state on disk, with the arguments that the document was opened with."""
+        """Return the state on disk, with the arguments that the document was opened with."""
         return Recipe(dict(self._opened_with))
 
     @property
@@ -81,7 +81,7 @@ class RecipeBook:
             self._texts |= await asyncio.to_thread(_read, unread)
 
     def present(self) -> Recipe:
-        """The document as it is now."""
+        """Return the document as it is now."""
         texts: dict[TextName, str] = {}
         others: list[str] = []
         for path in self._sources.unsaved_files:
@@ -104,7 +104,7 @@ class RecipeBook:
         return Recipe(passed, texts)
 
     def as_variant(self, name: str, note: str, recipe: Recipe) -> Variant:
-        """A variant that comes to a recipe, whatever the robot is opened with next time."""
+        """Return a variant that comes to a recipe, whatever the robot is opened with next time."""
         taken_back = dict.fromkeys(self._opened_with.keys() - recipe.arguments.keys())
         arguments = dict(sorted({**recipe.arguments, **taken_back}.items()))
         return Variant(name, note, arguments, dict(sorted(recipe.texts.items())))
@@ -120,7 +120,7 @@ class RecipeBook:
         return (name.file, 0) if isinstance(named, str) else (named.path, named.line_of(name))
 
     def overlay(self, recipe: Recipe) -> dict[str, bytes]:
-        """The texts of a recipe by path, for a run that reads all else from the disk."""
+        """Return the texts of a recipe by path, for a run that reads all else from the disk."""
         found: dict[str, bytes] = {}
         for file, texts in texts_by_file(recipe.texts).items():
             named = self._find(file)
@@ -133,7 +133,7 @@ class RecipeBook:
         return {path: self._sources.saved(path) for path in self._sources.files}
 
     def edits_to(self, variant: Variant) -> tuple[tuple[Edit, ...], tuple[str, ...]]:
-        """The edits from the present texts to a variant's, and what found no place.
+        """Return the edits from the present texts to a variant's, and what found no place.
 
         Edits that are no value of a text stay as they are.
         """
@@ -152,7 +152,7 @@ class RecipeBook:
         return tuple(edits), tuple(left_out)
 
     def edits_to_saved(self) -> tuple[Edit, ...]:
-        """The edits that give up everything that is not saved."""
+        """Return the edits that give up everything that is not saved."""
         sources = self._sources
         found = (
             difference(path, sources.text(path), sources.saved(path))
@@ -161,7 +161,7 @@ class RecipeBook:
         return tuple(edit for edit in found if edit is not None)
 
     def _find(self, file: str) -> NamedTexts | str:
-        """The texts of a file as a variant names it; a sentence when it cannot be had."""
+        """Return the texts of a file as a variant names it; a sentence when it cannot be had."""
         try:
             return self._named(self._path(file))
         except (PackageError, EditError) as error:
@@ -195,7 +195,7 @@ class RecipeBook:
             yield path
 
     def _file(self, path: str) -> str:
-        """A file's name in a variant: what lies in another package goes by that."""
+        """Return a file's name in a variant: what lies in another package goes by that."""
         entry, package = self._entry, package_folder_of(Path(path))
         if package is not None and package != package_folder_of(entry):
             for one in self._location().index.packages:
@@ -218,7 +218,7 @@ class RecipeBook:
 
 
 def _read(unread: Iterable[_Unread]) -> dict[str, NamedTexts]:
-    """The texts of files, by path."""
+    """Return the texts of files, by path."""
     found: dict[str, NamedTexts] = {}
     for one in unread:
         named = one.known or NamedTexts(one.file, one.path, one.disk)

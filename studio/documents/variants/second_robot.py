@@ -73,7 +73,7 @@ class SecondRobots:
         return self._last_run.expansion is not None
 
     def present(self, recipe: Recipe) -> SecondRobot:
-        """The robot that is edited, as the last good run made it."""
+        """Return the robot that is edited, as the last good run made it."""
         model, last = self._model, self._last_run
         values = self._sites.argument_values()
         fault = "The robot as it is now does not run: its last good state is compared."
@@ -156,7 +156,7 @@ class Ghost:
         self._model.pose()
 
     def mesh_bounds(self, uri: str) -> Bounds | None:
-        """The box of a mesh that either robot has; None when it has not come."""
+        """Return the box of a mesh that either robot has; None when it has not come."""
         mesh = self._model.scene.mesh(uri)
         return mesh.bounds_m if mesh else None
 

@@ -50,7 +50,7 @@ def chosen_wire(before: WireChoice, place: WirePlace) -> WireChoice:
 
 
 def _endpoint(text: str) -> str:
-    """The endpoint that is meant by `robot.local`, `10.0.0.7:7447` or `tls/robot:7447`."""
+    """Return the endpoint that is meant by `robot.local`, `10.0.0.7:7447` or `tls/robot:7447`."""
     protocol, slash, rest = text.partition("/")
     if not slash:
         protocol, rest = "tcp", text

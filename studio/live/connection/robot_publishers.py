@@ -64,7 +64,7 @@ class RobotOut:
 
 
 class JointsOut:
-    """Publishes where joints stand; arguments as of `RobotOut`."""
+    """Publishes joint positions; arguments as of `RobotOut`."""
 
     def __init__(
         self, node: Node, rivals: Callable[[], list[str]], end: Callable[[Node], object]

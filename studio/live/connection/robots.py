@@ -88,7 +88,7 @@ class ConnectionCommands:
         self._ros = ros
 
     async def connect(self, command: ConnectWire) -> None:
-        """Join the ROS system, or another one than now.
+        """Join the ROS system, or another one.
 
         Raises:
             StudioError: There is no router, or it cannot be reached.

@@ -40,7 +40,7 @@ class SentRobot(PosedRobot, Protocol):
 
 
 class RobotSending:
-    """Looks at each tick whether anything is due; messages are made and sent in a thread.
+    """Checks at each tick whether anything is due; messages are made and sent in a thread.
 
     Args:
         model: The robot.

@@ -22,7 +22,7 @@ def carried_types(
 
 
 def kind_for(topic: str, types: Sequence[str]) -> str:
-    """The display that shows the first of these types that any shows; empty: none does."""
+    """Return the display that shows the first of these types that any shows; empty: none does."""
     from studio.displays.catalogue import displays_of_type  # noqa: PLC0415 - only when it is used
 
     kinds = (kind.KIND for one in types for kind in displays_of_type(one, topic))

@@ -31,7 +31,7 @@ class Deskewing:
     def deskewed(
         self, drawing: Drawing, poses: Mapping[str, Pose | None], ends: Mapping[str, Pose]
     ) -> Drawing:
-        """The same drawing as its frames at their stamps would have seen it.
+        """Return the same drawing as its frames at their stamps would have seen it.
 
         Args:
             drawing: Of which some parts have a sweep.
@@ -96,7 +96,7 @@ def deskewed_points(
 def _turned(
     points: NDArray[np.float64], axis: NDArray[np.float64], angles: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Points turned about an axis of length 1, each by an angle of its own, by Rodrigues."""
+    """Return points turned about an axis of length 1, each by an angle of its own, by Rodrigues."""
     x, y, z = axis
     aside = np.empty_like(points)
     aside[:, 0] = y * points[:, 2] - z * points[:, 1]

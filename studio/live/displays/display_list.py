@@ -62,7 +62,7 @@ class DisplayList:
         return tuple(sorted(self._groups_off & groups))
 
     def get(self, display: str) -> DisplaySpec:
-        """The one of an id.
+        """Return the one of an id.
 
         Raises:
             CommandError: There is none any more; so for all that follow.

@@ -419,6 +419,6 @@ def _first_topic(kind: str) -> str:
 
 
 def _full_name(topic: str) -> str:
-    """A topic as the graph names it."""
+    """Return a topic as the graph names it."""
     topic = topic.strip()
     return f"/{topic}" if topic and topic[0] not in "/~" else topic

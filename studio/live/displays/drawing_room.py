@@ -84,7 +84,7 @@ class DrawingRoom:
         self._robot_trouble = ""
 
     def open(self, spec: DisplaySpec) -> None:
-        """Set a display to work.
+        """Start a display.
 
         Raises:
             DisplayError: There is no such kind, or it does not take the values.
@@ -92,7 +92,7 @@ class DrawingRoom:
         self._running[spec.id] = RunningDisplay(spec, shared_types())
 
     def get(self, display: str) -> RunningDisplay:
-        """The one of an id.
+        """Return the one of an id.
 
         Raises:
             CommandError: There is none any more.
@@ -108,7 +108,7 @@ class DrawingRoom:
         return self._running.pop(display, None)
 
     def displays(self) -> dict[str, Display]:
-        """All displays by id."""
+        """Return all displays by id."""
         return {name: running.display for name, running in self._running.items()}
 
     async def subscribe(self, shown: Collection[str]) -> None:

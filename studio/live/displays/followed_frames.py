@@ -51,7 +51,7 @@ class _Asked:
         self._until_ns: dict[Visitor, dict[str, int]] = {}
 
     def frames(self) -> dict[str, None]:
-        """All followed frames, of all roles."""
+        """Return all followed frames, of all roles."""
         return dict.fromkeys(chain.from_iterable(self._until_ns.values()))
 
     def ask(self, frame: str, until_ns: int, visitor: Visitor) -> str:

@@ -30,12 +30,12 @@ class JointState(Protocol):
         ...
 
     def by_name(self) -> dict[str, float]:
-        """The same, by the joints' names."""
+        """Return the same, by the joints' names."""
         ...
 
 
 class PosedRobot(Protocol):
-    """A robot and where its joints stand."""
+    """A robot and its joint positions."""
 
     @property
     def robot(self) -> Robot:

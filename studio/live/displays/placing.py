@@ -1,4 +1,4 @@
-"""Placing: where in the fixed frame the parts of a drawing stand, and when it can be shown."""
+"""Placing: poses of the parts of a drawing in the fixed frame, and when it can be shown."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ class _Model:
 
 
 class RobotModels:
-    """Steps on the loop with the displays; what takes its time is done beside.
+    """Steps on the loop with the displays; slow work is done elsewhere.
 
     Args:
         own: The document's robot, which one may show.

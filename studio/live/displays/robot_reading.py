@@ -60,7 +60,7 @@ class RobotReader:
         self._turn = asyncio.Lock()
 
     async def read_text(self, text: str) -> DescribedRobot:
-        """The robot that a text describes; what is wrong with it is in the answer."""
+        """Return the robot that a text describes; what is wrong with it is in the answer."""
         entry = str(self._nowhere / _NAME)
         policy = ReadPolicy((str(self._nowhere),), {}, {})
         texts = {entry: text.encode("utf-8", "replace")}
@@ -68,7 +68,7 @@ class RobotReader:
         return DescribedRobot(robot, fault.replace(f"{self._nowhere}{os.sep}", ""))
 
     async def read_file(self, uri: str) -> DescribedRobot:
-        """The robot of a file; what is wrong with its text is in the answer.
+        """Return the robot of a file; what is wrong with its text is in the answer.
 
         Raises:
             PackageError: The URI names no file that may be read.

@@ -1,4 +1,4 @@
-"""RunningDisplay: one display at work: its subscriptions, and where its drawing stands."""
+"""RunningDisplay: a display with its subscriptions, and the poses of its drawing."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class RunningDisplay:
         return tuple(role.topic(self.spec.topic) for role in self.display.roles())
 
     def set(self, name: str, value: Value) -> Value:
-        """Change a property, and give the value that it took.
+        """Change a property, and return its new value.
 
         Raises:
             DisplayPropertyError: It does not take the value.
@@ -114,7 +114,7 @@ class RunningDisplay:
         self.unsubscribe()
 
     def step(self, lookup: Lookup, now_ns: int, at_once_s: float = math.inf) -> Shown | None:
-        """Take what came, and give what is to be drawn now; None: all is as it was.
+        """Take what came, and return what to draw now; None: nothing changed.
 
         Of each topic one message is taken, and more for so long; the rest waits for other steps.
         """

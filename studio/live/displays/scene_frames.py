@@ -128,7 +128,7 @@ class SceneFrames:
         self.own.step()
 
     def lookup(self, frame: str, stamp_ns: int) -> Pose:
-        """The pose of a frame in the fixed frame.
+        """Return the pose of a frame in the fixed frame.
 
         Raises:
             FrameError: There is none at that time.
@@ -148,7 +148,7 @@ class SceneFrames:
         return self._now
 
     def _newest(self) -> FramesNow:
-        """The same, as of the last change: all that is drawn in one tick stands together."""
+        """Return the same, as of the last change: all that is drawn in one tick stands together."""
         if self._now is None or self._now_of != (self.buffer.changes, self.fixed):
             return self.now()
         return self._now

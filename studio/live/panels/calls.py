@@ -41,7 +41,7 @@ class Call:
         return self.state != "calling"
 
     def view(self) -> CallView:
-        """The call as the page receives it."""
+        """Return the call as the page receives it."""
         return CallView(**{name: getattr(self, name) for name in CallView.model_fields})
 
 
@@ -58,7 +58,7 @@ class ServiceCalls:
         self._running = RunningTasks()
 
     async def begin(self, command: CallService) -> Begun:
-        """Ask a service, and do not wait for its reply.
+        """Call a service, and do not wait for its reply.
 
         Raises:
             StudioError: It cannot be asked.
@@ -78,7 +78,7 @@ class ServiceCalls:
         return Begun(request=command.request, operation=number)
 
     def cancel(self, command: CancelCall) -> None:
-        """Wait for a reply no longer; what is over stays as it is.
+        """Stop waiting for a reply; a call that is over stays as it is.
 
         Raises:
             CommandError: There is no such call.

@@ -82,7 +82,7 @@ class Parts:
 
 
 class PartDiagnostics:
-    """Begins again with each connection: parts of one robot are not shown beside another's.
+    """Starts again with each connection: parts of one robot are not shown beside another's.
 
     Args:
         source: Where topics come from.

@@ -1,4 +1,4 @@
-"""Robots driven by hand from pages; each stands still once its driver is silent."""
+"""Robots driven by hand from pages; each stops once its page is silent."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class VelocityPublisher:
         self._publisher.publish(self._from_dict(self._kind, values, now_ns=time.time_ns()))
 
     def close(self) -> None:
-        """Publish that it stands still, then nothing any more."""
+        """Publish zero velocity, then nothing any more."""
         try:
             self.steer(0.0, 0.0, 0.0)
         finally:
@@ -111,7 +111,7 @@ class Driving:
             await self._send(driver, command)
 
     def detach(self, listener: Listener) -> None:
-        """A page is gone: all that it drove stands still."""
+        """Remove a page, and stop all that it drove."""
         for topic, driver in tuple(self._drivers.items()):
             if driver.listener is listener:
                 self._end(topic, driver)

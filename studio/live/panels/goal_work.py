@@ -133,7 +133,7 @@ class GoalRequest:
         return handle.accepted
 
     async def result(self) -> tuple[GoalStatus, str]:
-        """Wait for its end, however long that takes: how it ended, and the result as JSON.
+        """Wait for its end, however long that takes; return its status and the result as JSON.
 
         Raises:
             ActionServerGoneError: The server ended before.

@@ -106,7 +106,7 @@ class ActionGoals:
         self._clients: tuple[WireLink, ActionClients] | None = None
 
     async def begin(self, command: SendGoal) -> Begun:
-        """Send a goal, and do not wait what becomes of it.
+        """Send a goal, and do not wait for its result.
 
         Raises:
             StudioError: It cannot be sent.

@@ -243,7 +243,7 @@ def _fault_view(fault: InterfaceTextError) -> InterfaceFaultView:
 
 
 def _all_of(parts: tuple[Message, ...], library: TypeLibrary) -> list[Message]:
-    """The parts and what they are made of, each once, whatever needs others before these."""
+    """Return the parts and what they are made of, each once, whatever needs others before these."""
     found: dict[str, Message] = {}
     waiting = list(parts)
     while waiting:

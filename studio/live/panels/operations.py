@@ -81,7 +81,7 @@ class Operations(Generic[OperationT]):
         self.changed(operation)
 
     def get(self, number: int) -> OperationT:
-        """The operation of a number.
+        """Return the operation of a number.
 
         Raises:
             CommandError: It is not known, or not any more.
@@ -92,11 +92,11 @@ class Operations(Generic[OperationT]):
         return found
 
     def all(self) -> tuple[OperationT, ...]:
-        """The operations kept, the oldest first."""
+        """Return the operations kept, the oldest first."""
         return tuple(self._operations.values())
 
     def unfinished(self) -> list[OperationT]:
-        """The operations that run."""
+        """Return the operations that run."""
         return [one for one in self._operations.values() if not one.is_over]
 
     def changed(self, operation: OperationT) -> None:

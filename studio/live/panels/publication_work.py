@@ -1,4 +1,4 @@
-"""Saying: a publisher and its message, which is made again each time if it holds the time.
+"""MessageSender: a publisher and its message, made again each time if it holds the time.
 
 It imports Zenoh (through `ros`), so it is imported when it is first used.
 """

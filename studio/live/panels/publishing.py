@@ -56,11 +56,11 @@ class Publication:
         return self.state != "running"
 
     def count_one(self) -> None:
-        """Count once more."""
+        """Count one message."""
         self.sent += 1
 
     def view(self) -> PublicationView:
-        """The publication as the page receives it."""
+        """Return the publication as the page receives it."""
         own = {name: getattr(self, name) for name in _OWN}
         return PublicationView(**own, **self.asked.model_dump(include=_AS_ASKED))
 
@@ -102,7 +102,7 @@ class Publishing:
         return Begun(request=command.request, operation=number)
 
     def stop(self, command: StopPublishing) -> None:
-        """Publish it no more.
+        """Stop publishing it.
 
         Raises:
             CommandError: There is no such publication.
@@ -114,7 +114,7 @@ class Publishing:
             self._stop_all("")
 
     def attach(self, listener: Listener) -> None:
-        """A page is there that may stop what runs."""
+        """Add a page, which may stop what runs."""
         if listener.role is Role.PRESENTER:
             self._presenters.add(listener)
 

@@ -59,7 +59,7 @@ class ServiceRequest:
         self.name, self.type_name = name, type_name
 
     async def answer(self, timeout_s: float) -> str:
-        """Ask, and give the reply as JSON.
+        """Send the request, and return the reply as JSON.
 
         Raises:
             NotServedError: Nobody serves it.
@@ -124,7 +124,7 @@ async def why_ended(link: WireLink, otherwise: WireError) -> WireError:
 
 
 async def known_in_time(future: Future[Any], timeout_s: float) -> Any:  # noqa: ANN401
-    """Wait for what another node answers; who waits no longer gives it up.
+    """Wait for the answer of another node; cancelling the wait gives it up.
 
     Raises:
         TimeoutError: It is not known in time.

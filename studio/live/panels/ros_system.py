@@ -103,7 +103,7 @@ class RosSystem:
         self.publishing.attach(listener)
 
     def detach(self, listener: Listener) -> None:
-        """A page is gone: what it drove stands still, and what it began goes on.
+        """Remove a page: what it drove stops, and what it began goes on.
 
         Only what is published again and again ends when no page is left that could stop it.
         """

@@ -63,7 +63,7 @@ def chunk_of(channel: int, samples: Sequence[RawSample], lost: int, *, keeps_all
 
 
 def frame_parts(chunks: Sequence[Chunk], dropped: int) -> list[bytes]:
-    """The frame of these, in parts that are to be sent one after the other."""
+    """Return the frame of these, in parts that are to be sent one after the other."""
     head = FRAME_HEAD.pack(VERSION, sum(one.count for one in chunks), dropped % _LOST_MOD)
     return [head, *(part for one in chunks for part in one.parts)]
 
@@ -104,7 +104,7 @@ class Tick:
         return frozenset(one.channel for one in self.chunks if one.is_large)
 
     def without(self, channels: frozenset[int]) -> Tick:
-        """The rest, once for all who have these from elsewhere."""
+        """Return the rest, once for all who have these from elsewhere."""
         if channels not in self._without:
             left = tuple(one for one in self.chunks if one.channel not in channels)
             self._without[channels] = self if len(left) == len(self.chunks) else Tick(left)

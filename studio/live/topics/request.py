@@ -1,4 +1,4 @@
-"""Request: what is wanted of a topic, how it fits those who publish it, and how that stands."""
+"""Request: a subscription to be made, its fit to the publishers, and its state."""
 
 from __future__ import annotations
 
@@ -173,7 +173,7 @@ def fit_request(
 
 
 def _type_of(request: Request, publishers: Sequence[Endpoint]) -> str:
-    """The best that is published; else the best that is wanted, or nothing."""
+    """Return the best that is published; else the best that is wanted, or nothing."""
     published = {one.type_name for one in publishers}
     if not request.types:
         return publishers[0].type_name if publishers else ""

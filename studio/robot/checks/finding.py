@@ -45,7 +45,7 @@ class CheckedRobot:
         return extents(self.robot.links.values(), self.mesh_bounds)
 
     def element(self, key: str) -> Element | None:
-        """The element of a part by its key; None when it is not known."""
+        """Return the element of a part by its key; None when it is not known."""
         part = self.part(key)
         return part.element if part else None
 

@@ -107,7 +107,7 @@ def _in_axes_of(inertial: Inertial, rpy: Vector3, moments: Floats) -> Floats:
 
 
 def _rounded(tensor: Floats, i: int, j: int) -> float:
-    """An entry, without the dust that turning leaves off the diagonal."""
+    """Return an entry, without the dust that turning leaves off the diagonal."""
     entry = float(tensor[i, j])
     return 0.0 if abs(entry) < 1e-9 * float(np.trace(tensor)) else entry
 

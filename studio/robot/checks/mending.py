@@ -34,7 +34,7 @@ class Mender:
         self._elements: dict[str, dict[Place, SourceElement]] = {}
 
     def fix(self, mend: Mend, part: Part) -> Fix | None:
-        """The fix of a mend at the element that a part was written as.
+        """Return the fix of a mend at the element that a part was written as.
 
         None where that would not be safe: the text is not literal, a macro writes other parts
         with it, or the file is no longer what the part came from.
@@ -106,7 +106,7 @@ def _crossed(mend: SwapAttributes) -> tuple[tuple[str, str], tuple[str, str]]:
 
 
 def _only(element: SourceElement, tag: str) -> tuple[SourceElement]:
-    """The only child of that tag.
+    """Return the only child of that tag.
 
     Raises:
         EditError: It has none, or several: conditions choose among them.

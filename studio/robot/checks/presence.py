@@ -25,7 +25,7 @@ class Body:
 
 
 def rigid_bodies(robot: Robot) -> list[Body]:
-    """Every link of the robot in exactly one body; joints in a cycle belong to none."""
+    """Return every link of the robot in exactly one body; joints in a cycle belong to none."""
     children: dict[str, list[Joint]] = {}
     for joint in robot.joints.values():
         children.setdefault(joint.parent, []).append(joint)

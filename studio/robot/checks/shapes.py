@@ -40,7 +40,7 @@ def findings(checked: CheckedRobot) -> Iterator[Finding]:
 
 
 def _of_collisions(robot: Robot, extents: Mapping[str, Extent]) -> Iterator[Finding]:
-    """Links whose collision lies elsewhere than the visual, or is of another size."""
+    """Yield links whose collision lies elsewhere than the visual, or is of another size."""
     for name in robot.links:
         extent = extents[name]
         if extent.visual is None or extent.collision is None or is_marker(extent.visual):
@@ -90,7 +90,7 @@ def _unit(mesh: Mesh | None) -> float | None:
 
 
 def _usual_m(sizes_m: list[float]) -> float:
-    """The median of what is left without the largest; 0 when there is nothing."""
+    """Return the median of what is left without the largest; 0 when there is nothing."""
     rest = sorted(sizes_m)[:-1]
     return rest[(len(rest) - 1) // 2] if rest else 0.0
 

@@ -121,7 +121,7 @@ def _alpha(shader: Element) -> float:
 
 
 def _image_of(sampler: str, scopes: list[Element]) -> str:
-    """The id of the image behind a sampler; many writers name the image itself."""
+    """Return the id of the image behind a sampler; many writers name the image itself."""
     name = sampler
     for _ in range(4):
         parameter = _parameter(name, scopes)
@@ -259,7 +259,7 @@ class _Scene:
             self._placed.append(surface.moved(world_from_node))
 
     def _parent_from_node(self, node: Element) -> Matrix:
-        """The product of the node's transforms in document order."""
+        """Return the product of the node's transforms in document order."""
         parent_from_node = np.eye(4)
         for child in node:
             known = _TRANSFORMS.get(child.tag)

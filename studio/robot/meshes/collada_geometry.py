@@ -48,7 +48,7 @@ class ColladaGeometry:
         return list(self._elements)
 
     def primitives(self, geometry: str) -> list[Primitive]:
-        """The triangles of a geometry; empty for splines, lines and what does not exist."""
+        """Return the triangles of a geometry; empty for splines, lines and what does not exist."""
         if geometry not in self._read:
             element = self._elements.get(geometry)
             mesh = None if element is None else element.find("mesh")
@@ -125,7 +125,7 @@ class _Sources:
         return [one for one in found if one.semantic in _WIDTHS]
 
     def rows(self, used: _Input) -> NDArray[np.float32]:
-        """Shape (N, 3) for positions and normals, (N, 2) for texture, (N, 4) for colours."""
+        """Return shape (N, 3) for positions and normals, (N, 2) for texture, (N, 4) for colours."""
         if used.source not in self._rows:
             self._rows[used.source] = self._parse(used.source)
         rows, width = self._rows[used.source], _WIDTHS[used.semantic]

@@ -146,7 +146,7 @@ def _short(text: str) -> str:
 
 
 def read_texture(files: MeshFiles, uri: str) -> Texture | None:
-    """The image that a mesh refers to; None, and a warning, when it cannot be had."""
+    """Return the image that a mesh refers to; None, and a warning, when it cannot be had."""
     try:
         return encode_texture(files, uri, files.read_beside(uri))
     except MeshError as error:

@@ -71,7 +71,7 @@ class _Writer:
         )
 
     def encode(self) -> bytes:
-        """The whole file."""
+        """Return the whole file."""
         document: dict[str, Any] = {
             "asset": {"version": "2.0", "generator": "robot description studio"},
             "scene": 0,

@@ -120,7 +120,7 @@ class _Scene:
         return self._meshes[index]
 
     def _surface(self, primitive: Primitive) -> Surface | None:
-        """The triangles of a primitive; None for points and lines."""
+        """Return the triangles of a primitive; None for points and lines."""
         positions = self._stream(primitive, "POSITION", 3)
         if positions is None or primitive.mode not in {4, 5, 6}:
             return None

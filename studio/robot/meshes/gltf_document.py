@@ -166,7 +166,7 @@ _DOCUMENTS: Final = msgspec.json.Decoder(GltfDocument)
 
 
 def read_document(files: MeshFiles) -> tuple[GltfDocument, bytes]:
-    """The JSON of a .gltf or .glb, and the binary chunk of a .glb.
+    """Return the JSON of a .gltf or .glb, and the binary chunk of a .glb.
 
     Raises:
         MeshError: Not glTF 2.0, or its JSON does not fit the specification.
@@ -204,7 +204,7 @@ class GltfBuffers:
         self._buffers: dict[int, bytes] = {}
 
     def rows(self, accessor: int) -> NDArray[np.float32]:
-        """The values of an accessor, (count, width), as numbers; normalised ones in [-1, 1].
+        """Return the values of an accessor, (count, width), as numbers; normalised ones in [-1, 1].
 
         Raises:
             MeshError: It does not fit its buffer.
@@ -219,14 +219,14 @@ class GltfBuffers:
         return np.maximum(values.astype(np.float32) / top, -1.0).astype(np.float32)
 
     def indices(self, accessor: int) -> NDArray[np.int64]:
-        """The values of an index accessor, (count,)."""
+        """Return the values of an index accessor, (count,)."""
         one = self._accessor(accessor)
         if one.componentType not in {5121, 5123, 5125} or one.type != "SCALAR":
             raise self._files.fault("its triangle indices are no whole numbers.")
         return self._raw(one)[:, 0].astype(np.int64)
 
     def view(self, index: int) -> bytes:
-        """The bytes of a buffer view."""
+        """Return the bytes of a buffer view."""
         data, start, length, _ = self._view(index)
         return data[start : start + length]
 

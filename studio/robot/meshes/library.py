@@ -86,7 +86,7 @@ class MeshLibrary:
     async def _ask(
         self, path: Path, folders: tuple[Path, ...], shape: str
     ) -> tuple[str, tuple[LoadedMesh, dict[str, str]]]:
-        """The mesh as the worker found it, and the name of that content: it may be newer."""
+        """Return the mesh as the worker found it, and the name of that content: it may be newer."""
         roots = tuple(map(str, folders))
         request = MeshRequest(str(path), roots, str(self._cache.folder), shape)
         # the worker reads the next one while this is taken

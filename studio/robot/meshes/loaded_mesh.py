@@ -142,7 +142,7 @@ class MeshCache:
         return f"{digest}{shape and f'.{shape}'}{path.suffix.lower()}"
 
     def read(self, name: str) -> tuple[LoadedMesh, dict[str, str]] | None:
-        """The mesh and what it refers to, or None; a broken file is removed."""
+        """Return the mesh and what it refers to, or None; a broken file is removed."""
         file = self._file(name)
         try:
             blob = file.read_bytes()

@@ -174,7 +174,7 @@ class _Tables:
         self._normals = _table(lines.normals, 3)[:, :3]
 
     def surface(self, faces: list[list[str]], appearance: Appearance | None) -> Surface:
-        """The triangles of these faces."""
+        """Return the triangles of these faces."""
         numbers: dict[str, int] = {}
         distinct = [numbers.setdefault(corner, len(numbers)) for face in faces for corner in face]
         table = np.array([_indices(corner) for corner in numbers], dtype=np.int64).reshape(-1, 3)
@@ -216,7 +216,7 @@ def _table(rows: list[str], width: int) -> Floats:
 
 
 def _ragged_table(rows: list[str], width: int) -> Floats:
-    """The first numbers of lines that differ in length."""
+    """Return the first numbers of lines that differ in length."""
     parts = [row.partition("#")[0].split()[:width] for row in rows]
     filled = [[*map(float, one), *[0.0] * (width - len(one))] for one in parts]
     with np.errstate(over="ignore"):

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def read_ply(files: MeshFiles) -> list[Surface]:
-    """The faces with the vertices' colours; normals are made again.
+    """Return the faces with the vertices' colours; normals are made again.
 
     Raises:
         MeshError: No PLY, cut off, or a face points beyond its vertices.

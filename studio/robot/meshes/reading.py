@@ -73,7 +73,7 @@ def read_mesh(files: MeshFiles) -> LoadedMesh:
 
 
 def read_textured(files: MeshFiles, shape: str) -> LoadedMesh:
-    """A primitive of unit size with the image `files` on it.
+    """Return a primitive of unit size with the image `files` on it.
 
     Raises:
         MeshError: It is no image that can be shown.

@@ -58,7 +58,7 @@ class Surface:
         return len(self.positions) // 3
 
     def moved(self, world_from_surface: Matrix) -> Surface:
-        """The same triangles in another frame; a mirror image keeps its outside outside."""
+        """Return the same triangles in another frame; a mirror image keeps its outside outside."""
         if np.array_equal(world_from_surface, np.eye(4)):
             return self
         linear = world_from_surface[:3, :3]

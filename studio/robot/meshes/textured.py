@@ -27,7 +27,7 @@ _SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
 def textured_uri(geometry: Geometry, material: Material | None) -> str:
-    """The URI of a primitive with an image on it; empty when it has none, or is a mesh."""
+    """Return the URI of a primitive with an image on it; empty when it has none, or is a mesh."""
     if material is None or not material.texture_uri or isinstance(geometry, Mesh):
         return ""
     return f"{_SCHEME}{type(geometry).__name__.lower()}:{material.texture_uri}"
@@ -42,7 +42,7 @@ def split_textured(uri: str) -> tuple[str, str]:
 
 
 def mesh_uris(link: Link, *, collisions: bool = True) -> Iterator[str]:
-    """Every mesh file and textured primitive that a link is drawn with."""
+    """Yield every mesh file and textured primitive that a link is drawn with."""
     for visual in link.visuals:
         if isinstance(visual.geometry, Mesh):
             yield visual.geometry.uri

@@ -67,7 +67,7 @@ def _cut_ears(polygon: NDArray[np.float64]) -> Integers:
 
 
 def _flattened(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The polygon in its plane, counter-clockwise, (N, 2)."""
+    """Return the polygon in its plane, counter-clockwise, (N, 2)."""
     following = np.roll(polygon, -1, axis=0)
     normal = np.cross(polygon, following).sum(axis=0)
     dropped = int(np.argmax(np.abs(normal)))

@@ -94,7 +94,7 @@ class DistroHashes:
         self._libraries = {own.distro: own}
 
     def __call__(self, distro: str, type_name: str) -> str | None:
-        """Return what stands in keys; None for a type that the distribution does not know."""
+        """Return the hash in keys; None for a type that the distribution does not know."""
         if distro not in self._libraries:
             self._libraries[distro] = TypeLibrary(distro)
         try:

@@ -1,4 +1,4 @@
-"""Nodes and endpoints as tokens show them, and GraphTable, which keeps those that stand; no I/O."""
+"""Nodes and endpoints by their tokens, and GraphTable, which keeps those alive; no I/O."""
 
 from __future__ import annotations
 
@@ -218,7 +218,7 @@ class GraphTable:
         )
 
     def settle(self, token: str, *, is_alive: bool) -> None:
-        """Note whether an uncertain token stands."""
+        """Note whether an uncertain token is alive."""
         if is_alive:
             self.put(token, sure=True)
         elif token in self._gone_first:

@@ -78,7 +78,7 @@ class Graph:
             return self._changed.wait_for(condition, timeout_s)
 
     def settle(self, timeout_s: float = SETTLE_TIMEOUT_S) -> bool:
-        """Wait until all tokens that stand now are in the graph; False when that lasts too long."""
+        """Wait until all tokens alive now are in the graph; False when that takes too long."""
         end_s = time.monotonic() + timeout_s
         alive = set(live_tokens(self._wire.zenoh, tokens_of_domain(self._wire.domain), timeout_s))
         with self._changed:

@@ -408,17 +408,17 @@ def declare_token(session: Session, token: str) -> Declaration:
 
 
 def watch_tokens(session: Session, tokens: str) -> Incoming[Sample]:
-    """Collect changes of the tokens of a key expression, those that stand first."""
+    """Collect changes of the tokens of a key expression, those alive first."""
     return Incoming(session.liveliness().declare_subscriber(tokens, _queue(), history=True))
 
 
 def token_change(sample: Sample) -> tuple[str, bool]:
-    """Return which token a sample of `watch_tokens` is about, and whether it stands now."""
+    """Return which token a sample of `watch_tokens` is about, and whether it is alive."""
     return str(sample.key_expr), sample.kind != zenoh.SampleKind.DELETE
 
 
 def live_tokens(session: Session, tokens: str, timeout_s: float) -> Iterator[str]:
-    """Ask for the tokens that stand now; ends with the last answer or the time-out."""
+    """Ask for the tokens alive now; ends with the last answer or the time-out."""
     replies = session.liveliness().get(tokens, _queue(), timeout=timeout_s)
     for reply in cast("Iterator[Reply]", replies):
         if reply.ok is not None:
