@@ -71,7 +71,7 @@ def _found(folders: Iterable[Path], memory: FolderMemory, *, is_prefix: bool) ->
 
 
 def _workspace_of(folder: Path) -> tuple[Path, ...]:
-    """The packages around a folder: beside the one it lies in, below its `src`, or right in it."""
+    """Return packages around a folder: beside the one it is in, below its `src`, or in it."""
     if is_too_wide(folder):
         return ()
     package = package_folder_of(folder)

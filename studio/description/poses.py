@@ -84,7 +84,7 @@ class NamedPose:
 
 
 def position_of(text: str) -> float | None:
-    """A position as written, rad or m; None when it is no finite number that a joint can have."""
+    """Return a position as written, rad or m; None when it is no finite number in range."""
     trimmed = text.strip()
     if len(trimmed) > 100 or not _NUMBER.fullmatch(trimmed):
         return None
@@ -93,7 +93,7 @@ def position_of(text: str) -> float | None:
 
 
 def group_states(expansion: Expansion) -> Iterator[NamedPose]:
-    """The states of a run of an SRDF, in its order; those without a name or joint are left out."""
+    """Yield the states of an SRDF's run, in order, without those lacking a name or joint."""
     for part in expansion.changed_parts:
         if part.element.tag == "group_state":
             pose = _pose(part)
@@ -123,7 +123,7 @@ def _pose(part: Part) -> NamedPose:
 
 
 def initial_positions(path: str, data: bytes) -> NamedPose | None:
-    """The pose of a file; None when it is no map of joints to numbers, whatever else it may be."""
+    """Return the pose of a file; None when it is no map of joints to numbers."""
     try:
         found = cast("object", read_yaml(path, data, float))
     except (Fault, ValueError):

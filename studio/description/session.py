@@ -67,7 +67,7 @@ Request: TypeAlias = OpenRequest | EditRequest | ArgumentsRequest | ReloadReques
 def verified(
     answer: Expansion | Failure, before: Expansion | None, entry: str
 ) -> Expansion | Failure:
-    """A full run's answer: news only when it corrects anything, which is a warning, and logged.
+    """Return a full run's answer: changes only if it corrects anything, with a warning.
 
     One that only proves the patches right is marked as they are.
     """

@@ -80,7 +80,7 @@ class CloudFields:
         return self._stacked(None), None
 
     def numbers(self, name: str, raw: NDArray[np.intp] | None) -> NDArray[np.float32] | None:
-        """The numbers of a field for these raw points, all when None; None when there is no such.
+        """Return a field's numbers for these raw points, all when None; None without the field.
 
         Of a field with several numbers for each point it is the first.
         """
@@ -112,7 +112,7 @@ class CloudFields:
         return np.rint(whole * 255).astype(np.uint8)
 
     def _add(self, field: Any) -> None:  # noqa: ANN401 - a sensor_msgs/PointField
-        """Return a field by its name; of two with one name the first counts, as in RViz.
+        """Add a field by its name; of two with one name the first counts, as in RViz.
 
         One that cannot be read is as if it were not there, until it is needed for a place.
         """
@@ -160,7 +160,7 @@ class CloudFields:
         return np.dtype(self._order + _NUMBERS[self._fields[name].datatype])
 
     def _view(self, name: str, dtype: np.dtype[Any], count: int = 0) -> NDArray[Any]:
-        """Numbers at the offset of a field, shape (rows, columns) or (rows, columns, count)."""
+        """Return numbers at a field's offset, shape (rows, columns) or (rows, columns, count)."""
         strides = (self._row_bytes, int(self._message.point_step))
         inner = (count,) if count else ()
         return np.ndarray(

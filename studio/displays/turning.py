@@ -50,7 +50,7 @@ def turned(wxyz: Floats, vectors: Floats) -> Floats:
 
 
 def product(one: Floats, other: Floats) -> Floats:
-    """The turn `other` followed by `one`, unit quaternions (4,) and (..., 4); shape (..., 4)."""
+    """Return the rotation `other` followed by `one`, unit quaternions (4,) and (..., 4)."""
     w, x, y, z = one
     return other @ np.array([[w, x, y, z], [-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]])
 

@@ -298,7 +298,7 @@ def report_lines(files: Sequence[CheckedFile], folder: Path) -> Iterator[str]:
 
 
 def report_json(files: Sequence[CheckedFile]) -> str:
-    """A list with an object for each finding; `line` and `column` are null when not known."""
+    """Return JSON with an object for each finding; `line` and `column` may be null."""
     rows = [
         {
             "severity": problem.severity.value,

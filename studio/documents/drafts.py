@@ -64,7 +64,7 @@ class Drafts:
         self._ended = asyncio.Event()
 
     def events(self) -> Iterable[Restored]:
-        """Return the events for a new page."""
+        """Yield the events for a new page."""
         if self._restored.at:
             yield self._restored
 

@@ -30,7 +30,7 @@ _MESHES: Final = "meshes"
 
 
 def with_absolute_paths(urdf: str, location: Location) -> str:
-    """The URDF with the place of each mesh on this machine; what is not found stays as it is."""
+    """Return the URDF with absolute paths of meshes; what is not found stays as it is."""
     return _renamed(urdf, location, lambda _, file: file.as_uri())
 
 
@@ -221,7 +221,7 @@ class Exports:
 
 
 def _files_of(folders: Iterable[Path], served: ServedRoots) -> Iterator[PackedFile]:
-    """The files of packages, each below its folder's name; a second one of a name is numbered."""
+    """Yield the files of packages below their folders' names, numbered if not unique."""
     taken: set[str] = set()
     for folder in folders:
         name, number = folder.name, 2

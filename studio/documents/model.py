@@ -88,7 +88,7 @@ class JointPositions:
         return dict(zip(self.kinematics.movable, self.values.tolist(), strict=True))
 
     def frame(self, revision: int) -> bytes:
-        """The positions as a packed frame: kind, 3 pad bytes, revision (u32), float64 each."""
+        """Return positions as a packed frame: kind, 3 pad bytes, revision (u32), float64 each."""
         return _JOINTS_FRAME.pack(JOINTS_FRAME_KIND, revision) + self.values.tobytes()
 
     def _set_all(self, values: NDArray[np.float64]) -> None:

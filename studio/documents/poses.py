@@ -56,7 +56,7 @@ class NamedPoses:
         self._throttle = Throttle(self._refresh, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[Poses]:
-        """Return the events for a new page."""
+        """Yield the events for a new page."""
         yield self._list()
 
     def trigger(self) -> None:

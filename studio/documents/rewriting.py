@@ -62,7 +62,7 @@ class SearchText:
             at = end if is_found else at + 1
 
     def _compared(self, text: str) -> str:
-        """The text, small when case is the same, of the same length: only one letter grows."""
+        """Return the text, in lower case unless case counts, of the same length."""
         return text if self.match_case else text.replace("\u0130", "i").lower()
 
 

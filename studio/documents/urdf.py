@@ -42,7 +42,7 @@ class PartLines:
 def part_lines(
     root_attributes: Iterable[tuple[str, str]], parts: Iterable[Part]
 ) -> list[PartLines]:
-    """A robot's lines as `Model.urdf` writes them; the first and the last part are its own tags."""
+    """Return a robot's lines as `Model.urdf` writes them; its own tags are the end parts."""
     root = ElementTree.Element("robot", dict(root_attributes))
     root.text = "\n"
     opening, _, _ = ElementTree.tostring(root, encoding="unicode").partition("\n")

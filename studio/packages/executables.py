@@ -102,7 +102,7 @@ def _lines_of_setup_py(folder: Path) -> list[str]:
 
 
 def _scripts_of(node: ast.AST) -> Iterator[str]:
-    """Return the texts of a list behind the key `console_scripts`."""
+    """Yield the texts of a list behind the key `console_scripts`."""
     if not isinstance(node, ast.Dict):
         return
     for key, value in zip(node.keys, node.values, strict=True):
@@ -115,7 +115,7 @@ def _scripts_of(node: ast.AST) -> Iterator[str]:
 
 
 def _installed(folder: Path, package: str) -> dict[str, str]:
-    """Files that may be run in `lib/<package>` of the prefix whose `share/<package>` this is."""
+    """Return executable files in `lib/<package>` of the prefix of this `share/<package>`."""
     if folder.parent.name != "share":
         return {}
     programs = folder.parent.parent / "lib" / package

@@ -112,7 +112,7 @@ class FolderMemory:
 
 
 def _load(file: Path | None) -> tuple[int, _Store]:
-    """The stored facts and when they were written; nothing when they are missing or spoiled."""
+    """Return the stored facts and their time; nothing when they are missing or broken."""
     if file is not None:
         with contextlib.suppress(OSError, msgspec.MsgspecError):
             store = msgspec.msgpack.decode(file.read_bytes(), type=_Store)

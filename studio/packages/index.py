@@ -89,7 +89,7 @@ class PackageIndex:
         return frozenset(self._by_name) | frozenset(self.chosen)
 
     def candidates(self, name: str, asking_file: Path | str) -> tuple[Path, ...]:
-        """The folders that may serve a name, the one that does first; empty when there is none.
+        """Return folders that may serve a name, the one that does first; empty without any.
 
         A chosen folder is the only one. Else those nearest to the user (see `Rank`); the
         package that the asking file itself lies in counts as opened though it be nested.

@@ -119,7 +119,7 @@ def zip_chunks(files: Iterable[PackedFile], served: ServedRoots) -> Iterator[byt
 
 
 def _spelled(name: str) -> str:
-    """A name that a zip can hold: bytes that are no letters on this disk become question marks."""
+    """Return a name for a zip: bytes that are not valid UTF-8 become question marks."""
     return name.encode("utf-8", "replace").decode()
 
 
@@ -163,7 +163,7 @@ class _Sink:
 
 
 def companions(mesh: Path, served: ServedRoots) -> list[Path]:
-    """Every served file that a mesh names, beside or below its folder, directly or by another."""
+    """Return served files that a mesh names, directly or by another, in or below its folder."""
     found: dict[Path, None] = {}
     waiting = [mesh]
     while waiting and len(found) < _LIMIT:

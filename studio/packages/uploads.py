@@ -311,7 +311,7 @@ class _Arranging:
         return {package_name(_start_of(one, SIZE_LIMIT_BYTES)) or "" for one in manifests}
 
     def _stand_in(self, package: str, wanted: dict[str, None]) -> Path | None:
-        """The folder below which most of the wanted files lie, or one into which they are put."""
+        """Return the folder with most of the wanted files, or one to put them into."""
         holding = Counter(folder for one in wanted for folder in self._holders(one))
         if holding:
             return holding.most_common(1)[0][0]

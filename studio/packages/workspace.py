@@ -293,7 +293,7 @@ def unpacked_folder(zip_path: Path, data_folder: Path) -> Path:
 
 
 def _unpacked(zip_path: Path, data_folder: Path, report: Progress) -> Path:
-    """The folder of a zip's content; what was edited there after an earlier opening stays."""
+    """Return the folder of a zip's content; edits after an earlier opening stay."""
     folder = unpacked_folder(zip_path, data_folder)
     uploads = folder.parent
     if is_folder(folder):

@@ -229,7 +229,7 @@ class Assembly:
 
 
 def assembled(expansion: Expansion) -> tuple[Robot, str]:
-    """The robot of a whole run, and what is wrong with it in a sentence, or an empty text."""
+    """Return the robot of a whole run, and what is wrong with it, a sentence or empty."""
     change = Assembly(expansion.robot_name).apply(expansion.part_order, expansion.changed_parts)
     if change.kept_last_good:
         fault = str(change.problems[0]) if change.problems else "It describes no robot."

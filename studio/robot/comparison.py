@@ -158,7 +158,7 @@ def _parents(robot: Robot) -> dict[str, Joint]:
 
 
 def _moved_row(one: Joint | None, other: Joint | None) -> Iterator[Row]:
-    """Return a row for a link under another parent, unless its joint has the same name."""
+    """Yield a row for a link under another parent, unless its joint has the same name."""
     if one is None or other is None or one.name != other.name:
         parents = one.parent if one else None, other.parent if other else None
         yield from text_row("parent", *parents)

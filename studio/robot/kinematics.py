@@ -131,7 +131,7 @@ class Kinematics:
         return np.concatenate((wxyz, world_from_links[..., :3, 3]), axis=-1)
 
     def wxyz_xyz_in_parents(self, positions: Floats) -> Floats:
-        """Pose of every link in its parent link, (..., L, 7), as `wxyz_xyz`; roots: identity."""
+        """Return links' poses in their parents, (..., L, 7), as `wxyz_xyz`; roots: identity."""
         parent_from_links = self._parent_from_child(positions)[..., :-1, :, :]
         wxyz = wxyz_from_matrices(parent_from_links[..., :3, :3])
         return np.concatenate((wxyz, parent_from_links[..., :3, 3]), axis=-1)
@@ -154,7 +154,7 @@ class Kinematics:
         return self._followed(np.clip(0.0, self.lower, self.upper))
 
     def random_positions(self, rng: np.random.Generator) -> Floats:
-        """A position within the limits for every joint; a whole turn where there are none."""
+        """Return positions within the limits of all joints; in a whole turn without limits."""
         middle, half = self._swing_range()
         return self._followed(middle + half * rng.uniform(-1.0, 1.0, len(self.movable)))
 
@@ -232,7 +232,7 @@ class Kinematics:
         return positions, links
 
     def _parent_from_child(self, positions: Floats) -> Floats:
-        """Pose of each link in its parent, (..., L + 1, 4, 4); roots and the world: identity."""
+        """Return links' poses in their parents, (..., L + 1, 4, 4); roots and world: identity."""
         if positions.ndim > 1:
             return self._links_at(positions)
         stood = self._stood  # an edit leaves the joints where they stand
@@ -346,7 +346,7 @@ def _range(joint: Joint) -> tuple[float, float]:
 
 
 def _leading(joint: Joint, joints: Mapping[str, Joint]) -> tuple[str, float, float]:
-    """The free joint at the head of a chain of mimics, and the chain as one multiplier, offset."""
+    """Return the free joint that a chain of mimics follows, with one multiplier and offset."""
     multiplier, offset = 1.0, 0.0
     for _ in range(len(joints)):
         mimic = joint.mimic

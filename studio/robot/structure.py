@@ -49,7 +49,7 @@ class Structure:
         return self.shape == _shape(robot)
 
     def pruned(self, robot: Robot) -> Robot:
-        """The robot without joints that hold nothing and without leaders that do not exist."""
+        """Return the robot without joints that hold nothing and leaders that do not exist."""
         if not self.dropped and not self.freed:
             return robot
         joints = {

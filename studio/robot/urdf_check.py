@@ -71,7 +71,7 @@ def _clean(text: str, problems: list[Problem]) -> bytes:
 
 
 def _broken_rules(robot: yourdfpy.URDF) -> Iterator[Problem]:
-    """Return the rules that each link and joint breaks; yourdfpy does not name the part."""
+    """Yield the rules that each link and joint breaks; yourdfpy does not name the part."""
     whole = robot.robot
     links, joints = list(whole.links), list(whole.joints)
     whole.links, whole.joints = [], []

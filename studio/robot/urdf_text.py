@@ -37,7 +37,7 @@ def robot_from_urdf(text: str) -> Robot:
 
 
 def _parts(root: ElementTree.Element) -> Iterator[Part]:
-    """Return the elements under their keys; a repeated name gets a number behind it."""
+    """Yield the elements under their keys; a repeated name gets a number behind it."""
     seen: dict[str, int] = {}
     for element in root:
         if element.tag in _KINDS:

@@ -143,7 +143,7 @@ def ghost_node(link: str) -> str:
 
 
 def live_node(display_id: str, *parts: str) -> str:
-    """The root of a display, or below it the group of a path, or below that one node of a shape."""
+    """Return the name of a display's root, of a path's group in it, or of a shape in that."""
     # An empty name would stand for the node above it.
     return "/".join((LIVE, *(_quoted(part) or "%" for part in (display_id, *parts))))
 

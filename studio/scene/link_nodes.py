@@ -183,7 +183,7 @@ def visual_nodes(context: LinkContext) -> Nodes:
 
 
 def _visual_node(visual: Visual, context: LinkContext) -> Node | None:
-    """A visual with its image, if it has one; until that comes, in the colour of its material."""
+    """Return a visual with its image, if any; until that comes, in its material's colour."""
     geometry, origin, material = visual.geometry, visual.origin, visual.material
     if material is not None and material.texture_uri:
         textured = context.shelf.get(textured_uri(geometry, material))

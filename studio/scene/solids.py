@@ -42,7 +42,7 @@ class UnitMesh:
 
 @cache
 def unit_mesh(kind: Kind) -> UnitMesh:
-    """A box, ball or cylinder around the origin, or a cone from its tip there to its base at z = 1.
+    """Return a box, ball or cylinder around the origin, or a cone from there to z = 1.
 
     All reach 0.5 m from the z axis.
     """
@@ -141,7 +141,7 @@ def linear(colors: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def many_of(shape: Solids, stream: str) -> dict[str, Node]:
-    """A node for each opacity that is there, in steps of 1/32; what cannot be seen is not drawn.
+    """Return a node for each opacity, in steps of 1/32; what is invisible is not drawn.
 
     viser's page could take an opacity for each, but would then make its mesh again with each
     message, and never give back what the one before took of the graphics processor.

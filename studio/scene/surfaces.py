@@ -24,7 +24,7 @@ _FULL: Final = 65535
 
 
 def surface_of(shape: Triangles, stream: str) -> dict[str, Node]:
-    """A node, or none when no triangle is left; triangles without all their corners are skipped."""
+    """Return a node, or None without triangles; those without all their corners are skipped."""
     vertices = np.ascontiguousarray(shape.vertices, np.float32)
     faces = np.ascontiguousarray(shape.faces, np.uint32)
     faces = faces[(faces < len(vertices)).all(axis=1)]

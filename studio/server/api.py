@@ -196,7 +196,7 @@ class Exports:
     async def urdf(
         self, document: str, meshes: Literal["package", "absolute", "copied"] = "package"
     ) -> Response:
-        """The expanded URDF; its meshes by package, by path, or copied beside it in a zip."""
+        """Return the expanded URDF; meshes by package, by path, or copied beside it in a zip."""
         return _sent(await self._engine.document(document).exports.urdf(meshes))
 
     async def package(

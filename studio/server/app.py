@@ -83,7 +83,7 @@ def check_role(connection: HTTPConnection) -> None:
 
 
 async def _answer_error(connection: Request | WebSocket, error: Exception) -> Response:
-    """An error of the studio as an answer in one sentence; a websocket is not opened then."""
+    """Return an error of the studio in one sentence; a websocket is not opened then."""
     status = next(status for kind, status in _STATUS if isinstance(error, kind))
     if isinstance(connection, WebSocket):
         return _plain(error, status)

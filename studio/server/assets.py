@@ -203,7 +203,7 @@ def _asset(path: str, contents: Mapping[str, bytes], modules: Modules) -> Asset:
 
 
 def _with_imports(path: str, contents: Mapping[str, bytes]) -> str:
-    """A stylesheet with those that it imports in the place of each import; `**` names several."""
+    """Return a stylesheet with its imports in place; `**` names several."""
 
     def imported(match: re.Match[str]) -> str:
         wanted = posixpath.normpath(posixpath.join(posixpath.dirname(path), match[1]))

@@ -68,7 +68,7 @@ def malformed(what: str, error: ValidationError) -> str:
 
 
 def request_of(text: bytes) -> int:
-    """The request number of a command that could not be parsed, 0 when even that is missing."""
+    """Return the request number of a command that could not be parsed, 0 without any."""
     if len(text) > COMMAND_LIMIT_BYTES:
         return 0
     try:

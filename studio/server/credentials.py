@@ -40,7 +40,7 @@ class Credentials:
         self._codes: set[str] = set()
 
     def token_of(self, role: Role) -> str | None:
-        """The token that an address carries; the viewer's does not betray the presenter's."""
+        """Return the token for an address; the viewer's does not reveal the presenter's."""
         if self.token is None or role is Role.PRESENTER:
             return self.token
         return _sign(self.token.encode(), role.value)

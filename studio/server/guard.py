@@ -210,7 +210,7 @@ def _cookies(headers: Headers) -> dict[str, str]:
 
 
 def _own_path(scope: Scope) -> str:
-    """The path as a redirect may carry it: one leading slash, else it would name another host."""
+    """Return a path for a redirect: one leading slash, else it would name another host."""
     return "/" + quote(scope["path"].lstrip("/\\"))
 
 

@@ -103,7 +103,7 @@ class Modules:
         return self._line(taken, path) + f"export {_taken(taken)}"
 
     def imported(self, roots: Iterable[str]) -> list[str]:
-        """The files that these import before they run, and what those import; without these."""
+        """Return all files that these import before they run, without these."""
         named = list(roots)
         found = dict.fromkeys(named)
         waiting = named.copy()

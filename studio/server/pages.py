@@ -87,7 +87,7 @@ def return_page(address: str) -> HTMLResponse:
 
 
 def studio_page(tree: Tree) -> HTMLResponse:
-    """The page itself: `{{base}}` is where its files are, `{{nonce}}` lets its import map run."""
+    """Return the page: `{{base}}` is where its files are, `{{nonce}}` is for its import map."""
     nonce = secrets.token_urlsafe(16)
     text = tree.index.replace("{{base}}", tree.base).replace("{{nonce}}", nonce)
     headers = {"content-security-policy": page_policy(nonce), "cache-control": "no-store"}

@@ -16,7 +16,7 @@ _PORTS_TRIED: Final = 100
 
 
 def bind(host: str, port: int | None) -> socket.socket:
-    """A listening socket: on the port that was asked for, else the default or the next free one.
+    """Return a listening socket: on the given port, else the default or the next free one.
 
     Raises:
         PortTakenError: The port that was asked for is taken.

@@ -93,7 +93,7 @@ class Site:
         return studio_page(self._assets.current())
 
     async def scene_page(self, document: str, request: Request) -> Response:
-        """The page of viser, to be shown inside ours; another version's would not be let in."""
+        """Return viser's page, to be shown inside ours; another version would be refused."""
         self._engine.document(document)
         answer = _send(_scene_page(self._assets.current()), request, "no-store")
         answer.headers["content-security-policy"] = SCENE_POLICY

@@ -125,7 +125,7 @@ class Arrivals:
         return np.where(known[:, 1], silent_ns > after_ns, silent_ns >= WINDOW_NS)
 
     def _lately(self, frames: Numbers, most: int) -> tuple[Numbers, Flags]:
-        """The last arrivals of each from the newest, shape (N, most), and which there were."""
+        """Return the last arrivals of each, newest first, shape (N, most), and which are valid."""
         back, counts = np.arange(most), self._count[frames, None]
         return self._times_ns[frames[:, None], (counts - 1 - back) % _KEPT], back < counts
 

@@ -215,7 +215,7 @@ class TransformBuffer:
         return [number for number in self._forest.numbers() if parents[number] >= 0]
 
     def _chains(self, fixed: str, frame: str) -> tuple[list[int], list[int]]:
-        """The frames whose edges lead up from the fixed frame, and from the other, to an ancestor.
+        """Return the frames from the fixed frame, and from the other, up to their ancestor.
 
         Raises:
             UnknownFrameError: One of them is in no transform.
@@ -236,7 +236,7 @@ class TransformBuffer:
         return down, up
 
     def _poses(self, frames: list[int], stamp_ns: int) -> tuple[list[Pose], int]:
-        """The poses of frames in their parents, at a time or at the newest common one; and when.
+        """Return poses of frames in their parents, at a time or the newest common one; and when.
 
         Raises:
             ExtrapolationError: One is not known at that time.

@@ -52,7 +52,7 @@ class FramesNow:
         return w, x, y, z, px, py, pz
 
     def root_of_most(self) -> str:
-        """The root of the largest tree, of several the first by name; empty without any frame."""
+        """Return the root of the largest tree, the first by name; empty without any frame."""
         if not self.names:
             return ""
         reached = np.where(self.parents == NONE, np.arange(len(self.names)), self.parents)

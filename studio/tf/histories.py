@@ -163,7 +163,7 @@ class Histories:
         return poses, known
 
     def pose_at(self, frame: int, stamp_ns: int) -> Pose | None:
-        """The pose of one frame that has rows at one time, or None when it is not known then."""
+        """Return the pose of a frame with rows at one time; None when it is not known then."""
         first, end = int(self._first[frame]), int(self._end[frame])
         if self._static[frame]:
             return self._pose(end - 1)
@@ -183,7 +183,7 @@ class Histories:
         return w, x, y, z, px, py, pz
 
     def _places(self, first: Numbers, end: Numbers, stamp_ns: int) -> Numbers:
-        """The first row of each whose stamp is not older, or its end: all searched at once."""
+        """Return the first row of each whose stamp is not older, or its end."""
         low, high = self._guess(first, end, stamp_ns)
         most = int((high - low).max(initial=0))
         for _ in range(most.bit_length()):

@@ -171,7 +171,7 @@ class _Writer:
         self._library, self._comments = library, comments
 
     def lines(self, text: str, nested: list[dict[str, str]], level: int) -> Iterator[str]:
-        """Return the lines of a text; below each field of a message, those of that message."""
+        """Yield the lines of a text; below each field of a message, those of that message."""
         part = 0
         keeps = self._comments is _Comments.ALL or (self._comments is _Comments.OWN and not level)
         for line in text.strip("\n").split("\n"):

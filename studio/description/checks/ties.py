@@ -92,7 +92,7 @@ class Holding:
             yield from self._lacking_end(lacking[0])
 
     def only_parent(self, child: str) -> str:
-        """The one link that a joint with this child can have as its parent; empty: not one."""
+        """Return the one possible parent of a joint with this child; empty: not one."""
         if child not in self.links or child in self._holders:
             return ""
         return _only([name for name in self.links if self._root(name) != child])
@@ -238,7 +238,7 @@ def _dangling(
 
 
 def _meant(name: str, links: dict[str, OutputElement]) -> str:
-    """The link whose name is nearly this one; blanks, dashes and underscores count as the same."""
+    """Return the link with nearly this name; blanks, dashes and underscores are the same."""
     plain = _SEPARATORS.sub("_", name.strip())
     for link in links:
         if _SEPARATORS.sub("_", link.strip()) == plain:

@@ -63,7 +63,7 @@ class EditorText:
         return self._bom_bytes + self._bytes_between(0, self.index_of(offset))
 
     def offset_at(self, byte: int) -> int:
-        """The editor's offset of the character that holds a byte; the nearest end outside."""
+        """Return the editor's offset of a byte's character; the nearest end outside."""
         decoder = codecs.getincrementaldecoder(self._encoding)("surrogateescape")
         before = decoder.decode(self.data[self._bom_bytes : max(byte, self._bom_bytes)])
         in_break = before.endswith("\r") and self._raw[len(before) : len(before) + 1] == "\n"

@@ -123,7 +123,7 @@ def _line_hunks(old: bytes, new: bytes) -> Iterator[Hunk]:
 
 
 def _trimmed(at: int, old: bytes, new: bytes) -> Iterator[Hunk]:
-    """Return one hunk without what both begin and end with; none when they are equal."""
+    """Yield one hunk without what both begin and end with; none when they are equal."""
     if old == new:
         return
     start = common_start(old, new)

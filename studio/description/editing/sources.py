@@ -82,7 +82,7 @@ class HeldText:
 
 
 def edits_between(file: str, old: bytes, new: bytes) -> tuple[Edit, ...]:
-    """The edits from one text to the other, the last place first: so each one's offsets hold."""
+    """Return the edits between two texts, the last place first: so offsets hold."""
     hunks = reversed(hunks_between(old, new))
     return tuple(Edit(file, hunk.start, hunk.end, hunk.new) for hunk in hunks)
 
@@ -172,7 +172,7 @@ class Sources:
         return frozenset(self._conflicts)
 
     def since_saved(self) -> tuple[Edit, ...]:
-        """The edits that lead from the files as they are saved to the texts as they are now."""
+        """Return the edits from the files as saved to the present texts."""
         texts = [self._texts[file] for file in self.unsaved_files]
         return tuple(edit for one in texts for edit in edits_between(one.file, one.disk, one.now))
 

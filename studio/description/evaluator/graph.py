@@ -260,7 +260,7 @@ class Scope:
         return self._names
 
     def find(self, name: str) -> tuple[Cell, Scope] | None:
-        """The cell that a name means here, and its scope; None for globals and unknown names."""
+        """Return the cell of a name, and its scope; None for globals and unknown names."""
         scope: Scope | None = self
         while scope is not None:
             cell = scope.cells.get(name)
@@ -435,7 +435,7 @@ def _when_seen(holder: Cell | Argument) -> float:
 
 
 def _shown(value: object) -> str:
-    """A value as text; a container only as such, it may be a whole file, others by their kind."""
+    """Return a value as text; a container, perhaps a whole file, and others by their kind."""
     if isinstance(value, dict):
         return "{...}"
     if isinstance(value, list | tuple | set):

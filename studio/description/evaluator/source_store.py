@@ -166,7 +166,7 @@ class SourceStore:
         self._data.update(changed)
 
     def held(self, path: str) -> tuple[SourceTree | None, Any | None]:
-        """The tree or the YAML values of a file as the last run had them, while they are true."""
+        """Return a file's tree or YAML values of the last run, while they are valid."""
         data, tree = self._data.get(path), self._trees.get(path)
         known = self._yaml.get(path)
         return (
@@ -200,7 +200,7 @@ class SourceStore:
             self._data[self.resolve(path)] = data
 
     def kept(self, before: SourceStore | None) -> SourceStore:
-        """The texts as they are, in a store of its own, which edits of this one do not reach.
+        """Return a copy of the store, which edits of this one do not reach.
 
         What `before`, an earlier one, has parsed of unchanged texts need not be parsed again.
         """

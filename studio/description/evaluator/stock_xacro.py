@@ -80,7 +80,7 @@ def export_urdf(
 def expand_root(
     file: str, arguments: Mapping[str, str], policy: ReadPolicy, store: SourceStore
 ) -> str:
-    """The expanded root element as XML, with the texts of a store; raises as `export_urdf`."""
+    """Return the expanded root element as XML, of a store; raises as `export_urdf`."""
     root = _process(file, arguments, _Guard(policy, store, Limits())).documentElement
     assert root is not None
     return root.toxml()

@@ -156,7 +156,7 @@ class _EvalNames(dict[str, Any]):
 
 
 def auto_typed(text: str) -> Any:  # noqa: ANN401
-    """An arg as `$(eval)` sees it: float with a point, else int, else true or false, else text."""
+    """Return an arg for `$(eval)`: float with a point, else int, true or false, or text."""
     try:
         return float(text) if "." in text else int(text)
     except ValueError:
@@ -164,7 +164,7 @@ def auto_typed(text: str) -> Any:  # noqa: ANN401
 
 
 def find_package(packages: Mapping[str, tuple[str, ...]], name: str, asking_file: str) -> str:
-    """The folder of a package: of several, the one that shares the longest path with the asker.
+    """Return the folder of a package: of several, that with the longest path in common.
 
     Raises:
         Fault: There is none of that name; its fix is to write one that is near, or to choose the

@@ -60,7 +60,7 @@ HELPERS: Final[dict[str, Any]] = {
 
 
 def helpers_of(steps: Callable[[Iterable[Any]], Iterator[Any]]) -> dict[str, Any]:
-    """The helpers of one run: each call, search and slice is a step, as each turn of a loop is."""
+    """Return the helpers of one run: each call, search, slice and turn of a loop is a step."""
 
     def counted(value: Any) -> Any:  # noqa: ANN401 - any value of a description
         return made(next(steps((value,))))

@@ -284,7 +284,7 @@ def attribute(value: Any, name: str) -> Any:  # noqa: ANN401 - any value of a de
 
 
 def _named(value: dict[str, Any], name: str) -> Any:  # noqa: ANN401
-    """A key of a namespace or YAML mapping, which both answer `__getattr__`, else a dict method."""
+    """Return a key of a namespace or YAML mapping by `__getattr__`, else a dict method."""
     if name in _DICT_READING:
         return getattr(value, name)
     find = getattr(type(value), "__getattr__", None)

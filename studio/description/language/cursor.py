@@ -142,7 +142,7 @@ class Cursor:
         return open_tags(self.text, index)
 
     def defining(self, tag: str, name: str) -> tuple[SourceElement, ...]:
-        """The properties or args of a name in the files of the run, those of this file first."""
+        """Return the properties or args of a name in the run, those of this file first."""
         definitions = self.reading.definitions
         found = definitions.named(tag, name) if definitions else []
         return tuple(sorted(found, key=lambda one: one.tree.path != self.file))

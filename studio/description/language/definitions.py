@@ -103,7 +103,7 @@ class Definitions:
         return tuple(dict.fromkeys(text for text in texts if text is not None))
 
     def namespaces_of(self, file: str) -> frozenset[str]:
-        """The prefixes under which a file's names are read; the entry's and most others': ``."""
+        """Return the prefixes of a file's names; for the entry and most others: ``."""
         return frozenset(self._namespaces.get(file) or {"": None})
 
     @cached_property
@@ -144,7 +144,7 @@ def _parameter(name: str, defaults: Mapping[str, Default]) -> Parameter:
 
 
 def parameter_bytes(macro: SourceElement, name: str) -> tuple[int, int] | None:
-    """The bytes with which a macro names its parameter, stars left out; None: it has none."""
+    """Return the bytes of a parameter's name in its macro, without stars; None: it has none."""
     tree = macro.tree
     try:
         span = attribute_spans(tree.data, macro.offset)["params"]
@@ -158,7 +158,7 @@ def parameter_bytes(macro: SourceElement, name: str) -> tuple[int, int] | None:
 
 
 def documentation_of(element: SourceElement) -> str:
-    """The comments on the lines right above an element, without rules, licences and old code."""
+    """Return comments right above an element, without rules, licences and old code."""
     text = "\n".join(filter(None, (_plain(one) for one in _comments_above(element))))
     return text if len(text) <= _LENGTH else text[: _LENGTH - 1] + "…"
 

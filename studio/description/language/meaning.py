@@ -59,7 +59,7 @@ def subject_at(cursor: Cursor) -> Subject | None:
 
 
 def yaml_subject_at(cursor: Cursor) -> Subject | None:
-    """The key or value of a YAML file that is on the line of a cursor; the nearest one there."""
+    """Return the key or value of a YAML file nearest to the cursor on its line."""
     editor = cursor.editor
     line = cursor.text.count("\n", 0, cursor.index) + 1
     scalars = [one for one in read_yaml_document(editor.data).scalars if one.line == line]
@@ -441,7 +441,7 @@ def _named_elsewhere(  # noqa: PLR0911 - one case a kind of attribute
 
 
 def _files(cursor: Cursor, attribute: Attribute, text: str) -> Subject | None:
-    """The files that an include brought in or a mesh came out as; else what the text names."""
+    """Return the files of an include or a mesh in the run; else what the text names."""
     found: list[str] = []
     definitions, element = cursor.reading.definitions, cursor.element
     if definitions is not None and element is not None:

@@ -53,7 +53,7 @@ def path_named(reading: Reading, text: str, asking_file: str) -> str | None:
 
 
 def existing(reading: Reading, text: str, asking_file: str) -> str:
-    """The resolved file or folder that a text means, if it is there and may be read; else empty."""
+    """Return the resolved path that a text means, if it exists and may be read; else empty."""
     path = path_named(reading, text, asking_file)
     real = reading.resolve(path) if path else None
     return real if real and Path(real).exists() else ""

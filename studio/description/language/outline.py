@@ -60,7 +60,7 @@ def _files(definitions: Definitions, reading: Reading) -> list[OutlineFile]:
 def _yaml_files(
     files: list[OutlineFile], definitions: Definitions, reading: Reading
 ) -> list[OutlineFile]:
-    """Yield each YAML file below the first mention of the file that loads it."""
+    """Return each YAML file below the first mention of the file that loads it."""
     numbers = {one.file: number for number, one in reversed(list(enumerate(files)))}
     return [
         OutlineFile(path, numbers.get(one.tree.path, 0), _start(one, reading), "", is_yaml=True)

@@ -207,7 +207,7 @@ class Reading:
     def tried(
         self, texts: Mapping[str, bytes], arguments: Mapping[str, str] | None = None
     ) -> Trace | None:
-        """A run with other texts or arguments; what is known stays. None: they do not run."""
+        """Return a run with other texts or arguments, as a trial. None: they do not run."""
         instead = self._mirror.instead
         self._mirror.use({**instead, **texts})
         given = self._arguments if arguments is None else arguments

@@ -245,7 +245,7 @@ def tags_before(text: str, index: int) -> Iterator[tuple[Tag, bool, bool]]:
 
 
 def segments_in(text: str, start: int, end: int) -> Iterator[Segment]:
-    """The `${...}` and `$(...)` of a value, cut as xacro cuts them; also those never closed."""
+    """Yield the `${...}` and `$(...)` of a value, cut as by xacro; also unclosed ones."""
     position = start
     while found := _OPENING.search(text, position, end):
         position = found.end()

@@ -158,7 +158,7 @@ class _Collector:
         )
 
     def _all(self, inputs: Iterable[Input]) -> tuple[int, ...]:
-        """The numbers of inputs, which are listed from now on; what is no text is left out."""
+        """Return the numbers of inputs, and list them; what is no text is left out."""
         numbers = (self._number(one) for one in inputs)
         return tuple(dict.fromkeys(number for number in numbers if number is not None))
 
@@ -285,7 +285,7 @@ def _characters(element: SourceElement, data: bytes) -> int:
 
 
 def walk_named(top: OutputElement, path: str = "") -> Iterator[tuple[str, OutputElement]]:
-    """A part and every element below it in document order, each with its path inside the part.
+    """Yield a part and every element below it in document order, with its path in the part.
 
     The part's own path is empty.
     """

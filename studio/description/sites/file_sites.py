@@ -177,7 +177,7 @@ class LiveSites:
 
 
 def yaml_sites(path: str, data: bytes) -> FileSites:
-    """Every scalar of a YAML file. Its heading is its section comment, else its parent key."""
+    """Return every scalar of a YAML file, under its section comment, else its parent key."""
     document = read_yaml_document(data)
     sites: list[FileSite] = []
     for scalar, remark in zip(document.scalars, _yaml_remarks(document), strict=True):
@@ -343,7 +343,7 @@ def _path_part(element: SourceElement) -> str:
 
 
 def _shown_parts(tree: SourceTree) -> dict[SourceElement, str]:
-    """The tag of each element inside a link, numbered among its like: `visual[2]` of several."""
+    """Return the tag of each element in a link, numbered: `visual[2]` of several."""
     likes: dict[tuple[SourceElement, str], list[SourceElement]] = {}
     for element in tree.elements:
         if element.parent is not None and element.tag in _AROUND - _NAMED:

@@ -192,7 +192,7 @@ def _key(binding: Binding) -> _BindingKey:
 
 
 def _compared_with(start: Input, reach: Reach) -> Iterator[str]:
-    """Return the texts that conditions compare it with, also under names it was passed on as."""
+    """Yield the texts that conditions compare it with, also under names it was passed on as."""
     yield from start.compared
     for dependent in reach.links(start).dependents:
         if dependent.compared and _passes_on(dependent, start):
@@ -225,7 +225,7 @@ class _YamlInputs:
         self._whole = {path_as_written(path, written, aliases) for path in document.whole}
 
     def of(self, path: KeyPath) -> list[Input]:
-        """The values read there; what was read through an alias counts where it is written."""
+        """Return the values read there; through an alias, where it is written."""
         return self._inputs.get(path, [])
 
     def site_of(self, path: KeyPath) -> str | None:

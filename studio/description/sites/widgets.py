@@ -260,7 +260,7 @@ def _refined(named: Quantity, used: set[Quantity]) -> Quantity:
 
 
 def parse_number(text: str) -> float | None:
-    """The finite number that a text is; None for anything else (also inf, nan and `1_000`)."""
+    """Return a text's finite number; None for anything else (inf, nan and `1_000`, too)."""
     if "_" in text:
         return None
     try:

@@ -72,7 +72,7 @@ def attribute_spans(data: bytes, offset: int) -> dict[str, Span]:
 
 
 def attribute_text(raw: bytes, encoding: str = "utf-8") -> str:
-    """The text that XML reads from a value's raw bytes: references resolved, blanks to spaces.
+    """Return the text of a value's raw bytes: references resolved, blanks to spaces.
 
     Raises:
         EditError: The bytes are not of that encoding.
@@ -83,7 +83,7 @@ def attribute_text(raw: bytes, encoding: str = "utf-8") -> str:
 
 
 def character_offsets(raw: bytes, encoding: str = "utf-8") -> tuple[str, list[int]]:
-    """The text of a value, and where each of its characters starts in `raw`; one more for the end.
+    """Return a value's text, and where each character starts in `raw`; one more for the end.
 
     Raises:
         EditError: The bytes are not of that encoding.

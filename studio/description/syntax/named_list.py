@@ -152,7 +152,7 @@ def lines_of(node: yaml.Node) -> tuple[int, int]:
 
 
 def _last_line(node: yaml.Node) -> int:
-    """The last line that a node has content on; a collection's own end lies behind its comments."""
+    """Return a node's last line of content; a collection's end is behind its comments."""
     match node:
         case yaml.MappingNode() if node.value and not node.flow_style:
             return max(_last_line(part) for pair in node.value for part in pair)

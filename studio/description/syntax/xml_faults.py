@@ -224,7 +224,7 @@ class FaultBook:
         return tuple(self._found)
 
     def pass_by(self, at: int) -> Place:
-        """The place of a byte behind all that were passed by before; counting goes on there."""
+        """Return the place of a byte behind all earlier ones; counting goes on there."""
         self._line, self._column = self._counted(self._at, self._line, self._column, at)
         self._at = at
         return Place(self._path, self._line, self._column)

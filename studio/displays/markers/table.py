@@ -296,7 +296,7 @@ def _doubled(column: NDArray[N]) -> NDArray[N]:
 def _items_of(  # noqa: PLR0913 - numbers of one marker
     columns: MarkerColumns, kind: int, begin: int, end: int, first: int, last: int, *, room: int
 ) -> Items:
-    """The points of a marker from `begin` on and its colours from `first` on, if there is room."""
+    """Return a marker's points from `begin` and colours from `first` on, if there is room."""
     count = end - begin
     if not 0 < count <= room:
         return NO_ITEMS

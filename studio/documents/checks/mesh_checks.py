@@ -103,7 +103,7 @@ class NearMeshes:
     named: Collection[str]
 
     def mended(self, found: Mapping[str, Problem]) -> dict[str, Problem]:
-        """The problems by URI that can be mended, each with its fix; `found` has their places."""
+        """Return the problems by URI that have a fix, with it; `found` has their places."""
         trees: dict[str, SourceTree | None] = {}
         made: dict[str, Problem] = {}
         for uri, problem in list(found.items())[:_SEARCHED]:

@@ -81,7 +81,7 @@ class NamedVariants:
         self._throttle = Throttle(self._refresh, first_s=_FIRST_S, pause_s=_PAUSE_S)
 
     def events(self) -> Iterable[Event]:
-        """Return the events for a new page."""
+        """Yield the events for a new page."""
         yield self._list()
         yield self._comparison.latest
 

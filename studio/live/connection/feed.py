@@ -91,7 +91,7 @@ class RobotFeed:
         self._closed = False
 
     def events(self) -> Iterable[WireFeed]:
-        """Return the events for a new page."""
+        """Yield the events for a new page."""
         yield self._state()
 
     async def choose(self, source: JointSource) -> None:

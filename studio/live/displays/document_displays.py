@@ -136,7 +136,7 @@ class DocumentDisplays:
             _log.warning("The display %s was left out: %s", spec.name, error)
 
     def events(self) -> Iterable[Event]:
-        """Return the events for a new page; with a page there, displays are drawn again."""
+        """Yield the events for a new page; with a page there, displays are drawn again."""
         self._seen_s = time.monotonic()
         self._go_on()
         yield self._displays()

@@ -47,13 +47,13 @@ _OTHER_NAMES: Final = {
 
 
 def findings(checked: CheckedRobot) -> Iterator[Finding]:
-    """Return what is wrong with the types, the limits and the axes of joints."""
+    """Yield what is wrong with the types, the limits and the axes of joints."""
     yield from _of_types(checked.robot, checked.element)
     yield from _of_limits(checked.robot, checked.element)
 
 
 def _of_limits(robot: Robot, element_of: Callable[[str], Element | None]) -> Iterator[Finding]:
-    """Return what is wrong with the limits and axes of the joints.
+    """Yield what is wrong with the limits and axes of the joints.
 
     Args:
         robot: As it is drawn.
@@ -107,7 +107,7 @@ def _range_findings(joint: Joint, limit: Limit) -> Iterator[Finding]:
 
 
 def _unwritten(joint: Joint, element: Element | None) -> Iterator[Finding]:
-    """Return an effort or velocity that the limit leaves out: urdfdom needs both."""
+    """Yield an effort or velocity that the limit leaves out: urdfdom needs both."""
     limit = None if element is None else element.find("limit")
     if limit is None:
         return
@@ -135,7 +135,7 @@ def _key(joint: Joint) -> str:
 
 
 def _of_types(robot: Robot, element_of: Callable[[str], Element | None]) -> Iterator[Finding]:
-    """Return joints of no or an unknown type; `element_of` as for the limits."""
+    """Yield joints of no or an unknown type; `element_of` as for the limits."""
     for joint in robot.joints.values():
         if joint.type is JointType.FIXED:
             element = element_of(_key(joint))

@@ -47,7 +47,7 @@ _TOO_NARROW: Final = 0.01
 
 
 def findings(checked: CheckedRobot) -> Iterator[Finding]:
-    """Return masses and moments that no body has, or not one of the link's shape."""
+    """Yield masses and moments that no body has, or not one of the link's shape."""
     yield from _of_masses(checked.robot, checked.extents)
     yield from _against_shapes(checked.robot, checked.extents)
 
@@ -99,7 +99,7 @@ def _moments_per_kg(shape: Box | Cylinder | Sphere) -> Floats:
 
 
 def _in_axes_of(inertial: Inertial, rpy: Vector3, moments: Floats) -> Floats:
-    """The tensor (3, 3) of moments about a turned solid's axes, in the axes of the inertial."""
+    """Return the tensor (3, 3) of a turned solid's moments, in the axes of the inertial."""
     link_from_solid = matrix_from_rpy(np.array(rpy))
     link_from_inertial = matrix_from_rpy(np.array(inertial.origin.rpy))
     turn = link_from_inertial.T @ link_from_solid

@@ -46,7 +46,7 @@ def rigid_bodies(robot: Robot) -> list[Body]:
 
 
 def findings(checked: CheckedRobot) -> Iterator[Finding]:
-    """Return moving bodies without mass or collision, and a root link with a mass.
+    """Yield moving bodies without mass or collision, and a root link with a mass.
 
     A robot that has no mass, or no collision, at all gets a single finding: it is made to be seen.
     """

@@ -46,7 +46,7 @@ def _more(last: Finding, count: int) -> Problem:
 
 
 def robot_findings(checked: CheckedRobot) -> Iterator[Finding]:
-    """Return the findings of every check, before their places and fixes are found."""
+    """Yield the findings of every check, before their places and fixes are found."""
     for check in _checks():
         yield from check(checked)
 

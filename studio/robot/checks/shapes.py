@@ -34,7 +34,7 @@ _DWARFS: Final = 100.0
 
 
 def findings(checked: CheckedRobot) -> Iterator[Finding]:
-    """Return collisions that do not fit their visuals, and shapes of an unlikely size."""
+    """Yield collisions that do not fit their visuals, and shapes of an unlikely size."""
     yield from _of_collisions(checked.robot, checked.extents)
     yield from _of_scales(checked.robot, checked.mesh_bounds)
 

@@ -155,7 +155,7 @@ class _Scene:
         return appearance, upwards
 
     def _stream(self, primitive: Primitive, name: str, width: int) -> Floats | None:
-        """The rows of an attribute, at least `width` wide; None when the primitive has none."""
+        """Return the rows of an attribute, at least `width` wide; None without it."""
         accessor = primitive.attributes.get(name)
         if accessor is None:
             return None

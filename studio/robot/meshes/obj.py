@@ -66,7 +66,7 @@ def _three(rest: str) -> list[str]:
 
 
 def _file_name(rest: str) -> str:
-    """The name behind options such as `-s 1 1 1`; a name may hold blanks, options start with -."""
+    """Return the name behind options such as `-s 1 1 1`; a name may have blanks."""
     if not rest.startswith("-"):
         return rest
     return rest.rsplit(maxsplit=1)[-1]
@@ -138,7 +138,7 @@ def _sort_lines(text: str) -> _Lines:
 
 
 def _corners(rest: str, lines: _Lines) -> list[str]:
-    """The corners of a face; those counted from the end are counted from the start instead."""
+    """Return the corners of a face, all counted from the start."""
     parts = rest.partition("#")[0].split()
     if "-" not in rest:
         return parts

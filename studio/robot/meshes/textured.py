@@ -34,7 +34,7 @@ def textured_uri(geometry: Geometry, material: Material | None) -> str:
 
 
 def split_textured(uri: str) -> tuple[str, str]:
-    """Shape and image of a textured primitive; an empty shape and the URI for a mesh file."""
+    """Return a textured primitive's shape and image; for a mesh file "" and the URI."""
     if not uri.startswith(_SCHEME):
         return "", uri
     shape, _, image = uri.removeprefix(_SCHEME).partition(":")
@@ -127,7 +127,7 @@ def _sphere() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def _wrapped(
     rings: NDArray[np.float64], z: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A grid of quads: `rings` (around + 1, levels, 2) at the heights `z`, image once round."""
+    """Return a grid of quads: `rings` (around + 1, levels, 2) at heights `z`, image once round."""
     around, levels = rings.shape[0] - 1, len(z)
     points = np.concatenate(
         [rings, np.broadcast_to(z[None, :, None], (around + 1, levels, 1))], axis=2

@@ -109,7 +109,7 @@ def _by_first_appearance(
 
 
 def crease_normals(positions: Floats) -> tuple[Floats, NDArray[np.intp]]:
-    """A unit normal for each corner: the mean over the faces that meet there without a crease.
+    """Return each corner's unit normal: the mean over faces that meet there without a crease.
 
     And for each corner the first corner that it shares both point and normal with.
 

@@ -279,7 +279,7 @@ class Replies:
         return self._handler.try_recv()
 
     def cancel(self) -> None:
-        """Return the request up."""
+        """Give the request up."""
         cast("Any", self._token).cancel()  # whose return is not typed
 
 
