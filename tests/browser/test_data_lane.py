@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(400)]
 
-MESSAGES = 30_000
-"""Of half a minute."""
+MESSAGES = [6_000, pytest.param(30_000, marks=pytest.mark.sweep)]
+"""Of six seconds, and of half a minute."""
 _COUNTS = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   const { samplesOf } = await import(new URL("../model/plotting.js", script));
@@ -100,17 +100,18 @@ def draw_all(tab: StudioPage) -> None:
     wait_until("all lines", lambda: lines.count() == SERIES)
 
 
-def count_all(tab: StudioPage) -> None:
-    """Every number as it was sent, for half a minute."""
+def count_all(tab: StudioPage, messages: int) -> None:
+    """Every number as it was sent, all the time."""
     came = lambda: tab.page.evaluate(_COME)  # noqa: E731
-    wait_until("half of them", lambda: came() > MESSAGES / 2)
-    wait_until("all of them", lambda: came() >= MESSAGES)
-    expected = [[MESSAGES, 1 + at, True] for at in range(SERIES)]
+    wait_until("half of them", lambda: came() > messages / 2)
+    wait_until("all of them", lambda: came() >= messages)
+    expected = [[messages, 1 + at, True] for at in range(SERIES)]
     wait_until("every number as it was sent", lambda: tab.page.evaluate(_COUNTS) == expected)
 
 
+@pytest.mark.parametrize("messages", MESSAGES)
 def test_v2_v3_t1_t3_a_click_echoes_a_topic_and_a_drag_draws_every_number_as_it_was_sent(
-    browser: Browser, studio: RunningStudio, endpoint: str
+    browser: Browser, studio: RunningStudio, endpoint: str, messages: int
 ):
     with (
         running_demo(endpoint, "talker") as talker,
@@ -135,8 +136,8 @@ def test_v2_v3_t1_t3_a_click_echoes_a_topic_and_a_drag_draws_every_number_as_it_
         draw_all(tab)
         subscribed = lambda: tab.page.evaluate(_SUBSCRIBED, TOPIC)  # noqa: E731
         wait_until("the plot to be subscribed", subscribed)
-        eight.publish_at_1_khz(MESSAGES)
-        count_all(tab)
+        eight.publish_at_1_khz(messages)
+        count_all(tab, messages)
 
         eight.end()
         silence = tab.page.get_by_text("Nobody publishes it now.")

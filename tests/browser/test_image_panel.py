@@ -100,7 +100,7 @@ def test_a_camera_of_1080p_at_30_hz_is_seen_picture_after_picture(browser: Brows
         running_router() as endpoint,
         running_studio([*ROUTERLESS, endpoint], tmp_path / "data") as studio,
         numbered_camera(endpoint, SIZE, RATE_HZ) as camera,
-        studio_page(browser, studio) as tab,
+        studio_page(browser, studio, view=False) as tab,
     ):
         connect(tab)
         tab.page.evaluate(SHOW_PANEL, "image")

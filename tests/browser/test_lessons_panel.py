@@ -98,7 +98,7 @@ def a_viewer_reads_and_starts_nothing(browser: Browser, studio: RunningStudio) -
     context = studio_context(browser)
     try:
         viewer = StudioPage(context.new_page())
-        viewer.open(address)
+        viewer.open(address, view=False)
         panel = lessons_of(viewer)
         panel.get_by_text("Only the presenter can start and stop demos.").wait_for()
         panel.get_by_text("Running for").first.wait_for()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
     from pathlib import Path
 
-    from playwright.sync_api import Browser, Locator
+    from playwright.sync_api import Browser, Locator, ViewportSize
 
     from studio.ros.client import Node
     from tests.support.server import RunningStudio
@@ -30,6 +30,8 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(400)
 TF = "tf2_msgs/msg/TFMessage"
 POSE = "geometry_msgs/msg/PoseStamped"
 SCAN = "sensor_msgs/msg/LaserScan"
+SMALL: Final[ViewportSize] = {"width": 1000, "height": 600}
+"""For the picture is drawn whenever a message comes."""
 SCANS = re.compile(r"LaserScan, .scan · .+ Hz")
 DISCONNECT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
@@ -56,10 +58,10 @@ def space() -> Any:  # noqa: ANN401
 
 def scan() -> Any:  # noqa: ANN401
     """A wall all around the robot."""
-    one = message(SCAN)(angle_min=-math.pi, angle_max=math.pi, angle_increment=math.pi / 90)
+    one = message(SCAN)(angle_min=-math.pi, angle_max=math.pi, angle_increment=math.pi / 30)
     one.header.frame_id = "base_link"
     one.range_min, one.range_max = 0.1, 10.0
-    one.ranges = [0.8] * 180
+    one.ranges = [0.8] * 60
     return one
 
 
@@ -77,7 +79,7 @@ def told(endpoint: str) -> Generator[Node]:
                 one.header.stamp = node.get_clock().now().to_msg()
                 publisher.publish(one)
 
-        node.create_timer(0.2, tell)
+        node.create_timer(0.5, tell)
         yield node
 
 
@@ -118,6 +120,7 @@ def test_topics_are_added_mended_by_a_click_set_in_the_tree_and_seen_in_3d(
     browser: Browser, studio: RunningStudio, endpoint: str
 ):
     with told(endpoint), studio_page(browser, studio) as tab:
+        tab.page.set_viewport_size(SMALL)
         plain = tab.plain_picture()
         add(tab, "/scan")
         wait_until("the rate of the scan", lambda: row(tab, SCANS).count() == 1)
@@ -190,7 +193,7 @@ def viewer_sees(browser: Browser, studio: RunningStudio) -> None:
     address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
     context = studio_context(browser)
     other = StudioPage(context.new_page())
-    other.open(address)
+    other.open(address, view=False)
     row(other, "LaserScan").click()
     style = other.page.get_by_role("combobox", name="LaserScan: Style")
     assert style.input_value() == "Spheres"

@@ -117,7 +117,7 @@ def test_the_window_on_ros_says_where_and_a_viewer_sees_it_and_changes_nothing(
         address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
         context = studio_context(browser)
         other = StudioPage(context.new_page())
-        other.open(address)
+        other.open(address, view=False)
         other.page.get_by_role("tab", name="Joints").click()
         wait_until("the viewer is told", lambda: "connected, 1 other node" in status(other))
         switches = (switch(other, "Publish the robot"), switch(other, "Publish the joints"))

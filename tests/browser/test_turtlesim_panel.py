@@ -176,7 +176,7 @@ def test_turtles_and_jerry_are_drawn_and_do_what_their_panels_say(browser: Brows
             ["demo", "--connect", router, "--router", "off"], tmp_path / "data"
         ) as studio,
         node_at(router) as node,
-        studio_page(browser, studio) as tab,
+        studio_page(browser, studio, view=False) as tab,
     ):
         connect(tab)
         shown(tab, "turtlesim").get_by_text("No turtlesim is running here.").wait_for()

@@ -149,7 +149,7 @@ def viewer(browser: Browser, studio: RunningStudio, tab: StudioPage) -> Iterator
     address = studio.process.stdout.readline().removeprefix("Viewer: ").strip()
     context = studio_context(browser)
     made = StudioPage(context.new_page())
-    made.open(address)
+    made.open(address, view=False)
     made.page.keyboard.press("Control+2")
     yield made
     assert made.errors == []

@@ -11,6 +11,7 @@ import sys
 import pytest
 
 from tests.support.patience import ended_within
+from tests.support.warm_python import NODE, start_python
 from tests.support.wire import free_endpoint
 
 ENDS_WITHIN_S = 2.0
@@ -72,22 +73,27 @@ rate.sleep()
 }
 
 
-def ended_by(number: signal.Signals, program: str, endpoint: str) -> tuple[int, str]:
+def ended_by(
+    number: signal.Signals, program: str, endpoint: str, *, warm: bool = True
+) -> tuple[int, str]:
     """Run a program until it says that it is ready, signal it, and give its code and errors."""
-    with subprocess.Popen(
+    process = start_python(
         [sys.executable, "-c", PREPARED + program, endpoint],
-        stdout=subprocess.PIPE,
+        os.environ,
         stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        assert process.stdout is not None
-        assert process.stdout.readline() == "ready\n"
+        imported=NODE if warm else (),
+    )
+    assert process.stdout is not None
+    assert process.stderr is not None
+    with process.stdout as printed, process.stderr as errors:
+        assert printed.readline() == "ready\n"
         process.send_signal(number)
         try:
             code = ended_within(process, ENDS_WITHIN_S)
         finally:
             process.kill()
-        return code, process.communicate()[1]
+            process.wait()
+        return code, errors.read()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda one: one.name)
@@ -95,7 +101,7 @@ def ended_by(number: signal.Signals, program: str, endpoint: str) -> tuple[int, 
 def test_a_signal_ends_a_node_within_two_seconds(
     moment: str, number: signal.Signals, endpoint: str
 ):
-    code, errors = ended_by(number, MOMENTS[moment], endpoint)
+    code, errors = ended_by(number, MOMENTS[moment], endpoint, warm=moment != "spinning")
     assert "Fatal" not in errors
     if number == signal.SIGINT:
         assert code == -signal.SIGINT
