@@ -6,14 +6,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, changed_bytes, studio_page, wait_until
+from tests.support.studio_page import StudioPage, changed_bytes, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
-    from playwright.sync_api import Browser, Locator
+    from playwright.sync_api import Locator
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
@@ -34,15 +32,9 @@ _LISTEN = """() => {
 
 
 @pytest.fixture
-def data(tmp_path: Path) -> Path:
-    return tmp_path / "data"
-
-
-@pytest.fixture
-def tab(browser: Browser, data: Path) -> Iterator[StudioPage]:
-    with running_studio(["demo"], data) as studio, studio_page(browser, studio, view=False) as page:
-        page.page.evaluate(_LISTEN)
-        yield page
+def tab(tab: StudioPage) -> StudioPage:
+    tab.page.evaluate(_LISTEN)
+    return tab
 
 
 def used(tab: StudioPage) -> dict[str, int]:
@@ -58,6 +50,7 @@ def is_seen(one: Locator) -> bool:
     return box is not None and box["y"] >= 0 and box["y"] + box["height"] <= 720
 
 
+@pytest.mark.without_view
 def test_what_sets_the_wheel_size_is_found_in_two_clicks_and_saved_with_a_drag_and_two_keys(
     tab: StudioPage, data: Path, models: Path
 ):

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_context, wait_until
+from tests.support.studio_page import wait_until
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from playwright.sync_api import Locator, WebSocketRoute
 
-    from playwright.sync_api import Browser, Locator, WebSocketRoute
+    from tests.support.shared_tab import SharedTab
+    from tests.support.studio_page import StudioPage
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(240)]
 
@@ -48,24 +48,21 @@ def region(tab: StudioPage, name: str) -> Locator:
     return tab.page.locator(f"section[aria-label='{name}']")
 
 
-def test_a_refused_question_is_said_and_asked_again(browser: Browser, tmp_path: Path):
+def test_a_refused_question_is_said_and_asked_again(shared: SharedTab):
     wrong = WrongAddress()
-    with running_studio(["demo"], tmp_path / "data") as studio:
-        context = studio_context(browser)
-        tab = StudioPage(context.new_page())
-        tab.page.route_web_socket("**/control*", wrong.route)
-        tab.open(studio.url)
-        for kind, (name, word) in _SHOWS.items():
-            panel = region(tab, name)
-            said = panel.get_by_role("alert")
-            wait_until(f"the refusal of {name}", lambda said=said: said.count() == 1)
-            assert 'No document "another" is open' in said.inner_text()
-            wrong.kinds.discard(kind)
-            panel.get_by_role("button", name="Try again").click()
-            wait_until(
-                f"what {name} shows",
-                lambda panel=panel, word=word: word in panel.inner_text(),
-            )
-            wait_until("no refusal", lambda panel=panel: panel.get_by_role("alert").count() == 0)
-        assert tab.errors == []
-        context.close()
+    shared.anew()
+    shared.page.route_web_socket("**/control*", wrong.route)
+    tab = shared.opened(view=False)
+    for kind, (name, word) in _SHOWS.items():
+        panel = region(tab, name)
+        said = panel.get_by_role("alert")
+        wait_until(f"the refusal of {name}", lambda said=said: said.count() == 1)
+        assert 'No document "another" is open' in said.inner_text()
+        wrong.kinds.discard(kind)
+        panel.get_by_role("button", name="Try again").click()
+        wait_until(
+            f"what {name} shows",
+            lambda panel=panel, word=word: word in panel.inner_text(),
+        )
+        wait_until("no refusal", lambda panel=panel: panel.get_by_role("alert").count() == 0)
+    assert tab.errors == []
