@@ -13,7 +13,7 @@ from PIL import Image
 from studio.robot.values import Box, Cylinder, Link, Origin, Visual
 from studio.scene.link_nodes import MeshShelf
 from studio.scene.robot_drawing import Ground
-from tests.support.studio_page import wait_until
+from tests.support.studio_page import ACTION_PATIENCE_MS, wait_until
 from tests.support.watched_scene import watched
 
 if TYPE_CHECKING:
@@ -81,18 +81,18 @@ def test_it_opens_from_the_disk_and_turns_under_the_mouse(browser: Browser, tmp_
     file = tmp_path / "rover.html"
     with ThreadPoolExecutor(1) as thread:  # this one has the loop that speaks with the browser
         file.write_bytes(thread.submit(page_of_rover, dark=False).result())
-    context = browser.new_context(viewport={"width": 640, "height": 480}, offline=True)
+    context = browser.new_context(viewport={"width": 320, "height": 240}, offline=True)
     page = context.new_page()
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.goto(file.as_uri())
-    wait_until("the robot to be there", lambda: bool(page.evaluate(_DRAWN)))
+    page.wait_for_function(_DRAWN, timeout=ACTION_PATIENCE_MS)
     canvas = page.locator("canvas[data-engine]")
     wait_until("its pixels", lambda: colours_of(canvas.screenshot()) > 100)
     before = canvas.screenshot()
-    page.mouse.move(320, 240)
+    page.mouse.move(160, 120)
     page.mouse.down()
-    page.mouse.move(420, 240, steps=4)
+    page.mouse.move(260, 120, steps=2)
     page.mouse.up()
     wait_until("the robot to turn", lambda: canvas.screenshot() != before)
     assert {url.partition(":")[0] for url in asked} <= {"file", "blob", "data"}
