@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import zipfile
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 
@@ -13,7 +13,10 @@ from tests.support.open_documents import engine, opened
 from tests.support.packages import write_package
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine, Iterator
     from pathlib import Path
+
+    from studio.documents.engine import Engine
 
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
@@ -79,6 +82,25 @@ BESIDE = {
 GOOD = robot('<xacro:property name="length" value="1"/><link name="l${length}"/>')
 
 
+class RunningEngine(NamedTuple):
+    """An engine on a loop that stands between tests."""
+
+    made: Engine
+    run: Callable[[Coroutine[None, None, None]], None]
+
+
+@pytest.fixture(scope="module")
+def one_engine(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningEngine]:
+    """One for all bad files: each is the next file of the one before."""
+    with asyncio.Runner() as runner:
+        opening = engine(tmp_path_factory.mktemp("engine") / "data")
+        made = runner.run(opening.__aenter__())
+        try:
+            yield RunningEngine(made, runner.run)
+        finally:
+            runner.run(opening.__aexit__(None, None, None))
+
+
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
     """A package with the files beside the bad one."""
@@ -88,7 +110,7 @@ def package(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize("case", BAD)
 def test_a_bad_file_is_one_sentence_and_the_next_file_opens(
-    case: str, package: Path, tmp_path: Path
+    case: str, package: Path, one_engine: RunningEngine
 ):
     bad = package / "urdf" / "bad.urdf.xacro"
     content = BAD[case]
@@ -97,19 +119,20 @@ def test_a_bad_file_is_one_sentence_and_the_next_file_opens(
     good.write_text(GOOD)
 
     async def run() -> None:
-        async with engine(tmp_path / "data") as made:
-            document, ear = await opened(made, bad)
-            assert document.last_run.phase == "failed"
-            (problem,) = ear.last("problems")["problems"]
-            assert problem["severity"] == "error"
-            assert problem["place"]["file"].startswith(str(package))
-            assert problem["sentence"].strip().endswith((".", ")", "?"))
-            assert "root:" not in problem["sentence"]
-            assert "Traceback" not in problem["sentence"]
-            after, _ = await opened(made, good)
-            assert list(after.model.robot.links) == ["l1", "base"]
+        document, ear = await opened(one_engine.made, bad)
+        assert document.last_run.phase == "failed"
+        (problem,) = ear.last("problems")["problems"]
+        assert problem["severity"] == "error"
+        assert problem["place"]["file"].startswith(str(package))
+        assert problem["sentence"].strip().endswith((".", ")", "?"))
+        assert "root:" not in problem["sentence"]
+        assert "Traceback" not in problem["sentence"]
+        await one_engine.made.close_document(document, discard=True)
+        after, _ = await opened(one_engine.made, good)
+        assert list(after.model.robot.links) == ["l1", "base"]
+        await one_engine.made.close_document(after, discard=True)
 
-    asyncio.run(run())
+    one_engine.run(run())
 
 
 def test_a_file_that_was_cut_off_is_drawn_as_far_as_it_goes(package: Path, tmp_path: Path):
