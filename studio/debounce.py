@@ -32,7 +32,7 @@ class Debouncer:
         self._task: asyncio.Task[None] | None = None
 
     def trigger(self) -> None:
-        """Begin the quiet time again."""
+        """Start the pause again."""
         self.cancel()
         self._task = asyncio.create_task(self._run())
 

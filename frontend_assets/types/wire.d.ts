@@ -829,7 +829,7 @@ export interface Frames {
   origins: Record<string, [number, number, number, number, number, number]>;
 }
 
-/** Ask which actions somebody serves. */
+/** Ask for the actions that have a server. */
 export interface GetActions {
   request?: number;
   document?: string;
@@ -1057,7 +1057,7 @@ export interface GetRenaming {
   name: string;
 }
 
-/** Ask which services somebody serves. */
+/** Ask for the services that have a server. */
 export interface GetServices {
   request?: number;
   document?: string;
@@ -1401,7 +1401,7 @@ export interface ListRecent {
   type: "list_recent";
 }
 
-/** Ask which topics anybody publishes or subscribes to. */
+/** Ask for the topics that have a publisher or a subscription. */
 export interface ListTopics {
   request?: number;
   document?: string;
@@ -2578,7 +2578,7 @@ export interface TopicTable {
   topics: TopicRow[];
 }
 
-/** A topic that somebody publishes. */
+/** A topic that has a publisher. */
 export interface TopicView {
   name: string;
   types: string[];

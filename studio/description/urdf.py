@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def urdf_text(parts: Iterable[Part], root_attributes: Iterable[tuple[str, str]]) -> str:
     """Return a robot of these parts as URDF text, one indented element after the other.
 
-    May run in any thread; a large robot takes some time.
+    Thread-safe; a large robot takes some time.
     """
     root = ElementTree.Element("robot", dict(root_attributes))
     root.extend(part_element(part, root.attrib) for part in parts)

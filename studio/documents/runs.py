@@ -274,7 +274,6 @@ class Runs:
         """Run with the changes since the last run, and take the outcome.
 
         A worker that has lost its robot, just now or earlier, gets everything once more, unnoticed.
-        more: then nobody notices.
         """
         version = self._sources.spans.version
         outcome = await self._run_changes()

@@ -82,7 +82,7 @@ _NAMES: Final = (_DESCRIPTION, _FREQUENCY, _IGNORE, _PREFIX)
 
 
 class RobotStatePublisher:
-    """Publishes `robot_description`, `/tf_static` and `/tf` by a node; any thread may ask.
+    """Publishes `robot_description`, `/tf_static` and `/tf` by a node; thread-safe.
 
     Positions come by `place`, or after `listen` from `joint_states`.
     """

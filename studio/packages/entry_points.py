@@ -87,7 +87,7 @@ class _RefusedError(Exception):
 
 
 class _DoneError(Exception):
-    """Enough was seen."""
+    """Ends the reading early."""
 
 
 class _OutlineReader:

@@ -19,13 +19,13 @@ bits, stands in it as a text."""
 
 
 class GetServices(Command):
-    """Ask which services somebody serves."""
+    """Ask for the services that have a server."""
 
     type: Literal["get_services"] = "get_services"
 
 
 class GetActions(Command):
-    """Ask which actions somebody serves."""
+    """Ask for the actions that have a server."""
 
     type: Literal["get_actions"] = "get_actions"
 

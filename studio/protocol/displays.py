@@ -226,7 +226,7 @@ class DisplayStates(Event):
 
 
 class TopicView(Message):
-    """A topic that somebody publishes."""
+    """A topic that has a publisher."""
 
     name: str
     types: tuple[str, ...]

@@ -56,7 +56,7 @@ class FollowParameters(Command):
 
     type: Literal["follow_parameters"] = "follow_parameters"
     node: str = Field(default="", max_length=NAME_MAX)
-    """Empty: of none any more."""
+    """Empty: of no node any more."""
 
 
 class ParameterNodes(Event):
@@ -125,5 +125,5 @@ class ParametersChanged(Event):
     type: Literal["parameters_changed"] = "parameters_changed"
     node: str
     parameters: tuple[ParameterView, ...]
-    """With their values alone."""
+    """With values, without descriptors."""
     gone: tuple[str, ...]

@@ -9,7 +9,7 @@ from studio.protocol.message import Command, Event, Message
 
 
 class ListTopics(Command):
-    """Ask which topics anybody publishes or subscribes to."""
+    """Ask for the topics that have a publisher or a subscription."""
 
     type: Literal["list_topics"] = "list_topics"
 

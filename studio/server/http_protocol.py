@@ -67,7 +67,7 @@ class StudioConnection(HttpToolsProtocol):
         self._limit_time()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Leave the crowd."""
+        """Remove the connection from the crowd."""
         self._crowd.leave(self)
         self._allow_time()
         super().connection_lost(exc)

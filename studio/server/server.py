@@ -30,7 +30,7 @@ class Life(Protocol):
     """Starts and ends with the server, on its loop."""
 
     async def begin(self) -> None:
-        """Before the first request."""
+        """Begin, before the first request."""
         ...
 
     async def answering(self) -> None:
@@ -51,7 +51,7 @@ class Server(uvicorn.Server):
         self._life = life
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Begin, listen, go on."""
+        """Begin the life, listen, and answer."""
         await self._life.begin()
         await super().startup(sockets)
         await self._life.answering()

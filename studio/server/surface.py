@@ -88,7 +88,7 @@ class OpenDocuments(Protocol):
 
     @property
     def browser_topics(self) -> SubscribesTopics:
-        """Hears topics for browsers."""
+        """The subscriptions of browsers."""
         ...
 
     @property

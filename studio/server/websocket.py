@@ -72,12 +72,12 @@ class StudioSocket(WebSocketsSansIOProtocol):
         self._frame_count = 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Begin as a stranger."""
+        """Count the new connection as a stranger's."""
         super().connection_made(transport)
         self._crowd.arrive(self)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Leave the crowd, and forget what was held."""
+        """Remove the connection from the crowd, and forget what was held."""
         self._crowd.leave(self)
         self._held.clear()
         if self._rest is not None:

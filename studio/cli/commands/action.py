@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 def add(parser: argparse.ArgumentParser) -> None:
     """Add the verbs of `action` to the parser."""
     verbs = Verbs(parser)
-    listing = verbs.add("list", _list, "name the actions that somebody serves")
+    listing = verbs.add("list", _list, "list the actions")
     add_listing_options(listing, "actions")
     add_graph_options(listing)
     info = verbs.add("info", _info, "print the servers and clients of an action")

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 def add(parser: argparse.ArgumentParser) -> None:
     """Add the verbs of `service` to the parser."""
     verbs = Verbs(parser)
-    listing = verbs.add("list", _list, "name the services that somebody serves")
+    listing = verbs.add("list", _list, "list the services")
     add_listing_options(listing, "services")
     add_graph_options(listing)
     info = verbs.add("info", _info, "print the type of a service and how many serve and call it")

@@ -45,7 +45,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Merge:
-    """Every place that somebody changed, in order, and those of them where both collide."""
+    """All changes of both sides, in order, and those that collide."""
 
     base: bytes
     places: tuple[Place, ...]

@@ -279,7 +279,7 @@ class Texts:
         return cell.value
 
     def undefined(self, name: str, scope: Scope) -> Fault:
-        """No scope has the name."""
+        """Return the fault of a name that no scope has."""
         if name in self.arguments:
             return Fault("undefined-property", f'"{name}" is an arg: read it with $(arg {name}).')
         if scope.find(f"**{name}"):

@@ -1,4 +1,4 @@
-"""A place in a text that somebody asks about, with the element of the run that it is in."""
+"""A place in a text, with the element of the run that it is in."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 _LINE_END: Final = re.compile(rb"\r\n?|\n")
 ATTRIBUTES_KEPT: Final = 400
-"""PR2's largest part has 130."""
+"""Limit for one part; PR2's largest has 130."""
 INPUTS_KEPT: Final = 500
 _TEXT_KEPT: Final = 2_000
 """Characters of a text or value; one may be a whole file."""

@@ -1,4 +1,4 @@
-"""Start tags as somebody typed them: what their attributes were meant to be, and what is wrong."""
+"""Broken start tags: what their attributes were meant to be, and what is wrong."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ class SourceElement:
 
     @property
     def line(self) -> int:
-        """Of its place."""
+        """The line of its place."""
         return self.place.line
 
     @property

@@ -137,7 +137,7 @@ class Columns(NamedTuple):
     colors: Whole
     """Number of colours of each."""
     nameless: Flags
-    """Which name no frame."""
+    """Whether each lacks a frame."""
 
 
 def problems_of(markers: Columns) -> NDArray[np.uint8]:

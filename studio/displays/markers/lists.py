@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from studio.displays.markers.table import Rows
 
 _OPAQUE: Final = 0.9998
-"""RViz blends below it."""
+"""Below this opacity RViz blends."""
 
 
 def points_of(markers: Rows) -> dict[str, Shape]:

@@ -52,7 +52,7 @@ class Named(NamedTuple):
 
     texts: tuple[MarkerTexts, ...]
     namespaces: list[str]
-    """Of each."""
+    """Namespace of each."""
     pairs: NDArray[np.int64]
     """Shape (M,): the same number where frame and namespace are the same."""
     nameless: Flags

@@ -21,7 +21,7 @@ _PREFIX: Final = "frame_prefix"
 
 
 class RobotOut:
-    """Publishes one robot; any thread may call it.
+    """Publishes one robot; thread-safe.
 
     Args:
         node: That publishes it.

@@ -51,7 +51,7 @@ class DisplayFile:
         return msgspec.structs.replace(kept, displays=kept.displays[:DISPLAYS_MAX])
 
     def write(self, kept: KeptDisplays) -> None:
-        """Keep this from now on; in any thread. What the disk refuses is logged."""
+        """Write the file; thread-safe. Errors of the disk are logged."""
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(self._path, msgspec.json.encode(kept), mode=0o600)

@@ -67,7 +67,6 @@ class DocumentDisplays:
     """Carries out the commands about displays, and ticks while there is anything to draw.
 
     A command that fails raises a CommandError or DisplayError and leaves everything as it was.
-    was.
 
     Args:
         robot: The document's own robot, with the scene that the displays draw in.

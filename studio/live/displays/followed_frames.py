@@ -23,7 +23,7 @@ FOLLOWED_MAX: Final = 64
 FOLLOWED_BY_VIEWER_MAX: Final = 17
 """Limit for one viewer: a page marks sixteen at once, and its camera follows one."""
 FOLLOWED_FOR_NS: Final = 5_000_000_000
-"""After the last question of somebody, who asks every two seconds."""
+"""After the last request; pages ask every two seconds."""
 _TOO_MANY: Final = "{} other frames are followed already: choose one of those."
 
 

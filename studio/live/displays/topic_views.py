@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def topic_views(link: WireLink) -> tuple[TopicView, ...]:
-    """Topics that somebody publishes, by name; any thread."""
+    """Return the topics that have a publisher, by name; thread-safe."""
     found: list[TopicView] = []
     for name, _ in link.graph.topics():
         if publishers := link.graph.publishers(name):

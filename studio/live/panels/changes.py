@@ -64,7 +64,7 @@ class Changes:
             self._throttles[subject].trigger()
 
     def changed_elsewhere(self, subject: Subject) -> None:
-        """Do the same from any thread."""
+        """Do the same, thread-safe."""
         loop = self._loop
         if (
             self._followers[subject]

@@ -41,7 +41,7 @@ class _Report:
 
 
 class Parts:
-    """The newest status of each part; any thread may use it."""
+    """The newest status of each part; thread-safe."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock

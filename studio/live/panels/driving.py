@@ -102,7 +102,7 @@ class Driving:
         """Send a speed on its topic, and wait for the next one.
 
         Raises:
-            StudioError: Somebody else drives there, or it cannot be published.
+            StudioError: Another page drives there, or it cannot be published.
         """
         topic = command.topic if command.topic.startswith("/") else f"/{command.topic}"
         driver = self._driver(topic, listener)

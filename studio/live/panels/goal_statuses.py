@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _ASKED_FOR_S: Final = 10.0
 """So long an action stays subscribed after a request, unless a page follows its changes."""
 _FOLLOWED_MAX: Final = 20
-"""Actions that are subscribed while somebody is: those that were asked for last."""
+"""Limit of the actions subscribed: those that were asked for last."""
 _SHOWN: Final = 50
 
 

@@ -1,4 +1,4 @@
-"""The log of all nodes: `/rosout`, received from the first time that somebody asks for it."""
+"""The log of all nodes: `/rosout`, received from the first request on."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _WARNING: Final = 30
 
 
 class LogRing:
-    """The newest lines, by number; any thread may use it."""
+    """The newest lines, by number; thread-safe."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

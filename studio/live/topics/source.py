@@ -30,7 +30,7 @@ class Topic(NamedTuple):
 class TopicSource(Protocol):
     """Topics, whether of a ROS 2 system that runs, of a recording, or of another studio.
 
-    Any thread may ask.
+    Thread-safe.
     """
 
     @property

@@ -242,7 +242,7 @@ class Stream:
 
     @property
     def is_used(self) -> bool:
-        """Whether anybody shares it."""
+        """Whether it has subscribers."""
         return bool(self._subscribers)
 
     @property
@@ -341,7 +341,7 @@ class Stream:
             self._fit_reading()
 
     def _fit_reading(self) -> None:
-        """Read no more than somebody wants, and no sooner."""
+        """Read as much and as soon as the subscribers want."""
         requests = [one.request for one in self._subscribers]
         newest_only = all(one.newest_only for one in requests)
         self._wire.read(newest_only=newest_only and self._cache is None)

@@ -103,7 +103,7 @@ class Node(msgspec.Struct):
 
 
 class Scene(msgspec.Struct):
-    """Root nodes."""
+    """The root nodes of a scene."""
 
     nodes: list[int] = []
 

@@ -54,7 +54,7 @@ class Surface:
 
     @property
     def triangle_count(self) -> int:
-        """M."""
+        """The number of triangles, M."""
         return len(self.positions) // 3
 
     def moved(self, world_from_surface: Matrix) -> Surface:

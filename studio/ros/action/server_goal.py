@@ -154,7 +154,7 @@ class ServerGoalHandle:
 
 
 class ServerGoals:
-    """Goals by their ids; any thread may ask."""
+    """Goals by their ids; thread-safe."""
 
     def __init__(
         self, result_timeout_s: float, clock_s: Callable[[], float] = time.monotonic

@@ -146,7 +146,7 @@ class Clock:
 
     @property
     def clock_type(self) -> ClockType:
-        """Its kind."""
+        """The kind of clock."""
         return self._clock_type
 
     @property
@@ -180,7 +180,7 @@ class Clock:
         return handle
 
     def forget(self, handle: JumpHandle) -> None:
-        """Call a callback no more."""
+        """Remove a callback."""
         with self._moved:
             if handle in self._handles:
                 self._handles.remove(handle)

@@ -93,7 +93,7 @@ class CountEvent(Work):
         return self._total != self._reported
 
     def count(self, more: int) -> None:
-        """Count that it happened so many times more; from any thread."""
+        """Add to the count; thread-safe."""
         with self._lock:
             self._total += more
         self.announce()

@@ -116,7 +116,7 @@ class Executor:
             self.announce(work)
 
     def forget(self, work: Work) -> None:
-        """Carry it out no more."""
+        """Remove work from what is due."""
         with self._changed:
             self._due.discard(work)
             if work in self._queued:
@@ -126,7 +126,7 @@ class Executor:
             work.group.forget(work)
 
     def announce(self, work: Work) -> None:
-        """Note that work is ready; from any thread."""
+        """Note that work is ready; thread-safe."""
         with self._lock:
             # A node that was removed meanwhile announces its work to its next executor.
             if work.home in self._nodes:
@@ -147,13 +147,13 @@ class Executor:
         return task
 
     def resume(self, task: Task) -> None:
-        """Go on with a task; from any thread."""
+        """Continue a task; thread-safe."""
         with self._changed:
             self._ready.append(task)
             self._changed.notify()
 
     def wake(self) -> None:
-        """Wake the thread that spins, which checks again whether to go on; from any thread."""
+        """Wake the spinning thread, which checks again whether to go on; thread-safe."""
         with self._changed:
             self._changed.notify_all()
 

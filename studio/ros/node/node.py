@@ -226,7 +226,7 @@ class Node(NodeBase, NodeParameters):
     def create_guard_condition(
         self, callback: Callable[[], object], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
-        """Make work that any thread may set off."""
+        """Return work that any thread may trigger."""
         guard = GuardCondition(callback, callback_group or self._default_group)
         self.add_work(guard)
         return guard

@@ -52,7 +52,6 @@ class Service(Work):
     """Serves one service; the callback takes a request and a response, and returns the response.
 
     The last `depth` requests wait; older ones are dropped, and their clients get an error at once.
-    will be no answer.
     """
 
     def __init__(

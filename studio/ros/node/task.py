@@ -26,16 +26,16 @@ class TaskExecutor(Protocol):
         ...
 
     def create_task(self, callback: Callable[..., object], *args: Any) -> object:  # noqa: ANN401
-        """Carry out a function."""
+        """Run a function."""
         ...
 
     def resume(self, task: Task) -> None:
-        """Go on with a task; from any thread."""
+        """Continue a task; thread-safe."""
         ...
 
 
 class Future(Generic[ResultT]):
-    """A result or an exception, set once by any thread; the names are rclpy's.
+    """A result or an exception, set once; thread-safe; the names are rclpy's.
 
     `await` works in a callback that an executor carries out, and in asyncio.
     """

@@ -71,7 +71,7 @@ class Timer(Work):
 
     @property
     def is_timed(self) -> bool:
-        """Always."""
+        """True: a timer gets ready by itself."""
         return True
 
     @property
@@ -103,7 +103,7 @@ class Timer(Work):
         return self._cancelled
 
     def reset(self) -> None:
-        """Begin a period again."""
+        """Start a new period."""
         with self._lock:
             self._next_ns = self._now_ns() + self._period_ns
             self._cancelled = False

@@ -22,11 +22,11 @@ class CallbackGroup:
         return None
 
     def forget(self, work: Work) -> None:
-        """Let work wait here no more."""
+        """Remove waiting work."""
 
 
 class ReentrantCallbackGroup(CallbackGroup):
-    """Lets all run beside each other."""
+    """Lets all work run concurrently."""
 
     def begin(self, work: Work) -> bool:
         """Let it run."""
@@ -55,7 +55,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
             return self._waiting.popleft() if self._waiting else None
 
     def forget(self, work: Work) -> None:
-        """Let work wait here no more."""
+        """Remove waiting work."""
         with self._lock:
             if work in self._waiting:
                 self._waiting.remove(work)
@@ -75,7 +75,7 @@ class Home(Protocol):
     """What work reports to: a node, or an executor."""
 
     def announce(self, work: Work) -> None:
-        """Note that a piece of work is ready; from any thread."""
+        """Note that a piece of work is ready; thread-safe."""
         ...
 
 
@@ -137,7 +137,7 @@ class GuardCondition(Work):
         return self._triggered
 
     def trigger(self) -> None:
-        """Set it off; from any thread."""
+        """Trigger it; thread-safe."""
         self._triggered = True
         self.announce()
 

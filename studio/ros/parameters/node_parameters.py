@@ -426,11 +426,11 @@ class ParameterHost(Protocol):
         topic: str,
         qos_profile: QoSProfile | int,
     ) -> Any:  # noqa: ANN401
-        """Publish."""
+        """Create a publisher."""
         ...
 
     def get_fully_qualified_name(self) -> str:
-        """Namespace and name."""
+        """Return namespace and name."""
         ...
 
     def get_clock(self) -> Any:  # noqa: ANN401

@@ -158,7 +158,7 @@ class _Step:
 
 
 class ParameterStore:
-    """The parameters of one node; any thread may ask.
+    """The parameters of one node; thread-safe.
 
     Attributes:
         overrides: Values given at the start, which come before those in the code.

@@ -117,7 +117,7 @@ class _Known:
 class TypeLibrary:
     """The types of one distribution; a user's own come before those it has, as in an overlay.
 
-    Any thread may ask; classes are made once, until `add_texts` changes what they are made of.
+    Thread-safe; classes are made once, until `add_texts` changes what they are made of.
     """
 
     def __init__(self, distro: str) -> None:

@@ -44,7 +44,7 @@ def add(verbs: Verbs) -> None:
     )  # fmt: skip
     echo.add_argument("--include-message-info", action="store_true", help="when and from whom")
     echo.add_argument(
-        "--raw", action="store_true", help="print the bytes, also of types that nobody knows"
+        "--raw", action="store_true", help="print the bytes, also of unknown types"
     )
     echo.add_argument(
         "--filter", metavar="EXPR",

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 def add(verbs: Verbs) -> None:
     """Add the verbs that only read."""
-    listing = verbs.add("list", _list, "name the topics that somebody publishes or subscribes to")
+    listing = verbs.add("list", _list, "list the topics that have a publisher or a subscription")
     listing.add_argument("-v", "--verbose", action="store_true", help="how many publish each")
     add_listing_options(listing, "topics")
     add_graph_options(listing)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _BW_WINDOW = 100
 _PERIOD_S = 1.0
-_WAITS = "A topic that nobody has yet is waited for."
+_WAITS = "A topic that does not exist yet is waited for."
 
 
 def add(verbs: Verbs) -> None:
