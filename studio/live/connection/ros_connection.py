@@ -170,7 +170,7 @@ class RosConnection:
     async def _refresh(self) -> None:
         link = self._link
         if link is not None:
-            # Of thousands of nodes it takes its time.
+            # With thousands of nodes this takes a while.
             seen = await asyncio.to_thread(_state_with, link)
             if link is self._link:  # else the state is of an earlier connection
                 self._send(seen)

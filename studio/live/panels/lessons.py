@@ -364,7 +364,7 @@ class _Sessions:
         """Return the sessions of each node of a connection."""
         now = link.zid, link.graph.version
         if now != self._of:
-            # Of thousands of nodes it takes its time.
+            # With thousands of nodes this takes a while.
             self._by_node = await asyncio.to_thread(_sessions_by_node, link)
             self._of = now
         return self._by_node

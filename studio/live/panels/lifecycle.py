@@ -78,7 +78,7 @@ class LifecycleNodes:
         """Take all clients back."""
         if self._ending is not None:
             self._ending.cancel()
-        # Of many nodes that are silent, those that were not asked yet are not waited for.
+        # With many silent nodes, those not asked yet are not waited for.
         self._leaves = True
         async with self._asking:
             await self._close_clients(set(self._clients))

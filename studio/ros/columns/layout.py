@@ -125,7 +125,7 @@ class BytesWriter:
         self.ready(_WORD(value))
 
     def ready(self, packed: bytes) -> None:
-        """Write what is already packed and begins at a multiple of 4."""
+        """Write what is already packed and begins with a 32-bit word."""
         self.written += bytes(-len(self.written) % 4) + packed
 
     def time(self, seconds: int, rest_ns: int) -> None:
@@ -163,7 +163,7 @@ class BytesWriter:
 
 
 class Skeleton:
-    """The 4-byte units of a message that are no numbers, counted behind the header."""
+    """The 32-bit words of a message that are no numbers, counted behind the header."""
 
     __slots__ = ("_head", "_rest", "_tail", "_words")
 
@@ -270,7 +270,7 @@ def nanoseconds_at(raw: bytes, places: Places, kinds: Numbers) -> NDArray[np.int
 
     Args:
         raw: A whole message.
-        places: Shape (N, 2), of the 4-byte units of seconds and nanoseconds.
+        places: Shape (N, 2), of the 32-bit words of seconds and nanoseconds.
         kinds: Types of its numbers.
 
     Returns:
