@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import sysconfig
 import tomllib
 import urllib.request
 import venv
@@ -171,15 +172,28 @@ def test_what_is_imported_is_required_and_what_is_required_is_imported():
     assert requirements() - imported() == set(CALLED_BY_OTHERS)
 
 
-@pytest.fixture(scope="module")
-def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of commands of an empty environment into which only the wheel was installed."""
+@pytest.fixture(
+    scope="module",
+    params=["with the libraries of ours", pytest.param("alone", marks=pytest.mark.sweep)],
+)
+def installed(
+    wheel: Path, request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    """The folder of commands of an environment into which only the wheel was installed.
+
+    Alone, pip installs its requirements, too; else they are those of this environment, which is
+    not asked for a studio.
+    """
     folder = tmp_path_factory.mktemp("installed") / "venv"
     venv.create(folder)
     commands = folder / ("Scripts" if sys.platform == "win32" else "bin")
     pip = [sys.executable, "-m", "pip", "--python", commands / "python"]
     # What is imported is compiled then; all of it would take a quarter of a minute.
     install = ["--disable-pip-version-check", "install", "--quiet", "--no-compile"]
+    if request.param != "alone":
+        install.append("--no-deps")
+        (own,) = folder.rglob("site-packages")
+        (own / "ours.pth").write_text(f"{sysconfig.get_path('purelib')}\n")
     done = subprocess.run(
         [*pip, *install, "--constraint", REPOSITORY / "constraints.txt", wheel],
         capture_output=True,
