@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import pytest
 
@@ -14,10 +14,12 @@ from tests.support.wire import running_router
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from playwright.sync_api import Browser, Locator
+    from playwright.sync_api import Browser, Locator, ViewportSize
 
     from tests.support.server import RunningStudio
 
+SMALL: Final[ViewportSize] = {"width": 1000, "height": 600}
+"""For R2D2 is drawn all the time."""
 _MOVED_M = """() => {
   const { nodeRefFromName } = document.querySelector("iframe").contentWindow.__viserMutable;
   const name = Object.keys(nodeRefFromName).find((one) => /head\\/visual/.test(one));
@@ -130,6 +132,7 @@ def test_a_lesson_is_read_beside_its_demos_which_start_and_stop_there(
             running_studio(words, tmp_path / "data") as studio,
             studio_page(browser, studio) as tab,
         ):
+            tab.page.set_viewport_size(SMALL)
             panel = lessons_of(tab)
             start_both(panel)
             follow_a_link_to_the_topic(tab, panel)

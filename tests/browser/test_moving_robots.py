@@ -12,7 +12,7 @@ import sys
 from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
 
     from numpy.typing import NDArray
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, ViewportSize
 
     from studio.ros.client import Node
     from tests.support.server import RunningStudio
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(600)]
 
+SMALL: Final[ViewportSize] = {"width": 1000, "height": 600}
+"""For the picture is drawn all the time."""
 R2D2 = Path(__file__).parents[2] / "models" / "r2d2_description" / "urdf" / "r2d2.urdf.xacro"
 TOPIC = "/r2d2/robot_description"
 _PATIENCE_S = 120.0
@@ -193,6 +195,7 @@ def test_r2d2_goes_its_round_and_the_scan_of_the_rover_lies_on_the_walls(
         node_at(endpoint) as node,
         studio_page(browser, studio) as tab,
     ):
+        tab.page.set_viewport_size(SMALL)
         told, scene = heard(node, TF, "/tf", 1000), Scene(tab, studio)
         robot = scene.add("RobotModel", TOPIC)
         goes_round_in_odom(scene, robot, told)

@@ -15,7 +15,6 @@ from tests.support.wire import free_endpoint, router_at
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
     from playwright.sync_api import Browser, Locator
 
@@ -27,19 +26,44 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)
 
 JOINT = "mast_pan_joint"
 STATES = "sensor_msgs/msg/JointState"
+DISCONNECT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  await (await import(new URL("../model/ros.js", script))).disconnectRos();
+}"""
 
 
 @pytest.fixture
-def router() -> Iterator[EmbeddedRouter]:
-    with router_at(free_endpoint()) as made:
+def router(place: str) -> Iterator[EmbeddedRouter]:
+    with router_at(place) as made:
         yield made
 
 
-@pytest.fixture
-def studio(router: EmbeddedRouter, tmp_path: Path) -> Iterator[RunningStudio]:
-    place = ["--connect", router.endpoint.text, "--router", "off"]
-    with running_studio(["demo", "--viewer-link", *place], tmp_path / "data") as running:
+@pytest.fixture(scope="module")
+def place() -> str:
+    return free_endpoint()
+
+
+@pytest.fixture(scope="module")
+def studio(place: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
+    words = ["demo", "--viewer-link", "--connect", place, "--router", "off"]
+    with running_studio(words, tmp_path_factory.mktemp("studio") / "data") as running:
         yield running
+
+
+@pytest.fixture(scope="module")
+def opened(browser: Browser, studio: RunningStudio) -> Iterator[StudioPage]:
+    with studio_page(browser, studio, view=False) as tab:
+        yield tab
+
+
+@pytest.fixture
+def tab(opened: StudioPage) -> Iterator[StudioPage]:
+    """A tab that is not connected, with the joints in front."""
+    opened.page.get_by_role("tab", name="Joints").click()
+    wait_until("nothing is connected", lambda: "not connected" in status(opened))
+    yield opened
+    opened.page.evaluate(DISCONNECT)
+    assert opened.errors == []
 
 
 def switch(tab: StudioPage, name: str) -> Locator:
@@ -66,41 +90,37 @@ def teller(node: Node, position_rad: float) -> None:
 
 
 def test_the_robot_goes_out_joints_come_in_and_a_router_that_was_away_is_found_again(
-    browser: Browser, studio: RunningStudio, router: EmbeddedRouter
+    tab: StudioPage, router: EmbeddedRouter
 ):
     endpoint = router.endpoint.text
-    with studio_page(browser, studio, view=False) as tab:
-        tab.page.get_by_role("tab", name="Joints").click()
-        wait_until("nothing is connected", lambda: "not connected" in status(tab))
-        with node_at(endpoint) as peer:
-            descriptions = heard(peer, "std_msgs/msg/String", "/robot_description", LATCHED)
-            switch(tab, "Publish the robot").click()
-            wait_until("the description", lambda: bool(descriptions))
-            wait_until("the peer is counted", lambda: "connected, 1 other node" in status(tab))
-            on = switch(tab, "Publish the robot")
-            wait_until("the switch is on", lambda: on.get_attribute("aria-checked") == "true")
-            teller(peer, 0.75)
-            source(tab).select_option("joint_states")
-            wait_until("the joint follows", lambda: position(tab) == 0.75)
-            wait_until("it is not ours", lambda: tab.row(JOINT).get_by_role("slider").is_disabled())
-        router.close()
-        wait_until("the page says so", lambda: "router gone" in status(tab))
-        assert tab.page.get_by_role("alert").filter(has_text="The router was stopped").count() == 1
-        with router_at(endpoint), node_at(endpoint) as peer:
-            descriptions = heard(peer, "std_msgs/msg/String", "/robot_description", LATCHED)
-            teller(peer, -0.5)
-            wait_until("the joint follows again", lambda: position(tab) == -0.5)
-            wait_until("the description is there again", lambda: bool(descriptions))
-            wait_until("the page says so", lambda: "connected, 1 other node" in status(tab))
-            source(tab).select_option("sliders")
-            wait_until("it moves", lambda: tab.row(JOINT).get_by_role("slider").is_enabled())
-        assert tab.errors == []
+    with node_at(endpoint) as peer:
+        descriptions = heard(peer, "std_msgs/msg/String", "/robot_description", LATCHED)
+        switch(tab, "Publish the robot").click()
+        wait_until("the description", lambda: bool(descriptions))
+        wait_until("the peer is counted", lambda: "connected, 1 other node" in status(tab))
+        on = switch(tab, "Publish the robot")
+        wait_until("the switch is on", lambda: on.get_attribute("aria-checked") == "true")
+        teller(peer, 0.75)
+        source(tab).select_option("joint_states")
+        wait_until("the joint follows", lambda: position(tab) == 0.75)
+        wait_until("it is not ours", lambda: tab.row(JOINT).get_by_role("slider").is_disabled())
+    router.close()
+    wait_until("the page says so", lambda: "router gone" in status(tab))
+    assert tab.page.get_by_role("alert").filter(has_text="The router was stopped").count() == 1
+    with router_at(endpoint), node_at(endpoint) as peer:
+        descriptions = heard(peer, "std_msgs/msg/String", "/robot_description", LATCHED)
+        teller(peer, -0.5)
+        wait_until("the joint follows again", lambda: position(tab) == -0.5)
+        wait_until("the description is there again", lambda: bool(descriptions))
+        wait_until("the page says so", lambda: "connected, 1 other node" in status(tab))
+        source(tab).select_option("sliders")
+        wait_until("it moves", lambda: tab.row(JOINT).get_by_role("slider").is_enabled())
 
 
 def test_the_window_on_ros_says_where_and_a_viewer_sees_it_and_changes_nothing(
-    browser: Browser, studio: RunningStudio, router: EmbeddedRouter
+    browser: Browser, studio: RunningStudio, tab: StudioPage, router: EmbeddedRouter
 ):
-    with studio_page(browser, studio, view=False) as tab, node_at(router.endpoint.text, "somebody"):
+    with node_at(router.endpoint.text, "somebody"):
         tab.page.locator(".ros-status").click()
         window = tab.page.get_by_role("dialog", name="ROS 2")
         connect = window.get_by_role("button", name="Connect", exact=True)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 WIDTH, HEIGHT = 720, 600
 _PATIENCE_MS = 90_000
+_POLL_MS = 30
 _HELPERS = """() => {
   window.placeOf = (x, y, z) => {
     const { camera, canvas, nodeRefFromName } = __viserMutable;
@@ -29,17 +30,36 @@ _HELPERS = """() => {
     __viserMutable.nodeRefFromName[name]?.traverse((object) => { map ??= object.material?.map; });
     return Boolean(map?.image);
   };
-  window.pixels = () => {
+  const drawn = async (count) => {
+    const { render } = __viserTestpoints.rendererInfo;
+    const wanted = render.frame + count;
+    while (render.frame < wanted) {
+      __viserMutable.requestRender();
+      await new Promise(requestAnimationFrame);
+    }
+  };
+  const pixels = () => {
     const { canvas } = __viserMutable;
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = [canvas.width, canvas.height];
-    const context = copy.getContext("2d");
-    context.drawImage(canvas, 0, 0);
-    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+    copy.drawImage(canvas, 0, 0);
+    return copy.getImageData(0, 0, canvas.width, canvas.height);
+  };
+  const areSame = (one, other) => {
+    const [before, after] = [one, other].map(({ data }) => new Uint32Array(data.buffer));
+    return before.length === after.length && before.every((pixel, at) => pixel === after[at]);
+  };
+  window.pictureThatStands = async () => {
+    let last = pixels();
+    for (let left = 60; left; left -= 1) {
+      await drawn(2);
+      const now = pixels();
+      if (areSame(last, now)) break;
+      last = now;
+    }
     let text = "";
-    for (let at = 0; at < data.length; at += 32768)
-      text += String.fromCharCode(...data.subarray(at, at + 32768));
-    return [copy.width, copy.height, btoa(text)];
+    for (let at = 0; at < last.data.length; at += 32768)
+      text += String.fromCharCode(...last.data.subarray(at, at + 32768));
+    return [last.width, last.height, btoa(text)];
   };
 }"""
 
@@ -69,7 +89,7 @@ class LivePage:
 
     def until(self, condition: str) -> None:
         """Wait until a JavaScript expression holds."""
-        self.page.wait_for_function(condition, timeout=_PATIENCE_MS)
+        self.page.wait_for_function(condition, timeout=_PATIENCE_MS, polling=_POLL_MS)
 
     def look(self, eye: tuple[float, float, float], target: tuple[float, float, float]) -> None:
         """From there to there, m."""
@@ -78,32 +98,9 @@ class LivePage:
 
     def take(self) -> None:
         """Take the picture: of two that follow each other the second, when they are the same."""
-        last = self._pixels()
-        for _ in range(60):
-            self._draw(2)
-            now = self._pixels()
-            if np.array_equal(last, now):
-                break
-            last = now
-        self.picture = last
-
-    def _draw(self, count: int) -> None:
-        self.page.evaluate(
-            """async (count) => {
-              const { render } = __viserTestpoints.rendererInfo;
-              const wanted = render.frame + count;
-              while (render.frame < wanted) {
-                __viserMutable.requestRender();
-                await new Promise(requestAnimationFrame);
-              }
-            }""",
-            count,
-        )
-
-    def _pixels(self) -> NDArray[np.uint8]:
-        width, height, text = self.page.evaluate("pixels()")
+        width, height, text = self.page.evaluate("pictureThatStands()")
         raw = np.frombuffer(base64.b64decode(text), np.uint8)
-        return raw.reshape(height, width, 4)
+        self.picture: NDArray[np.uint8] = raw.reshape(height, width, 4)
 
     def rgba(self, x: float, y: float, z: float = 0.0) -> list[int]:
         """The pixel of a place in the fixed frame, not premultiplied."""
