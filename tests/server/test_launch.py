@@ -36,8 +36,22 @@ linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
 @pytest.fixture(scope="module")
 def demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
-    with running_studio(["demo"], tmp_path_factory.mktemp("demo") / "data") as running:
+    words = ["demo", "--viewer-link"]
+    with running_studio(words, tmp_path_factory.mktemp("demo") / "data") as running:
         yield running
+
+
+@pytest.fixture(scope="module")
+def tokenless(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningStudio]:
+    """Without a token, and without the port that it would have."""
+    with socket.socket() as held:
+        held.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        with suppress(OSError):  # taken by somebody else: as good
+            held.bind(("127.0.0.1", DEFAULT_PORT))
+            held.listen()
+        data = tmp_path_factory.mktemp("tokenless") / "data"
+        with running_studio(["demo", "--no-token"], data, port=None) as running:
+            yield running
 
 
 def until(lane: Connection, kind: str) -> dict[str, Any]:
@@ -121,16 +135,10 @@ def test_a_signal_ends_it_with_all_its_workers_within_two_seconds(
         assert not [line for line in studio.stderr.splitlines() if "runs as root" not in line]
 
 
-def test_the_default_port_or_the_next_free_one_and_it_says_so(tmp_path: Path):
-    with socket.socket() as held:
-        held.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        with suppress(OSError):  # taken by somebody else: as good
-            held.bind(("127.0.0.1", DEFAULT_PORT))
-            held.listen()
-        with running_studio(["demo"], tmp_path / "data", port=None) as studio:
-            assert DEFAULT_PORT < studio.port < DEFAULT_PORT + 100
-            assert f"Port {DEFAULT_PORT} is taken" in studio.stderr
-            assert f"uses {studio.port}" in studio.stderr
+def test_the_default_port_or_the_next_free_one_and_it_says_so(tokenless: RunningStudio):
+    assert DEFAULT_PORT < tokenless.port < DEFAULT_PORT + 100
+    assert f"Port {DEFAULT_PORT} is taken" in tokenless.stderr
+    assert f"uses {tokenless.port}" in tokenless.stderr
 
 
 def test_an_open_tab_is_still_known_after_a_restart(tmp_path: Path):
@@ -145,23 +153,19 @@ def test_an_open_tab_is_still_known_after_a_restart(tmp_path: Path):
             assert client.get(f"/?token={first.token}").status_code == 303
 
 
-def test_a_viewer_gets_an_address_of_their_own_and_only_looks(tmp_path: Path):
-    with running_studio(["demo", "--viewer-link"], tmp_path / "data") as studio:
-        assert studio.process.stdout is not None
-        line = studio.process.stdout.readline()
-        token = re.fullmatch(rf"Viewer: {studio.origin}/\?token=(\w+)\n", line)
-        assert token
-        headers = {"authorization": f"Bearer {token[1]}"}
-        with httpx2.Client(base_url=studio.origin, headers=headers, trust_env=False) as client:
-            assert client.get("/d/rover").status_code == 200
-            refused = client.post("/api/commands", json={"type": "save", "document": "rover"})
-            assert (refused.status_code, refused.json()["kind"]) == (403, "NotAllowedError")
+def test_a_viewer_gets_an_address_of_their_own_and_only_looks(demo: RunningStudio):
+    token = re.fullmatch(rf"{demo.origin}/\?token=(\w+)", demo.viewer_url)
+    assert token
+    headers = {"authorization": f"Bearer {token[1]}"}
+    with httpx2.Client(base_url=demo.origin, headers=headers, trust_env=False) as client:
+        assert client.get("/d/rover").status_code == 200
+        refused = client.post("/api/commands", json={"type": "save", "document": "rover"})
+        assert (refused.status_code, refused.json()["kind"]) == (403, "NotAllowedError")
 
 
-def test_without_a_token_the_address_has_none(tmp_path: Path):
-    with running_studio(["demo", "--no-token"], tmp_path / "data") as studio:
-        assert studio.line == f"Studio: http://127.0.0.1:{studio.port}/"
-        assert httpx2.get(f"{studio.origin}/d/rover", trust_env=False).status_code == 200
+def test_without_a_token_the_address_has_none(tokenless: RunningStudio):
+    assert tokenless.line == f"Studio: http://127.0.0.1:{tokenless.port}/"
+    assert httpx2.get(f"{tokenless.origin}/d/rover", trust_env=False).status_code == 200
 
 
 def test_beyond_this_machine_it_warns():
