@@ -230,6 +230,7 @@ def test_folders_are_walked_through_and_filtered_by_keys(tab: StudioPage):
     dialog.get_by_text("r2d2.urdf.xacro", exact=True).wait_for()
     search.press("Enter")
     tab.page.wait_for_url(lambda url: "/d/r2d2" in url and url != before)
+    wait_until_drawn(tab)
 
 
 def test_another_robot_is_opened_out_of_the_served_folders(tab: StudioPage):

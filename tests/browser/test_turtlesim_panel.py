@@ -67,6 +67,12 @@ class Turtles:
     def pose(self) -> Any:  # noqa: ANN401
         return self.poses[-1]
 
+    def stand_on(self, color: tuple[int, int, int]) -> bool:
+        """Whether it stood at one place for the last third of a second, and saw this there."""
+        poses, colors = self.poses[-20:], self.colors[-20:]
+        places = {(pose.x, pose.y) for pose in poses}
+        return len(places) == 1 and all(is_near(colour_of(seen), color) for seen in colors)
+
     def pixel(self, x_m: float, y_m: float) -> tuple[int, ...]:
         """The colour that the page shows at a place of the field."""
         place = [x_m / FIELD_M, 1 - y_m / FIELD_M]
@@ -105,8 +111,8 @@ def n10_the_arrow_keys_drive_it_and_it_draws(turtles: Turtles) -> None:
     y_m = turtles.pose.y
     wait_until("its line", lambda: is_near(turtles.pixel(start_m + 0.4, y_m), PEN))
     assert turtles.pixel(start_m - 1.2, y_m) == GROUND
-    # Nobody tells of it: the turtle stands on bare ground where it stood on its line.
-    wait_until("it sees its line", lambda: is_near(colour_of(turtles.colors[-1]), PEN))
+    # Nobody tells of it: the turtle stands on bare ground where it stood, for a while, on its line.
+    wait_until("it has stood on its line", lambda: turtles.stand_on(PEN))
     call(turtles.node, "std_srvs/srv/Empty", "/clear")
     wait_until("the line is gone", lambda: turtles.pixel(start_m + 0.4, y_m) == GROUND)
 

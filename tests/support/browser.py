@@ -19,7 +19,14 @@ from playwright.sync_api import Browser, sync_playwright
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+NAMES = (
+    "chromium-headless-shell",
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+)
+"""The shell first: the same engine without the parts of a window, for a fifth less work."""
 
 # WebGL without a GPU; the page around it is drawn by the processor itself: composed by SwiftShader,
 # too, four browsers took twice as long. The rest keeps Chromium from calling home.
@@ -109,14 +116,20 @@ def _answers(path: Path) -> bool:
 
 
 def _install_by_apt() -> None:
-    """Install Debian's chromium; needs root and apt, else does nothing."""
+    """Install Debian's Chromium, the shell if it has one; needs root and apt, else does nothing."""
     if not hasattr(os, "geteuid") or os.geteuid() != 0 or not shutil.which("apt-get"):
         return
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for command in (["update"], ["install", "-y", "--no-install-recommends", "chromium"]):
-        subprocess.run(
+
+    def apt(*command: str) -> bool:
+        done = subprocess.run(
             ["apt-get", "-q", *command], env=quiet, stdout=sys.stderr, timeout=600, check=False
         )
+        return done.returncode == 0
+
+    apt("update")
+    install = ("install", "-y", "--no-install-recommends")
+    apt(*install, "chromium-headless-shell") or apt(*install, "chromium")
 
 
 def _install_by_playwright() -> None:

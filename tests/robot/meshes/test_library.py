@@ -209,16 +209,20 @@ def test_a_broken_cache_file_is_replaced(tmp_path: Path):
 def test_a_worker_that_answers_too_late_is_replaced(tmp_path: Path):
     path = tmp_path / "a.stl"
     path.write_bytes(stl())
+    # Takes longer than a busy machine takes to look at the time.
+    large = tmp_path / "large.obj"
+    corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+    large.write_text(corners + "f 1 2 3\nf 1 2 3 4\n" * 100_000)
 
     async def run() -> None:
         pool = mesh_pool(1)
-        request = MeshRequest(str(path), (str(tmp_path),), str(tmp_path))
+        rest = ((str(tmp_path),), str(tmp_path))
         try:
             with pytest.raises(WorkerTimeoutError):
-                await pool.ask(request, object, 0.0)
-            answer = await pool.ask(request, object, 30.0)
+                await pool.ask(MeshRequest(str(large), *rest), object, 0.0)
+            answer = await pool.ask(MeshRequest(str(path), *rest), object, 30.0)
             assert isinstance(answer, MeshAnswer)
-            missing = MeshRequest(str(tmp_path / "b.stl"), (str(tmp_path),), str(tmp_path))
+            missing = MeshRequest(str(tmp_path / "b.stl"), *rest)
             assert isinstance(await pool.ask(missing, object, 30.0), MeshFault)
         finally:
             await pool.close()

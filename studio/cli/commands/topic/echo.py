@@ -43,9 +43,7 @@ def add(verbs: Verbs) -> None:
         help=f"cut arrays and texts off after this many (default: {_LENGTH})",
     )  # fmt: skip
     echo.add_argument("--include-message-info", action="store_true", help="when and from whom")
-    echo.add_argument(
-        "--raw", action="store_true", help="print the bytes, also of unknown types"
-    )
+    echo.add_argument("--raw", action="store_true", help="print the bytes, also of unknown types")
     echo.add_argument(
         "--filter", metavar="EXPR",
         help="print only messages of which this holds, a Python expression such as 'm.x > 1'",
