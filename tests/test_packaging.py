@@ -100,6 +100,7 @@ def test_the_wheel_holds_nothing_else(names: list[str]):
             assert source.is_file(), f"{name} comes from nowhere"
 
 
+@pytest.mark.sweep
 def test_the_source_archive_makes_the_same_wheel(names: list[str], tmp_path: Path):
     command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", tmp_path, REPOSITORY]
     built = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 from studio.protocol import Command
 from tests.support.open_documents import Ear, engine, opened
 from tests.support.packages import write_package
+from tests.support.sweep import some_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -51,7 +52,7 @@ def assert_drawn(document: Document) -> None:
     assert np.isfinite(model.kinematics.wxyz_xyz(model.joints.values)).all()
 
 
-@pytest.mark.parametrize("text", NONE_OF_THEM_NUMBERS)
+@pytest.mark.parametrize("text", some_of(NONE_OF_THEM_NUMBERS))
 @pytest.mark.parametrize("site", ["reach", "depth"])
 def test_typed_into_a_property_or_a_yaml_value_it_is_told_and_undone(
     text: str, site: str, mast: Path, tmp_path: Path
@@ -71,7 +72,7 @@ def test_typed_into_a_property_or_a_yaml_value_it_is_told_and_undone(
     asyncio.run(run())
 
 
-@pytest.mark.parametrize("text", NONE_OF_THEM_NUMBERS)
+@pytest.mark.parametrize("text", some_of(NONE_OF_THEM_NUMBERS))
 def test_written_in_the_source_it_is_told_at_its_line(text: str, mast: Path, tmp_path: Path):
     mast.write_text(MAST.replace('upper="1"', f'upper="{text}"'))
 

@@ -21,6 +21,7 @@ from tests.support.hostile import (
     properties,
     stopped,
 )
+from tests.support.sweep import some_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -199,7 +200,7 @@ CASES: dict[str, dict[str, str]] = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", some_of(CASES))
 def test_it_is_stopped_in_time_and_the_next_robot_opens(
     case: str, studio: HostileStudio, tmp_path: Path
 ):

@@ -24,6 +24,7 @@ from tests.support.hostile import (
     properties,
     stopped,
 )
+from tests.support.sweep import some_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -202,7 +203,7 @@ def placed(case: str, place: Path) -> dict[str, str | bytes]:
     }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", some_of(CASES))
 def test_it_runs_nothing_and_reads_nothing_and_the_next_robot_opens(
     case: str, studio: HostileStudio, place: Path
 ):
@@ -212,7 +213,7 @@ def test_it_runs_nothing_and_reads_nothing_and_the_next_robot_opens(
     assert "root:" not in repr(said)
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", some_of(CASES))
 def test_stock_xacro_behind_the_guard_runs_and_reads_nothing(
     case: str, place: Path, monkeypatch: pytest.MonkeyPatch
 ):
@@ -224,7 +225,7 @@ def test_stock_xacro_behind_the_guard_runs_and_reads_nothing(
     assert SECRET not in str(stopped.value)
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", some_of(CASES))
 def test_a_refusal_is_never_handed_to_stock_xacro(
     case: str, place: Path, monkeypatch: pytest.MonkeyPatch
 ):

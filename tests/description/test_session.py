@@ -25,6 +25,7 @@ from studio.description.values import (
 from studio.errors import StaleEditError
 from tests.support.descriptions import policy_for, robot, write
 from tests.support.patched import SideBySide
+from tests.support.sweep import some_of
 
 MODELS = Path(__file__).resolve().parents[2] / "models"
 BODY = (
@@ -304,7 +305,7 @@ def test_a_number_typed_over_by_a_word_is_found_when_the_file_is_opened_again(tm
     assert unsaved[again.span.start : again.span.end] == again.text.encode() == b"upwards"
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", some_of(range(4), 4))
 def test_after_random_typing_every_text_is_where_one_who_opens_the_file_finds_it(seed: int):
     file = MODELS / "rover_description/urdf/rover.urdf.xacro"
     side, choose = SideBySide(file, policy_for(MODELS)), random.Random(seed)

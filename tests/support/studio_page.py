@@ -31,7 +31,7 @@ VIEWPORT: Final[ViewportSize] = {"width": 1280, "height": 720}
 ACTION_PATIENCE_MS = 90_000
 """For a click or a word: Playwright's own is half a minute, too little where all cores are busy."""
 _PICTURE_PATIENCE_S = 120.0
-_POLL_S = 0.1
+_POLL_S = 0.15
 _HAS_FOCUS = "one => one === document.activeElement"
 _COMPLAINTS = frozenset({"error"})
 _HAS_VISUALS = """() => {
@@ -45,7 +45,7 @@ _AS_A_TEST = """try {
 } catch {}
 if (window !== top) {
   const frame = window.requestAnimationFrame.bind(window);
-  window.requestAnimationFrame = (draw) => window.setTimeout(() => frame(draw), 60);
+  window.requestAnimationFrame = (draw) => window.setTimeout(() => frame(draw), 120);
   window.cancelAnimationFrame = window.clearTimeout.bind(window);
 }
 if (document.cookie.includes("without_view"))

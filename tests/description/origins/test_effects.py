@@ -14,6 +14,7 @@ from studio.description.sites.widgets import parse_number
 from studio.description.values import NoReply, SiteKind
 from tests.support.corpus import corpus
 from tests.support.descriptions import robot, write
+from tests.support.sweep import some_of
 from tests.support.traced_robots import Key, TracedRobot
 
 MODELS = Path(__file__).resolve().parents[3] / "models"
@@ -185,7 +186,7 @@ def check_against_edits(traced: TracedRobot, count: int) -> tuple[int, int]:
     return changed_count, beside
 
 
-@pytest.mark.parametrize("name", ["rover", "arm6", "quadruped", "xacro_robot"])
+@pytest.mark.parametrize("name", some_of(["rover", "arm6", "quadruped", "xacro_robot"], 2))
 def test_what_is_told_is_what_changes_on_our_models(name: str):
     file = MODELS / f"{name}_description" / "urdf" / f"{name}.urdf.xacro"
     changed, beside = check_against_edits(TracedRobot(file, MODELS), 25)
