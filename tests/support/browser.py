@@ -129,7 +129,8 @@ def _install_by_apt() -> None:
 
     apt("update")
     install = ("install", "-y", "--no-install-recommends")
-    apt(*install, "chromium-headless-shell") or apt(*install, "chromium")
+    if not apt(*install, "chromium-headless-shell"):
+        apt(*install, "chromium")
 
 
 def _install_by_playwright() -> None:

@@ -31,7 +31,7 @@ VIEWPORT: Final[ViewportSize] = {"width": 1280, "height": 720}
 ACTION_PATIENCE_MS = 90_000
 """For a click or a word: Playwright's own is half a minute, too little where all cores are busy."""
 _PICTURE_PATIENCE_S = 120.0
-_POLL_S = 0.15
+_POLL_S = 0.1
 _HAS_FOCUS = "one => one === document.activeElement"
 _COMPLAINTS = frozenset({"error"})
 _HAS_VISUALS = """() => {
@@ -63,12 +63,12 @@ _UNDO_ALL = """async () => {
 _SEVERAL_FRAMES = """() => new Promise((done) => {
   const view = document.querySelector("iframe")?.contentWindow ?? window;
   const frame = (left) => view.requestAnimationFrame(() => (left ? frame(left - 1) : done()));
-  frame(4);
+  frame(2);
 })"""
 
 _DRAWN_AFTER_SEVERAL_FRAMES = """async () => {
   const view = document.querySelector("iframe")?.contentWindow ?? window;
-  for (let left = 3; left; left -= 1)
+  for (let left = 2; left; left -= 1)
     await new Promise((next) => view.requestAnimationFrame(next));
   const canvas = view.__viserMutable?.canvas;
   if (!canvas?.width) return 0;
