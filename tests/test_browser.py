@@ -34,6 +34,15 @@ def test_the_path_is_searched_when_none_is_named(monkeypatch: pytest.MonkeyPatch
     assert find_chromium() == own
 
 
+def test_the_shell_without_a_window_is_taken_first(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    for name in ("chromium", "chromium-headless-shell"):
+        (tmp_path / name).write_text("#!/bin/sh\necho Chromium 156.0\n")
+        (tmp_path / name).chmod(0o755)
+    monkeypatch.delenv("STUDIO_CHROMIUM", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert find_chromium() == tmp_path / "chromium-headless-shell"
+
+
 @pytest.mark.browser
 def test_the_browser_draws_webgl_without_a_gpu(page: Page):
     page.set_content("<canvas id=c></canvas>")

@@ -9,7 +9,7 @@ import pytest
 from tests.support.demos import running_demo
 from tests.support.eight_numbers import SERIES, TOPIC, eight_numbers
 from tests.support.server import running_studio
-from tests.support.studio_page import StudioPage, studio_page, wait_until
+from tests.support.studio_page import PATIENCE_S, StudioPage, studio_page, wait_until
 from tests.support.wire import free_endpoint, router_at
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def count_all(tab: StudioPage, messages: int) -> None:
     came = lambda: tab.page.evaluate(_COME)  # noqa: E731
     wait_until("half of them", lambda: came() > messages / 2)
     # Sent at 1 kHz, or as fast as a busy machine sends them.
-    wait_until("all of them", lambda: came() >= messages, max(60.0, messages / 200))
+    wait_until("all of them", lambda: came() >= messages, max(PATIENCE_S, messages / 200))
     expected = [[messages, 1 + at, True] for at in range(SERIES)]
     wait_until("every number as it was sent", lambda: tab.page.evaluate(_COUNTS) == expected)
 

@@ -140,7 +140,7 @@ def test_the_help_speaks_the_language_of_the_page(tab: StudioPage):
     page.locator("dialog.help article").wait_for()
     page.get_by_role("button", name="Settings").click()
     page.get_by_role("menuitemradio", name="Deutsch").click()
-    page.get_by_role("heading", name="tun können").wait_for()
+    page.get_by_role("heading", name="Was Sie tun können").wait_for()
     page.get_by_role("button", name="Einstellungen").click()
     page.get_by_role("menuitemradio", name="English").click()
     page.get_by_role("heading", name="What you can do").wait_for()

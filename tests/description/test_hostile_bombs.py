@@ -207,13 +207,7 @@ def test_it_is_stopped_in_time_and_the_next_robot_opens(
     stopped(studio, CASES[case], tmp_path)
 
 
-@pytest.mark.parametrize(
-    "case",
-    [
-        pytest.param(case, marks=[pytest.mark.sweep] if number % 8 else [])
-        for number, case in enumerate(CASES)
-    ],
-)
+@pytest.mark.parametrize("case", some_of(CASES, 8))
 def test_stock_xacro_behind_the_guard_is_stopped_too(case: str, tmp_path: Path):
     file = write(tmp_path, CASES[case])
     with pytest.raises((ExpansionError, MemoryError)):

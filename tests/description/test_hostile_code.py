@@ -24,7 +24,6 @@ from tests.support.hostile import (
     properties,
     stopped,
 )
-from tests.support.sweep import some_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -203,7 +202,7 @@ def placed(case: str, place: Path) -> dict[str, str | bytes]:
     }
 
 
-@pytest.mark.parametrize("case", some_of(CASES))
+@pytest.mark.parametrize("case", CASES)
 def test_it_runs_nothing_and_reads_nothing_and_the_next_robot_opens(
     case: str, studio: HostileStudio, place: Path
 ):
@@ -213,7 +212,7 @@ def test_it_runs_nothing_and_reads_nothing_and_the_next_robot_opens(
     assert "root:" not in repr(said)
 
 
-@pytest.mark.parametrize("case", some_of(CASES))
+@pytest.mark.parametrize("case", CASES)
 def test_stock_xacro_behind_the_guard_runs_and_reads_nothing(
     case: str, place: Path, monkeypatch: pytest.MonkeyPatch
 ):
@@ -225,7 +224,7 @@ def test_stock_xacro_behind_the_guard_runs_and_reads_nothing(
     assert SECRET not in str(stopped.value)
 
 
-@pytest.mark.parametrize("case", some_of(CASES))
+@pytest.mark.parametrize("case", CASES)
 def test_a_refusal_is_never_handed_to_stock_xacro(
     case: str, place: Path, monkeypatch: pytest.MonkeyPatch
 ):

@@ -19,7 +19,6 @@ from tests.support.hostile import (
     properties,
     stopped,
 )
-from tests.support.sweep import some_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -159,7 +158,7 @@ HARMLESS: dict[str, tuple[Mapping[str, str | bytes], str]] = {
 }
 
 
-@pytest.mark.parametrize("case", some_of(REFUSED))
+@pytest.mark.parametrize("case", REFUSED)
 def test_it_is_refused_in_time_and_the_next_robot_opens(
     case: str, studio: HostileStudio, tmp_path: Path
 ):

@@ -51,7 +51,7 @@ if (window !== top) {
 if (document.cookie.includes("without_view"))
   Object.defineProperty(HTMLIFrameElement.prototype, "src", { set() {} });"""
 """A picture of a busy machine has the pixels of one of an idle one; and that the processor draws is
-not said over the 3D view, where it would be in pictures of it. The 3D view draws fifteen pictures a
+not said over the 3D view, where it would be in pictures of it. The 3D view draws seven pictures a
 second at most: software GL takes thirty milliseconds of all cores for one. Without the view, its
 frame stays empty."""
 

@@ -21,6 +21,7 @@ from tests.support.descriptions import policy_for, robot, write
 from tests.support.generated_xacro import files, texts
 from tests.support.patch_sweep import sweep
 from tests.support.patched import SideBySide
+from tests.support.sweep import some_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -262,9 +263,7 @@ def test_every_number_of_our_models_edited_and_edited_back_is_as_in_a_full_run(n
     assert done.patched > done.full
 
 
-@pytest.mark.parametrize(
-    "seed", [0, *(pytest.param(seed, marks=pytest.mark.sweep) for seed in range(1, 6))]
-)
+@pytest.mark.parametrize("seed", some_of(range(6), 6))
 @pytest.mark.parametrize("name", ["rover_description/urdf/rover.urdf.xacro", "arm6_description"])
 def test_a_random_sequence_of_edits_of_our_models_is_as_in_full_runs(name: str, seed: int):
     file = next(iter((MODELS / name).rglob("*.urdf.xacro")), MODELS / name)
