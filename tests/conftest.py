@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Page
 
+    from tests.support.browser import KeptBrowser
+
 REPOSITORY = Path(__file__).resolve().parents[1]
 
 # Time is asserted in no test: neither that of an example, nor how long a busy machine makes them.
@@ -83,12 +85,21 @@ def endpoint() -> Iterator[str]:
         yield found
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    """A headless Chromium for one file of tests."""
-    from tests.support.browser import open_browser
+@pytest.fixture(scope="session")
+def kept_browser() -> Iterator[KeptBrowser]:
+    """The headless Chromium of this process."""
+    from tests.support.browser import KeptBrowser
 
-    yield from open_browser()
+    kept = KeptBrowser()
+    yield kept
+    kept.close()
+
+
+@pytest.fixture(scope="module")
+def browser(kept_browser: KeptBrowser) -> Iterator[Browser]:
+    """A headless Chromium; what a file of tests opens in it, it closes."""
+    with kept_browser.lent() as lent:
+        yield lent
 
 
 @pytest.fixture

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.support.browser import NoChromiumError, find_chromium
+from tests.support.browser import KeptBrowser, NoChromiumError, find_chromium, lives
+from tests.support.studio_page import wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -50,3 +52,23 @@ def test_the_browser_draws_webgl_without_a_gpu(page: Page):
         "document.getElementById('c').getContext('webgl2').getParameter(0x1F02)"
     )
     assert str(version).startswith("WebGL 2.0")
+
+
+@pytest.mark.browser
+def test_a_kept_browser_leaves_room_for_other_loops_and_is_replaced_when_it_has_died():
+    async def nothing() -> None:
+        pass
+
+    kept = KeptBrowser()
+    with kept.lent() as first:
+        session = first.new_browser_cdp_session()
+    asyncio.run(nothing())
+    with kept.lent() as again:
+        assert again is first
+        session.send("Browser.close")
+        wait_until("it to be gone", lambda: not lives(first))
+    with kept.lent() as second:
+        assert second is not first
+        assert second.new_page().evaluate("1 + 1") == 2
+    kept.close()
+    asyncio.run(nothing())

@@ -35,17 +35,22 @@ export function useBrowser({ everything = false } = {}) {
     words: useSignal(""),
     everything: useSignal(everything),
   };
+  const asked = useRef(0); // how many folders
   /** @param {string} path empty: the served folders */
   const go = async (path) => {
+    asked.current += 1;
+    const number = asked.current;
     try {
       const answer = await send({ type: "list_folder", path });
       if (answer.type !== "folder") return;
       if (path === "") browser.roots.value = answer.entries.map((entry) => entry.path);
+      if (number !== asked.current) return; // they have gone elsewhere since
       browser.folder.value = answer;
       browser.error.value = "";
       browser.words.value = "";
       remember(LAST, path);
     } catch (refusal) {
+      if (number !== asked.current) return;
       browser.error.value =
         refusal instanceof RefusedError ? refusal.message : t("connection.lost");
     }
@@ -55,7 +60,7 @@ export function useBrowser({ everything = false } = {}) {
     const begin = async () => {
       await go("");
       // A folder remembered from another day may be gone: then the served folders stay.
-      if (typeof last !== "string" || last === "") return;
+      if (typeof last !== "string" || last === "" || asked.current > 1) return;
       await go(last);
       browser.error.value = "";
     };

@@ -14,7 +14,12 @@ import numpy as np
 import pytest
 
 from studio.ros.attachment import Attachment
-from studio.ros.client import ExternalShutdownException, QoSProfile, ReliabilityPolicy
+from studio.ros.client import (
+    ExternalShutdownException,
+    HistoryPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+)
 from studio.ros.messages import message
 from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.node import Node
@@ -156,17 +161,13 @@ def test_a_message_of_50_megabytes_arrives_whole(endpoint: str, node: Node):
     pixels = np.arange(50_000_000, dtype=np.uint32).astype(np.uint8)
     image = message("sensor_msgs/msg/Image")
     came = heard(node, "sensor_msgs/msg/Image", "/large", 1)
+    # Its sender waits: one that keeps the newest drops a whole message where one part has no room.
+    keeps_all = QoSProfile(history=HistoryPolicy.KEEP_ALL)
     with node_at(endpoint, "camera") as camera:
-        publisher = camera.create_publisher(image, "/large", 1)
+        publisher = camera.create_publisher(image, "/large", keeps_all)
         assert camera.graph.wait_for(lambda: bool(camera.graph.subscriptions("/large")), PATIENCE_S)
-
-        def publish() -> bool:
-            if not came:
-                publisher.publish(image(width=10_000, height=5_000, data=pixels))
-                time.sleep(0.2)
-            return bool(came)
-
-        wait_until("it comes", publish)
+        publisher.publish(image(width=10_000, height=5_000, data=pixels))
+        wait_until("it comes", lambda: bool(came))
     assert (came[0].width, came[0].height) == (10_000, 5_000)
     assert np.array_equal(came[0].data, pixels)
 

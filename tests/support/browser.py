@@ -6,18 +6,20 @@ is none, by apt (as root), else by `playwright install chromium`.
 
 from __future__ import annotations
 
+import asyncio
 import os
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Error, sync_playwright
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator, Iterator
 
 NAMES = (
     "chromium-headless-shell",
@@ -87,14 +89,63 @@ def ensure_chromium() -> Path:
 def open_browser() -> Iterator[Browser]:
     """A running headless Chromium, closed afterwards.
 
-    Playwright leaves its event loop running in this thread until it is stopped, so keep it no
-    longer than one file of tests.
+    Playwright leaves its event loop running in this thread until it is stopped.
     """
     path = ensure_chromium()
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=str(path), args=list(FLAGS))
         yield browser
         browser.close()
+
+
+class KeptBrowser:
+    """One Chromium for all files of tests of a process: each start costs a second of a processor.
+
+    Its event loop counts as running only while a file has it: other files run loops of their own.
+    """
+
+    def __init__(self) -> None:
+        self._opened: Iterator[Browser] = iter(())
+        self._browser: Browser | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    @contextmanager
+    def lent(self) -> Generator[Browser]:
+        """The browser; a new one, if the one before has died."""
+        asyncio._set_running_loop(self._loop)  # as Playwright does it, behind each of its calls
+        try:
+            if self._browser is None or not lives(self._browser):
+                self._close()
+                self._opened = open_browser()
+                self._browser = next(self._opened)
+            yield self._browser
+        finally:
+            self._put_aside()
+
+    def close(self) -> None:
+        """End it, if it was ever lent."""
+        asyncio._set_running_loop(self._loop)
+        self._close()
+        self._loop = None
+        asyncio._set_running_loop(None)
+
+    def _close(self) -> None:
+        self._browser = None
+        for _ in self._opened:
+            pass
+
+    def _put_aside(self) -> None:
+        self._loop = asyncio._get_running_loop()
+        asyncio._set_running_loop(None)
+
+
+def lives(browser: Browser) -> bool:
+    """Whether it still does what it is told; that it has died is learnt by telling it something."""
+    try:
+        browser.new_context().close()
+    except Error:
+        return False
+    return True
 
 
 def _playwright_chromium() -> Path | None:
