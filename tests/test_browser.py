@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -61,7 +61,7 @@ def test_a_kept_browser_leaves_room_for_other_loops_and_is_replaced_when_it_has_
 
     kept = KeptBrowser()
     with kept.lent() as first:
-        session = first.new_browser_cdp_session()
+        session: Any = first.new_browser_cdp_session()
     asyncio.run(nothing())
     with kept.lent() as again:
         assert again is first

@@ -36,23 +36,25 @@ export function useBrowser({ everything = false } = {}) {
     everything: useSignal(everything),
   };
   const asked = useRef(0); // how many folders
+  /** @param {Folder} folder */
+  const show = (folder) => {
+    browser.folder.value = folder;
+    browser.error.value = "";
+    browser.words.value = "";
+    remember(LAST, folder.path);
+  };
   /** @param {string} path empty: the served folders */
   const go = async (path) => {
     asked.current += 1;
     const number = asked.current;
+    const isNewest = () => number === asked.current; // else one has gone elsewhere since
     try {
       const answer = await send({ type: "list_folder", path });
       if (answer.type !== "folder") return;
       if (path === "") browser.roots.value = answer.entries.map((entry) => entry.path);
-      if (number !== asked.current) return; // they have gone elsewhere since
-      browser.folder.value = answer;
-      browser.error.value = "";
-      browser.words.value = "";
-      remember(LAST, path);
+      if (isNewest()) show(answer);
     } catch (refusal) {
-      if (number !== asked.current) return;
-      browser.error.value =
-        refusal instanceof RefusedError ? refusal.message : t("connection.lost");
+      if (isNewest()) browser.error.value = refusalText(refusal);
     }
   };
   useEffect(() => {
@@ -68,6 +70,10 @@ export function useBrowser({ everything = false } = {}) {
   }, []);
   return { ...browser, go };
 }
+
+/** @param {unknown} refusal @returns {string} */
+const refusalText = (refusal) =>
+  refusal instanceof RefusedError ? refusal.message : t("connection.lost");
 
 /** @param {{browser: Browser}} props the way to the folder, and what is shown of it */
 function FolderBar({ browser }) {

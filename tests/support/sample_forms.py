@@ -22,7 +22,7 @@ from studio.ros.qos import QoSProfile
 from studio.server.bulk_lane import BulkKeys
 from studio.server.data_lane import DataLane
 from tests.support.topic_worlds import zenoh_world
-from tests.support.wire import PATIENCE_S
+from tests.support.wire import PATIENCE_S, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator
@@ -190,6 +190,8 @@ async def _followed(world: World, follower: Follower, marker: str, *, slow: bool
     follower.is_on = True
     with follower.looking_away():
         speaker.say(marker)
+    # Nobody takes it out of its queue before it was seen there: the loop stands still meanwhile.
+    wait_until("it waits in a queue", lambda: bool(follower.buffers))
     if slow:
         await _until(lambda: "Backlog.all" in follower.buffers)
         end.socket.is_slow = False

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from typing import TYPE_CHECKING, NamedTuple, Self
 
+from studio.ros.condition import Condition
 from studio.ros.graph.endpoints import GraphTable, Taken
 from studio.ros.names import check_full_name, is_hidden
 from studio.ros.tokens import EndpointKind, tokens_of_domain
@@ -36,7 +36,7 @@ class Graph:
     def __init__(self, wire: WireSession) -> None:
         self._wire = wire
         self._table = GraphTable()
-        self._changed = threading.Condition()
+        self._changed = Condition()
         self._version = 0
         self._listeners: list[Callable[[], None]] = []
         tokens = watch_tokens(wire.zenoh, tokens_of_domain(wire.domain))

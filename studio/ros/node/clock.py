@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import operator
-import threading
 import time
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, overload
 
+from studio.ros.condition import Condition
 from studio.ros.duration import NANOSECONDS, Duration
 from studio.ros.messages import message
 from studio.ros.node.context import default_context
@@ -140,7 +140,7 @@ class Clock:
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         self._clock_type = clock_type
         self._ros_time_ns: int | None = None
-        self._moved = threading.Condition()
+        self._moved = Condition()
         self._handles: list[JumpHandle] = []
         self._watchers: list[Callable[[], None]] = []
 

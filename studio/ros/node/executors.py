@@ -11,6 +11,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 
 from studio.errors import ExternalShutdownException
+from studio.ros.condition import Condition
 from studio.ros.node.context import default_context
 from studio.ros.node.task import Task
 from studio.ros.node.work import Home, Work
@@ -64,7 +65,7 @@ class Executor:
         self.is_shut_down = False
         # Held by name where it is taken for every message: a condition takes twice as long.
         self._lock = threading.RLock()
-        self._changed = threading.Condition(self._lock)
+        self._changed = Condition(self._lock)
         self._nodes: list[ExecutorNode] = []
         self._ready: deque[Work | Task] = deque()
         self._queued: set[Work] = set()

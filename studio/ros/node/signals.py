@@ -8,7 +8,7 @@ import socket
 import threading
 import weakref
 from enum import IntFlag
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import ExternalShutdownException
 
@@ -22,6 +22,9 @@ GRACE_S = 1.0
 """So long a process may take to end by itself."""
 CLOSING_S = 0.2
 """So long sessions may take to close if it did not."""
+_NUDGE_AFTER_S = 0.1
+_NUDGE: Final = getattr(signal, "SIGURG", None)
+"""Ends a wait of the main thread and does nothing else; ignored by default, so hardly used."""
 
 
 class SignalHandlerOptions(IntFlag):
@@ -45,6 +48,9 @@ class SignalHandlers:
     Ctrl-C raises KeyboardInterrupt in the main thread as well. A process that is asked to end by
     SIGTERM and does not, or that is stuck in code that lets no handler run, is ended after a
     grace, its sessions closed: such as one that waits for a router, or sleeps.
+
+    A signal that comes in the instant before the main thread begins to wait does not end the wait,
+    and its handler is not run: the main thread is nudged a moment later.
     """
 
     def __init__(self) -> None:
@@ -62,6 +68,8 @@ class SignalHandlers:
         for option, number in _NUMBERS.items():
             if option & options and number not in self._before:
                 self._before[number] = signal.signal(number, self._handle)
+        if _NUDGE is not None and signal.getsignal(_NUDGE) is signal.SIG_DFL:
+            self._before[_NUDGE] = signal.signal(_NUDGE, _do_nothing)
         self._watch = self._watch or _Watch.begin(self._on_signal)
 
     def uninstall(self) -> None:
@@ -95,15 +103,29 @@ class SignalHandlers:
     def _on_signal(self, number: int) -> None:
         """Wait for the process to end, and end it if it goes on; runs in the watching thread."""
         contexts = tuple(self._contexts)
-        if number not in self._before or not contexts:
+        if number not in self._before or number == _NUDGE or not contexts:
             return
+        if not self._ends(number, contexts, _NUDGE_AFTER_S):
+            self._nudge()
+            if not self._ends(number, contexts, GRACE_S):
+                _end_process(contexts, number)
+
+    def _ends(self, number: int, contexts: tuple[Context, ...], timeout_s: float) -> bool:
+        """Wait until the process is about to end; whether it is."""
         if number == signal.SIGINT:
             # KeyboardInterrupt is being handled: what catches it may take its time.
-            ends = self._interrupted.acquire(timeout=GRACE_S)
-        else:
-            ends = contexts[0].wait_closed(GRACE_S)
-        if not ends:
-            _end_process(contexts, number)
+            return self._interrupted.acquire(timeout=timeout_s)
+        return contexts[0].wait_closed(timeout_s)
+
+    def _nudge(self) -> None:
+        """Let the main thread run its handlers, if it waits."""
+        main = threading.main_thread().ident
+        if _NUDGE in self._before and main is not None:
+            signal.pthread_kill(main, _NUDGE)
+
+
+def _do_nothing(_number: int, _frame: FrameType | None) -> None:
+    """Be a handler: without one, the signal would end no wait."""
 
 
 class _Watch:

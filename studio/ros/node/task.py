@@ -5,8 +5,9 @@ from __future__ import annotations
 import asyncio
 import inspect
 import logging
-import threading
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, cast
+
+from studio.ros.condition import Condition
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Generator
@@ -42,7 +43,7 @@ class Future(Generic[ResultT]):
 
     def __init__(self, *, executor: TaskExecutor | None = None) -> None:
         self._executor = executor
-        self._changed = threading.Condition()
+        self._changed = Condition()
         self._done = self._cancelled = False
         self._result: ResultT | None = None
         self._exception: BaseException | None = None

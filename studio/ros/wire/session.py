@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import json
-import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
@@ -16,6 +15,7 @@ from studio.errors import (
     WireError,
     WireSettingsError,
 )
+from studio.ros.condition import Condition
 from studio.ros.types.library import TypeLibrary
 from studio.ros.wire.endpoints import Endpoint, ProbeResult, parse_endpoint, probe
 from studio.ros.wire.router import EmbeddedRouter, RouterChoice, router_choice, start_router
@@ -260,7 +260,7 @@ class RouterWatch:
                 thread of this watch; it must be quick.
         """
         self._listener = listener
-        self._changed = threading.Condition()
+        self._changed = Condition()
         events = watch_transports(wire.zenoh)
         # Routers that are there come as events, too, but somebody may ask before that.
         self._routers = {str(zid) for zid in wire.zenoh.info.routers_zid()}

@@ -73,9 +73,7 @@ rate.sleep()
 }
 
 
-def ended_by(
-    number: signal.Signals, program: str, endpoint: str, *, warm: bool = True
-) -> tuple[int, str]:
+def ended_by(number: int, program: str, endpoint: str, *, warm: bool = True) -> tuple[int, str]:
     """Run a program until it says that it is ready, signal it, and give its code and errors."""
     process = start_python(
         [sys.executable, "-c", PREPARED + program, endpoint],
@@ -106,6 +104,24 @@ def test_a_signal_ends_a_node_within_two_seconds(
     if number == signal.SIGINT:
         assert code == -signal.SIGINT
         assert "KeyboardInterrupt" in errors or "ExternalShutdown" in errors
+
+
+def test_a_signal_that_came_just_before_a_wait_ends_the_wait(endpoint: str):
+    # Taken by another thread, it interrupts the main one as little as one that came too early.
+    program = """
+import signal
+def interrupt():
+    time.sleep(0.2)
+    signal.pthread_kill(threading.get_ident(), signal.SIGINT)
+join()
+lock = threading.Lock()
+lock.acquire()
+threading.Thread(target=interrupt, daemon=True).start()
+ready()
+lock.acquire()
+"""
+    code, errors = ended_by(0, program, endpoint)
+    assert (code, "KeyboardInterrupt" in errors) == (-signal.SIGINT, True)
 
 
 def test_a_listing_that_expects_ctrl_c_ends_cleanly(endpoint: str):
