@@ -21,7 +21,13 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 
 # Time is asserted in no test: neither that of an example, nor how long a busy machine makes them.
 settings.register_profile("studio", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("studio")
+settings.register_profile("without sweeps", settings.get_profile("studio"), max_examples=40)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Hypothesis makes fewer examples where sweeps are left out; CI makes as many as it would."""
+    left_out = config.option.markexpr == "not sweep"
+    settings.load_profile("without sweeps" if left_out else "studio")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -68,9 +68,18 @@ def box(tab: StudioPage, name: str) -> str:
 
 
 def copied(tab: StudioPage, what: str, form: str) -> str:
+    tab.page.evaluate("navigator.clipboard.writeText('')")
     tab.page.get_by_role("button", name=f"Copy: {what}").first.click()
     tab.page.get_by_role("menuitem", name=form).click()
-    return str(tab.page.evaluate("navigator.clipboard.readText()"))
+    text = ""
+
+    def is_there() -> bool:
+        nonlocal text
+        text = str(tab.page.evaluate("navigator.clipboard.readText()"))
+        return text != ""
+
+    wait_until("the copied text", is_there)
+    return text
 
 
 def matrix(tab: StudioPage) -> NDArray[np.float64]:
