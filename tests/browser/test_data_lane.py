@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(400)]
 
-MESSAGES = [6_000, pytest.param(30_000, marks=pytest.mark.sweep)]
-"""Of six seconds, and of half a minute."""
+MESSAGES = [2_000, pytest.param(30_000, marks=pytest.mark.sweep)]
+"""Of two seconds, and of half a minute."""
 _COUNTS = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   const { samplesOf } = await import(new URL("../model/plotting.js", script));

@@ -185,6 +185,7 @@ def test_a_line_of_the_course_goes_on_until_ctrl_c(endpoint: str, row: GoesOn):
         assert "Traceback" not in process.printed
 
 
+@pytest.mark.sweep  # it sings for twenty seconds, and goals are answered in quicker tests, too
 def test_the_song_requester_of_the_course_is_answered(endpoint: str):
     with (
         started(endpoint, "run", "radio_station", "radio_dj"),
