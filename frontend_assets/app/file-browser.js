@@ -35,7 +35,7 @@ export function useBrowser({ everything = false } = {}) {
     words: useSignal(""),
     everything: useSignal(everything),
   };
-  const asked = useRef(0); // how many folders
+  const asked = useRef(0); // lists, so far
   /** @param {Folder} folder */
   const show = (folder) => {
     browser.folder.value = folder;

@@ -120,7 +120,8 @@ class KeptBrowser:
                 self._browser = next(self._opened)
             yield self._browser
         finally:
-            self._put_aside()
+            self._loop = asyncio._get_running_loop()
+            asyncio._set_running_loop(None)
 
     def close(self) -> None:
         """End it, if it was ever lent."""
@@ -133,10 +134,6 @@ class KeptBrowser:
         self._browser = None
         for _ in self._opened:
             pass
-
-    def _put_aside(self) -> None:
-        self._loop = asyncio._get_running_loop()
-        asyncio._set_running_loop(None)
 
 
 def lives(browser: Browser) -> bool:

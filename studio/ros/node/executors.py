@@ -63,7 +63,7 @@ class Executor:
     def __init__(self, *, context: Context | None = None) -> None:
         self.context = context or default_context()
         self.is_shut_down = False
-        # Held by name where it is taken for every message: a condition takes twice as long.
+        # Taken by its own name: a condition takes twice as long, and Ctrl-C may come within it.
         self._lock = threading.RLock()
         self._changed = Condition(self._lock)
         self._nodes: list[ExecutorNode] = []
@@ -82,7 +82,7 @@ class Executor:
 
     def add_node(self, node: ExecutorNode) -> bool:
         """Carry out a node's work, which another executor does no more; whether it is new."""
-        with self._changed:
+        with self._lock:
             if self.is_shut_down or node in self._nodes:
                 return False
             self._nodes.append(node)
@@ -93,7 +93,7 @@ class Executor:
 
     def remove_node(self, node: ExecutorNode) -> None:
         """Carry out a node's work no more."""
-        with self._changed:
+        with self._lock:
             if node not in self._nodes:
                 return
             self._nodes.remove(node)
@@ -104,13 +104,13 @@ class Executor:
 
     def get_nodes(self) -> list[ExecutorNode]:
         """Return the nodes whose work is carried out."""
-        with self._changed:
+        with self._lock:
             return list(self._nodes)
 
     def adopt(self, work: Work) -> None:
         """Carry out a piece of work of a node."""
         if work.is_timed:
-            with self._changed:
+            with self._lock:
                 self._due.add(work)
                 self._changed.notify()
         if work.is_ready:
@@ -118,7 +118,7 @@ class Executor:
 
     def forget(self, work: Work) -> None:
         """Remove work from what is due."""
-        with self._changed:
+        with self._lock:
             self._due.discard(work)
             if work in self._queued:
                 self._queued.remove(work)
@@ -149,13 +149,13 @@ class Executor:
 
     def resume(self, task: Task) -> None:
         """Continue a task; thread-safe."""
-        with self._changed:
+        with self._lock:
             self._ready.append(task)
             self._changed.notify()
 
     def wake(self) -> None:
         """Wake the spinning thread, which checks again whether to go on; thread-safe."""
-        with self._changed:
+        with self._lock:
             self._changed.notify_all()
 
     def spin(self) -> None:
@@ -363,7 +363,7 @@ class MultiThreadedExecutor(Executor):
     def _wait_for_thread(self, timeout_s: float | None, enough: Callable[[], bool] | None) -> bool:
         """Wait until a thread is free; False when the time is over, or there is enough."""
         end_s = None if timeout_s is None or timeout_s < 0 else time.monotonic() + timeout_s
-        with self._changed:
+        with self._lock:
             while not self._free:
                 if self._failures or self.is_shut_down or not self.context.ok():
                     return bool(not self.context.ok() or self._failures)
@@ -375,7 +375,7 @@ class MultiThreadedExecutor(Executor):
         return True
 
     def _hand_over(self, piece: Piece) -> None:
-        with self._changed:
+        with self._lock:
             self._free -= 1
             if len(self._threads) < self._threads_max - self._free:
                 thread = threading.Thread(target=self._work, name="ros executor", daemon=True)
@@ -389,7 +389,7 @@ class MultiThreadedExecutor(Executor):
                 self._carry_out(piece)
             except BaseException as error:  # noqa: BLE001  # raised again where it spins
                 self._failures.append(error)
-            with self._changed:
+            with self._lock:
                 self._free += 1
                 self._changed.notify_all()
 

@@ -107,7 +107,7 @@ class SignalHandlers:
             return
         if not self._ends(number, contexts, _NUDGE_AFTER_S):
             self._nudge()
-            if not self._ends(number, contexts, GRACE_S):
+            if not self._ends(number, contexts, GRACE_S - _NUDGE_AFTER_S):
                 _end_process(contexts, number)
 
     def _ends(self, number: int, contexts: tuple[Context, ...], timeout_s: float) -> bool:

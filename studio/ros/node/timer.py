@@ -7,6 +7,7 @@ import time
 from typing import TYPE_CHECKING
 
 from studio.errors import DestroyedError, ExternalShutdownException
+from studio.ros.condition import Condition
 from studio.ros.duration import NANOSECONDS, Duration
 from studio.ros.node.clock import ClockType, JumpThreshold
 from studio.ros.node.work import Work
@@ -162,12 +163,12 @@ class Rate:
         self, timer: Timer, context: Context, logger: Logger, forget: Callable[[Timer], object]
     ) -> None:
         """Sleep until a timer calls back; `forget` takes the timer from its node at the end."""
-        self._beat = threading.Event()
+        self._changed, self._beaten = Condition(), False
         self._timer: Timer | None = timer
         self._context, self._logger, self._forget = context, logger, forget
         self._patience_s = 2 * timer.timer_period_ns / NANOSECONDS + _PATIENCE_S
-        timer.callback = self._beat.set
-        context.on_end(self._beat.set)
+        timer.callback = self._beat
+        context.on_end(self._beat)
 
     def sleep(self) -> None:
         """Sleep until the timer calls back next.
@@ -176,18 +177,15 @@ class Rate:
             DestroyedError: The rate was destroyed.
             ExternalShutdownException: The process was asked to end.
         """
-        while not self._beat.wait(self._patience_s):
+        while not self._wait():
             self._logger.warning(
                 "Nobody spins this node, so that its rate sleeps on: call spin_once in the loop, "
                 "or spin in a thread.",
                 once=True,
             )
-        self._beat.clear()
         if not self._context.ok():
-            self._beat.set()
             raise ExternalShutdownException
         if self._timer is None:
-            self._beat.set()
             raise DestroyedError("rate")
 
     def destroy(self) -> None:
@@ -195,5 +193,21 @@ class Rate:
         timer, self._timer = self._timer, None
         if timer is not None:
             self._forget(timer)
-            self._context.forget_end(self._beat.set)
-        self._beat.set()
+            self._context.forget_end(self._beat)
+        self._beat()
+
+    def _beat(self) -> None:
+        with self._changed:
+            self._beaten = True
+            self._changed.notify_all()
+
+    def _wait(self) -> bool:
+        """Wait for a beat, and take it; False when none comes in time.
+
+        The last beat is left for whoever else sleeps.
+        """
+        with self._changed:
+            beaten = self._changed.wait_for(lambda: self._beaten, self._patience_s)
+            if beaten and self._context.ok() and self._timer is not None:
+                self._beaten = False
+        return beaten
