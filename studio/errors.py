@@ -85,6 +85,8 @@ StudioError
         DisplayPropertyError
     AccessError
         NotAllowedError
+        NotInControlError
+        NotJoiningError
         UnknownLaneError
     CommandError
         UnknownDocumentError
@@ -813,6 +815,24 @@ class NotAllowedError(AccessError):
     def __init__(self, role: str, command: str) -> None:
         super().__init__(f"A {role} may not {command.replace('_', ' ')}: ask the presenter.")
         self.role, self.command = role, command
+
+
+class NotInControlError(AccessError):
+    """Somebody else has control of the robot and of the ROS system."""
+
+    def __init__(self, role: str, command: str) -> None:
+        what = command.replace("_", " ")
+        way = "take it back" if role == "presenter" else "ask for it"
+        super().__init__(f"Only who has control may {what}: {way} first.")
+        self.role, self.command = role, command
+
+
+class NotJoiningError(AccessError):
+    """A person cannot join the class; `why` names the reason for the page."""
+
+    def __init__(self, why: str, sentence: str) -> None:
+        super().__init__(sentence)
+        self.why = why
 
 
 class UnknownLaneError(AccessError):

@@ -42,19 +42,47 @@ class WireChoice:
 
 
 @dataclass(frozen=True, slots=True)
+class TlsChoice:
+    """How the page is encrypted; `certificate` None: by one that the studio makes itself."""
+
+    certificate: Path | None = None
+    key: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Settings:
     """Settings from the command line; see `studio --help`."""
 
     host: str = DEFAULT_HOST
     port: int | None = None
     """None: the default port or the next free one."""
-    token: str | None = None
-    """None: no token is asked for (`--no-token`, loopback only)."""
+    token: str = ""
+    """Makes an owner of who has it."""
+    guests: bool = False
+    """Whether all who reach the port may look, without a token."""
+    shared: bool = False
+    """Whether a class is begun at the start."""
+    base_path: str = ""
+    """The path below which the page is reached, as `/studio`."""
+    proxies: frozenset[str] = frozenset()
+    """Addresses of proxies that tell who asks."""
+    public_url: str = ""
+    """The address that others use, when it is another than this machine's."""
+    tls: TlsChoice | None = None
     data_folder: Path = Path()
     package_paths: tuple[Path, ...] = ()
     trusted: bool = False
     open_browser: bool = True
     wire: WireChoice = WireChoice()
+
+    @property
+    def is_private(self) -> bool:
+        """Whether the page is offered to this machine's own browsers alone.
+
+        It decides what the owner may reach from the page, never who the owner is.
+        """
+        offered = self.shared or self.guests or self.proxies or self.public_url
+        return self.host in LOOPBACK_HOSTS and not offered
 
 
 def repository_or_wheel(folder: str) -> Path:

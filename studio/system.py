@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _WATCH_INTERVAL_S = 0.2
+_DESCRIPTORS = 16_384
 
 
 def limit_memory(limit_bytes: int) -> None:
@@ -51,6 +52,18 @@ def is_running(pid: int) -> bool:
     except PermissionError:  # it is another user's
         return True
     return True
+
+
+def raise_descriptor_limit() -> None:
+    """Let this process open as many files and sockets as the system allows it: three a browser."""
+    try:
+        import resource  # noqa: PLC0415 - Unix only
+    except ImportError:
+        return
+    _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = _DESCRIPTORS if most == resource.RLIM_INFINITY else min(most, _DESCRIPTORS)
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, most))
 
 
 def hold_file(path: Path) -> IO[bytes] | None:

@@ -7,6 +7,7 @@ import gc
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from studio.cli.joining import JOINING, add_joining_options
 from studio.errors import SettingsError
@@ -15,10 +16,11 @@ from studio.settings import DEFAULT_HOST, DEFAULT_PORT
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from studio.settings import Settings
+    from studio.settings import Settings, TlsChoice
 
 
 _HIGHEST_PORT = 65535
+_EVERYWHERE = "0.0.0.0"
 _NEW_OBJECTS_MAX = 5_000
 """Between two garbage collections: an edit makes up to a thousand objects, which are collected
 afterwards, when nobody waits."""
@@ -33,12 +35,7 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
         "--port", type=_port, help=f"port to listen on (default: {DEFAULT_PORT} or the next free)"
     )
     parser.add_argument("--no-browser", action="store_true", help="open no browser window")
-    parser.add_argument(
-        "--no-token", action="store_true", help="ask nobody for the token; this machine only"
-    )
-    parser.add_argument(
-        "--viewer-link", action="store_true", help="print an address for viewers, too"
-    )
+    _add_sharing_options(parser.add_argument_group("sharing it with others").add_argument)
     wire = parser.add_argument_group(JOINING)
     add_joining_options(
         wire.add_argument,
@@ -47,6 +44,36 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
         "none (default: auto)",
     )
     add_read_options(parser)
+
+
+def _add_sharing_options(add: Callable[..., object]) -> None:
+    add(
+        "--share",
+        action="store_true",
+        help="let others on this network join with a code, and print it",
+    )
+    add("--viewer-link", action="store_true", help="print an address for viewers, too")
+    add(
+        "--no-token",
+        action="store_true",
+        help="let all who reach the port look, without a token; the owner's address has it still",
+    )
+    add("--tls-cert", type=Path, metavar="FILE", help="encrypt with this certificate (PEM) and ...")
+    add("--tls-key", type=Path, metavar="FILE", help="... its key")
+    add(
+        "--tls",
+        choices=("self",),
+        help="encrypt with a certificate that the studio makes, and print its fingerprint",
+    )
+    add("--base-path", default="", metavar="PATH", help="path behind a proxy, as /studio")
+    add(
+        "--trusted-proxy",
+        action="append",
+        default=[],
+        metavar="ADDRESS",
+        help="proxy whose X-Forwarded-For, -Proto and -Host are believed; may be given again",
+    )
+    add("--public-url", default="", metavar="URL", help="address that others use to come here")
 
 
 def add_read_options(parser: argparse.ArgumentParser) -> None:
@@ -91,21 +118,61 @@ def server_settings(options: argparse.Namespace) -> Settings:
     """
     from studio.ros.wire.endpoints import parse_endpoint
     from studio.server.credentials import new_token
+    from studio.server.front import base_path, proxy_addresses
     from studio.settings import Settings, WireChoice, data_folder
 
     router = () if options.router in {"auto", "off"} else (options.router,)
     for endpoint in (*options.connect, *router):
         parse_endpoint(endpoint)
+    public_url = _public_url(options.public_url)
     return Settings(
-        host=options.host,
+        host=_EVERYWHERE if options.share and options.host == DEFAULT_HOST else options.host,
         port=options.port,
-        token=None if options.no_token else new_token(),
+        token=new_token(),
+        guests=options.no_token,
+        shared=options.share,
+        base_path=base_path(options.base_path or urlsplit(public_url).path),
+        proxies=proxy_addresses(options.trusted_proxy),
+        public_url=public_url,
+        tls=_tls(options),
         data_folder=data_folder(options.data_dir),
         package_paths=package_paths(options),
         trusted=options.trust,
         open_browser=not options.no_browser,
         wire=WireChoice(options.router, tuple(options.connect), options.domain),
     )
+
+
+def _public_url(text: str) -> str:
+    """Return the address with a slash at its end, or an empty text.
+
+    Raises:
+        SettingsError: It is no address of a page.
+    """
+    if not text:
+        return ""
+    parts = urlsplit(text)
+    if parts.scheme not in {"http", "https"} or not parts.hostname or parts.query:
+        raise SettingsError(f"--public-url takes an address as https://host/path, not {text!r}.")
+    return text if text.endswith("/") else f"{text}/"
+
+
+def _tls(options: argparse.Namespace) -> TlsChoice | None:
+    """Return how the page is encrypted.
+
+    Raises:
+        SettingsError: A certificate without its key, or two choices at once.
+    """
+    from studio.settings import TlsChoice
+
+    given = (options.tls_cert, options.tls_key)
+    if (given[0] is None) != (given[1] is None):
+        raise SettingsError("--tls-cert and --tls-key belong together: give both.")
+    if options.tls and given[0] is not None:
+        raise SettingsError("Choose one of --tls self and --tls-cert.")
+    if options.tls:
+        return TlsChoice()
+    return None if given[0] is None else TlsChoice(*given)
 
 
 def serve(

@@ -131,9 +131,9 @@ class DiskSync:
 
 
 COMMANDS: Final = Commands[DiskSync](Scope.DOCUMENT)
-COMMANDS.presenter(GetCollisions, lambda disk, c, _: disk.collisions(c))
-COMMANDS.presenter(ResolveCollisions, lambda disk, c, _: disk.resolve(c))
-COMMANDS.presenter(Reload, lambda disk, _, __: disk.reload())
+COMMANDS.controller(GetCollisions, lambda disk, c, _: disk.collisions(c))
+COMMANDS.controller(ResolveCollisions, lambda disk, c, _: disk.resolve(c))
+COMMANDS.controller(Reload, lambda disk, _, __: disk.reload())
 
 
 def changed_on_disk(file: str) -> Problem:

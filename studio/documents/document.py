@@ -65,7 +65,6 @@ from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
 from studio.protocol.robot import Displays, SetDisplay
 from studio.scene import DocumentScene
-from studio.settings import LOOPBACK_HOSTS
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable, Mapping
@@ -227,11 +226,11 @@ class Document:
     async def choose_package(self, name: str, folder: str) -> None:
         """Use a folder for a package from now on, read-only.
 
-        On the owner's own machine it may be anywhere, for a missing package is where nothing is
-        served; a remote presenter chooses among the served folders.
+        It may be anywhere while the studio is offered to nobody else, for a missing package is
+        where nothing is served; otherwise it is one of the served folders.
         """
         chosen = Path(folder)
-        if self._services.settings.host not in LOOPBACK_HOSTS:
+        if not self._services.settings.is_private:
             chosen = self.workspace.served.resolve(chosen)
         await self.workspace.choose_package(name, chosen)
         self._meshes.retry()
@@ -380,7 +379,7 @@ class Document:
 COMMANDS: Final = Commands[Document](Scope.DOCUMENT)
 """Every command of a document."""
 COMMANDS.presenter(ChoosePackage, lambda d, c, _: d.choose_package(c.name, c.folder))
-COMMANDS.presenter(SetDisplay, lambda d, c, _: d.set_display(c.display, c.name, value=c.value))
+COMMANDS.controller(SetDisplay, lambda d, c, _: d.set_display(c.display, c.name, value=c.value))
 COMMANDS.include(EDIT_COMMANDS, lambda document, _: document.edits)
 COMMANDS.include(FIX_COMMANDS, lambda document, _: document.fixes)
 COMMANDS.include(TEXT_COMMANDS, lambda document, _: document.texts)

@@ -169,13 +169,13 @@ class Edits:
 
 
 COMMANDS: Final = Commands[Edits](Scope.DOCUMENT)
-COMMANDS.presenter(EditSite, lambda edits, c, _: edits.edit_site(c.site, c.text, c.gesture))
-COMMANDS.presenter(ResetSite, lambda edits, c, _: edits.reset_site(c.site))
-COMMANDS.presenter(SetArgument, lambda edits, c, _: edits.pass_arguments({c.name: c.value}))
-COMMANDS.presenter(SetArguments, lambda edits, c, _: edits.pass_arguments(c.values))
-COMMANDS.presenter(Undo, lambda edits, _, __: edits.undo())
-COMMANDS.presenter(Redo, lambda edits, _, __: edits.redo())
-COMMANDS.presenter(UndoTo, lambda edits, c, _: edits.undo_to(c))
+COMMANDS.controller(EditSite, lambda edits, c, _: edits.edit_site(c.site, c.text, c.gesture))
+COMMANDS.controller(ResetSite, lambda edits, c, _: edits.reset_site(c.site))
+COMMANDS.controller(SetArgument, lambda edits, c, _: edits.pass_arguments({c.name: c.value}))
+COMMANDS.controller(SetArguments, lambda edits, c, _: edits.pass_arguments(c.values))
+COMMANDS.controller(Undo, lambda edits, _, __: edits.undo())
+COMMANDS.controller(Redo, lambda edits, _, __: edits.redo())
+COMMANDS.controller(UndoTo, lambda edits, c, _: edits.undo_to(c))
 
 
 def history_event(sources: Sources) -> History:

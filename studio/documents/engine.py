@@ -10,6 +10,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from studio.classroom.classroom import COMMANDS as CLASS_COMMANDS
+from studio.classroom.classroom import Classroom
 from studio.documents.arguments import form_at, form_of
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
@@ -65,7 +67,7 @@ _DOCUMENT_LIMIT = 32
 class Engine:
     """Holds the documents by id; built, started and closed on the server's loop."""
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: Settings, classroom: Classroom | None = None) -> None:
         self.documents: dict[str, Document] = {}
         self.default_document: str | None = None
         self._settings = settings
@@ -78,6 +80,8 @@ class Engine:
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
+        self.classroom = classroom or Classroom()
+        self.classroom.robot = self.ros
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
@@ -95,6 +99,7 @@ class Engine:
     async def close(self) -> None:
         """Close all documents and end all workers."""
         await self._rejoining.close()
+        await self.classroom.close()
         await asyncio.gather(self.left_work.close(), self.ros.close())
         documents, self.documents = tuple(self.documents.values()), {}
         await asyncio.gather(*(document.close() for document in documents), self._services.close())
@@ -106,6 +111,7 @@ class Engine:
         self.left_work.attach(listener)
         self._services.wire.attach(listener)
         self.ros.attach(listener)
+        self.classroom.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""
@@ -113,6 +119,7 @@ class Engine:
         self.left_work.detach(listener)
         self._services.wire.detach(listener)
         self.ros.detach(listener)
+        self.classroom.detach(listener)
         if document := self._watching.pop(listener, None):
             document.audience.remove(listener)
 
@@ -310,9 +317,10 @@ COMMANDS.presenter(
 )
 COMMANDS.presenter(ListFolder, lambda engine, c, _: engine.list_folder(c))
 COMMANDS.presenter(GetArguments, lambda engine, c, _: engine.launch_form(c))
-COMMANDS.presenter(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
+COMMANDS.controller(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
 COMMANDS.presenter(OpenLink, lambda engine, c, _: engine.open_link(c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
+COMMANDS.include(CLASS_COMMANDS, lambda engine, _: engine.classroom)
 COMMANDS.include(LIBRARY_COMMANDS, lambda engine, _: engine.library)
 COMMANDS.include(ROBOT_COMMANDS, lambda engine, _: engine.wire_robots)
 COMMANDS.include(ROS_COMMANDS, lambda engine, _: engine.ros)

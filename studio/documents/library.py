@@ -35,7 +35,7 @@ from studio.protocol.documents import (
     RecentEntry,
     SaveAs,
 )
-from studio.settings import LOOPBACK_HOSTS, repository_or_wheel
+from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -207,9 +207,8 @@ class Library:
         )
 
     def _may_open(self, one: RecentFile) -> bool:
-        """On the owner's own machine all that was opened once; from elsewhere what is served."""
-        own = self._settings.host in LOOPBACK_HOSTS
-        return own or self._opener.served.serves(one.path)
+        """All that was opened once, while only the owner comes; what is served, where others do."""
+        return self._settings.is_private or self._opener.served.serves(one.path)
 
     def _origin_of(self, path: Path) -> Literal["file", "example", "upload", "untitled"]:
         for folder, origin in _ORIGINS.items():

@@ -197,7 +197,7 @@ class Motion:
 
 
 COMMANDS: Final = Commands[Motion](Scope.DOCUMENT)
-COMMANDS.presenter(SetJoints, lambda motion, c, _: motion.set(c.positions))
-COMMANDS.presenter(ZeroJoints, lambda motion, _, __: motion.zero())
-COMMANDS.presenter(RandomizeJoints, lambda motion, _, __: motion.randomize())
-COMMANDS.presenter(AnimateJoints, lambda motion, c, _: motion.animate(running=c.running))
+COMMANDS.controller(SetJoints, lambda motion, c, _: motion.set(c.positions))
+COMMANDS.controller(ZeroJoints, lambda motion, _, __: motion.zero())
+COMMANDS.controller(RandomizeJoints, lambda motion, _, __: motion.randomize())
+COMMANDS.controller(AnimateJoints, lambda motion, c, _: motion.animate(running=c.running))

@@ -167,10 +167,10 @@ class NamedPoses:
 
 
 COMMANDS: Final = Commands[NamedPoses](Scope.DOCUMENT)
-COMMANDS.presenter(ApplyPose, lambda poses, c, _: poses.apply(c))
-COMMANDS.presenter(SavePose, lambda poses, c, _: poses.save(c))
-COMMANDS.presenter(RenamePose, lambda poses, c, _: poses.rename(c))
-COMMANDS.presenter(DeletePose, lambda poses, c, _: poses.delete(c))
+COMMANDS.controller(ApplyPose, lambda poses, c, _: poses.apply(c))
+COMMANDS.controller(SavePose, lambda poses, c, _: poses.save(c))
+COMMANDS.controller(RenamePose, lambda poses, c, _: poses.rename(c))
+COMMANDS.controller(DeletePose, lambda poses, c, _: poses.delete(c))
 
 
 def _key(kind: _Kind, pose: NamedPose) -> str:

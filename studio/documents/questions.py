@@ -143,7 +143,7 @@ def _is_long(query: Query) -> bool:
 
 
 def _is_viewers(waiting: Waiting) -> bool:
-    return all(asker.role is Role.VIEWER for asker in waiting.askers)
+    return all(asker.role is not Role.PRESENTER for asker in waiting.askers)
 
 
 REST_S: Final = 0.3

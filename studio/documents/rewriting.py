@@ -269,9 +269,9 @@ class Rewriting:
 
 
 COMMANDS: Final = Commands[Rewriting](Scope.DOCUMENT)
-COMMANDS.presenter(Rename, lambda rewriting, c, who: rewriting.rename(c, who))
-COMMANDS.presenter(ReplaceTexts, lambda rewriting, c, who: rewriting.replace(c, who))
-COMMANDS.presenter(GetRenaming, lambda rewriting, c, who: rewriting.renaming(c, who))
+COMMANDS.controller(Rename, lambda rewriting, c, who: rewriting.rename(c, who))
+COMMANDS.controller(ReplaceTexts, lambda rewriting, c, who: rewriting.replace(c, who))
+COMMANDS.controller(GetRenaming, lambda rewriting, c, who: rewriting.renaming(c, who))
 COMMANDS.viewer(FindTexts, lambda rewriting, c, who: rewriting.find(c, who))
 
 

@@ -115,6 +115,6 @@ class Saving:
 
 
 COMMANDS: Final = Commands[Saving](Scope.DOCUMENT)
-COMMANDS.presenter(GetChanges, lambda saving, c, _: saving.changes(c))
-COMMANDS.presenter(Save, lambda saving, c, _: saving.save(c.files))
+COMMANDS.controller(GetChanges, lambda saving, c, _: saving.changes(c))
+COMMANDS.controller(Save, lambda saving, c, _: saving.save(c.files))
 COMMANDS.presenter(SaveCopy, lambda saving, c, _: saving.save_copy(c))

@@ -110,15 +110,16 @@ class Texts:
             raise CommandError(f"{file} is larger than {_LIMIT_MB} MB: open it in another editor.")
         return name, data
 
-    async def edit(self, command: EditText) -> None:
+    async def edit(self, command: EditText, role: Role) -> None:
         """Type into a text, and show what that does.
 
         Raises:
             StaleTextError: The text is no longer the one that was seen.
             ReadOnlyTextError: It may not be written.
             EditError: A change is none of this text, or its encoding lacks a letter.
+            CommandError: It is no file of this document to anybody but a presenter.
         """
-        file = self._name(command.file, Role.PRESENTER)
+        file = self._name(command.file, role)
         if not self._may_write(file):
             raise ReadOnlyTextError(file, READ_ONLY)
         self.follow()
@@ -207,7 +208,7 @@ class Texts:
 
 
 COMMANDS: Final = Commands[Texts](Scope.DOCUMENT)
-COMMANDS.presenter(EditText, lambda texts, c, _: texts.edit(c))
+COMMANDS.controller(EditText, lambda texts, c, who: texts.edit(c, who.role))
 COMMANDS.viewer(GetText, lambda texts, c, who: texts.answer(c, who.role))
 
 
@@ -267,4 +268,4 @@ QUESTIONS: Final = Commands[EditorQuestions](Scope.DOCUMENT)
 QUESTIONS.viewer(GetOutline, lambda editor, c, who: editor.outline(c, who))
 QUESTIONS.viewer(LookUp, lambda editor, c, who: editor.look_up(c, who))
 QUESTIONS.viewer(GetReferences, lambda editor, c, who: editor.references(c, who))
-QUESTIONS.presenter(Complete, lambda editor, c, who: editor.complete(c, who))
+QUESTIONS.controller(Complete, lambda editor, c, who: editor.complete(c, who))

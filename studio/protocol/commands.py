@@ -4,7 +4,7 @@ A room lists its commands beside the code that carries them out, as a web framew
 
     COMMANDS = Commands[Lifecycle](Scope.ROS)
     COMMANDS.viewer(GetManaged, lambda nodes, c, _: nodes.managed(c))
-    COMMANDS.presenter(ChangeState, lambda nodes, c, _: nodes.change(c), needs_router=True)
+    COMMANDS.controller(ChangeState, lambda nodes, c, _: nodes.change(c), needs_router=True)
 
 `Commands.include` puts the parts of a whole together. The parser of commands, dispatch, access and
 the page's types come from the whole.
@@ -20,7 +20,7 @@ from enum import StrEnum
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
 
-from studio.errors import CommandError, NotAllowedError
+from studio.errors import CommandError, NotAllowedError, NotInControlError
 from studio.protocol.message import Command, Event, type_of
 from studio.protocol.roles import Role
 
@@ -47,12 +47,12 @@ Work: TypeAlias = "Callable[[_Target, _Command, Listener], Answer | Awaitable[An
 
 
 class Scope(StrEnum):
-    """What a command concerns, and so who decides about it: today the presenter, for each."""
+    """What a command concerns."""
 
     DOCUMENT = "document"
-    """One open document: its owner decides."""
+    """One open document."""
     ROS = "ros"
-    """The ROS system: whoever holds control decides."""
+    """The ROS system."""
     STUDIO = "studio"
     """The whole studio."""
 
@@ -63,8 +63,10 @@ class Permission:
 
     name: str
     role: Role
-    """The least role that may: what a viewer may, a presenter may, too."""
+    """The least role that may: what a guest may, everybody may."""
     scope: Scope = Scope.STUDIO
+    needs_control: bool = False
+    """Whether it is only for the one who has control."""
 
 
 def may(person: Person | None, permission: Permission | None, document: str = "") -> bool:
@@ -75,21 +77,24 @@ def may(person: Person | None, permission: Permission | None, document: str = ""
         permission: Of what is asked; None: nobody may do it.
         document: Id of the document that it concerns, if any.
     """
-    del document  # every presenter owns every document
-    if person is None or permission is None:
+    if person is None or permission is None or not person.role.includes(permission.role):
         return False
-    return person.role in (permission.role, Role.PRESENTER)
+    return not permission.needs_control or person.controls(document)
 
 
 def demand(person: Person | None, permission: Permission | None, document: str = "") -> None:
     """Raise unless `may` allows it.
 
     Raises:
-        NotAllowedError: It is not allowed.
+        NotAllowedError: No person of that role may.
+        NotInControlError: Somebody else has control.
     """
-    if not may(person, permission, document):
-        name = permission.name if permission else "do this"
-        raise NotAllowedError(person.role if person else "stranger", name)
+    if may(person, permission, document):
+        return
+    name = permission.name if permission else "do this"
+    if person and permission and person.role.includes(permission.role):
+        raise NotInControlError(person.role, name)
+    raise NotAllowedError(person.role if person else "stranger", name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,9 +149,42 @@ class Commands(Generic[_Target]):
         needs_router: bool = False,
         limits: Limits | None = None,
     ) -> None:
-        """Add a command that everybody may send."""
-        permission = Permission(type_of(message), Role.VIEWER, self._scope)
-        self._put(CommandEntry(permission, message, work, needs_router, limits or Limits()))
+        """Add a command that everybody may send who sees the page."""
+        self._add(message, work, Role.GUEST, needs_router=needs_router, limits=limits)
+
+    def student(
+        self,
+        message: type[_Command],
+        work: Work[_Target, _Command],
+        *,
+        limits: Limits | None = None,
+    ) -> None:
+        """Add a command that all may send who take part, and not only look."""
+        self._add(message, work, Role.STUDENT, limits=limits)
+
+    def controller(
+        self,
+        message: type[_Command],
+        work: Work[_Target, _Command],
+        *,
+        scope: Scope | None = None,
+        needs_router: bool = False,
+        limits: Limits | None = None,
+    ) -> None:
+        """Add a command for the one person who has control."""
+        self._add(
+            message,
+            work,
+            Role.STUDENT,
+            scope=scope,
+            needs_control=True,
+            needs_router=needs_router,
+            limits=limits,
+        )
+
+    def helper(self, message: type[_Command], work: Work[_Target, _Command]) -> None:
+        """Add a command for the presenter and those who help."""
+        self._add(message, work, Role.HELPER)
 
     def presenter(
         self,
@@ -157,8 +195,23 @@ class Commands(Generic[_Target]):
         needs_router: bool = False,
         limits: Limits | None = None,
     ) -> None:
-        """Add a command that the presenter alone may send."""
-        permission = Permission(type_of(message), Role.PRESENTER, scope or self._scope)
+        """Add a command for the presenter alone, whoever has control."""
+        self._add(
+            message, work, Role.PRESENTER, scope=scope, needs_router=needs_router, limits=limits
+        )
+
+    def _add(  # noqa: PLR0913 - the ways in above have what each needs
+        self,
+        message: type[_Command],
+        work: Work[_Target, _Command],
+        role: Role,
+        *,
+        scope: Scope | None = None,
+        needs_control: bool = False,
+        needs_router: bool = False,
+        limits: Limits | None = None,
+    ) -> None:
+        permission = Permission(type_of(message), role, scope or self._scope, needs_control)
         self._put(CommandEntry(permission, message, work, needs_router, limits or Limits()))
 
     def include(self, part: Commands[_Part], of: Callable[[_Target, Command], _Part]) -> None:

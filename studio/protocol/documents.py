@@ -50,7 +50,7 @@ class Hello(Event):
     """First on every control lane: who you are here."""
 
     type: Literal["hello"] = "hello"
-    role: Literal["presenter", "viewer"]
+    role: Literal["presenter", "helper", "student", "guest"]
     version: str
     session: str
     """Changes when the server was restarted."""

@@ -14,9 +14,15 @@ _Sent = TypeVar("_Sent", bound="Event")
 class Listener(Protocol):
     """The sending end of one control lane, and whose it is."""
 
-    role: Role
-    person: str
-    """The same for all that comes from one browser, or with one token."""
+    @property
+    def role(self) -> Role:
+        """Of its person; it may become another one meanwhile."""
+        ...
+
+    @property
+    def person(self) -> str:
+        """The same for all that comes from one browser, or with one token."""
+        ...
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Queue one message without waiting; of one `key` only the newest need arrive."""

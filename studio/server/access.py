@@ -11,37 +11,37 @@ from studio.protocol.commands import Permission, Scope
 from studio.protocol.roles import Role
 
 ROUTES: Final = {
-    "/": Permission("page", Role.VIEWER),
-    "/d/{document}": Permission("page", Role.VIEWER),
-    "/d/{document}/viser/": Permission("scene_page", Role.VIEWER, Scope.DOCUMENT),
-    "/d/{document}/viser": Permission("scene", Role.VIEWER, Scope.DOCUMENT),
-    "/control": Permission("control", Role.VIEWER),
-    "/data": Permission("data", Role.VIEWER, Scope.ROS),
-    "/bulk": Permission("bulk", Role.VIEWER, Scope.ROS),
-    "/api/health": Permission("health", Role.VIEWER),
-    "/api/openapi.json": Permission("openapi", Role.VIEWER),
-    "/api/documents": Permission("documents", Role.VIEWER),
-    "/api/documents/{document}/urdf": Permission("get_urdf", Role.VIEWER, Scope.DOCUMENT),
+    "/": Permission("page", Role.GUEST),
+    "/d/{document}": Permission("page", Role.GUEST),
+    "/d/{document}/viser/": Permission("scene_page", Role.GUEST, Scope.DOCUMENT),
+    "/d/{document}/viser": Permission("scene", Role.GUEST, Scope.DOCUMENT),
+    "/control": Permission("control", Role.GUEST),
+    "/data": Permission("data", Role.GUEST, Scope.ROS),
+    "/bulk": Permission("bulk", Role.GUEST, Scope.ROS),
+    "/api/health": Permission("health", Role.GUEST),
+    "/api/openapi.json": Permission("openapi", Role.GUEST),
+    "/api/documents": Permission("documents", Role.GUEST),
+    "/api/documents/{document}/urdf": Permission("get_urdf", Role.GUEST, Scope.DOCUMENT),
     "/api/documents/{document}/export/urdf": Permission(
         "export_urdf", Role.PRESENTER, Scope.DOCUMENT
     ),
     "/api/documents/{document}/export/package": Permission(
         "export_package", Role.PRESENTER, Scope.DOCUMENT
     ),
-    "/api/documents/{document}/export/page": Permission("export_page", Role.VIEWER, Scope.DOCUMENT),
-    "/api/commands": Permission("command", Role.VIEWER),
+    "/api/documents/{document}/export/page": Permission("export_page", Role.GUEST, Scope.DOCUMENT),
+    "/api/commands": Permission("command", Role.GUEST),
     "/api/log-out": Permission("log_everybody_out", Role.PRESENTER),
     "/api/uploads": Permission("upload", Role.PRESENTER),
 }
 """Of every route that needs a role. `command` is for any role; each command has its own."""
 
-PUBLIC_ROUTES: Final = frozenset({"/a/{tree}/{path:path}", "/favicon.ico"})
-"""Routes without secrets: the files of the page, the same for everyone."""
+PUBLIC_ROUTES: Final = frozenset({"/a/{tree}/{path:path}", "/favicon.ico", "/join"})
+"""The files of the page, the same for everyone, and the form by which others join."""
 
 VISER: Final = {
-    "ViewerCameraMessage": Permission("viser:ViewerCameraMessage", Role.VIEWER, Scope.DOCUMENT),
+    "ViewerCameraMessage": Permission("viser:ViewerCameraMessage", Role.GUEST, Scope.DOCUMENT),
     **{
-        name: Permission(f"viser:{name}", Role.PRESENTER, Scope.DOCUMENT)
+        name: Permission(f"viser:{name}", Role.STUDENT, Scope.DOCUMENT, needs_control=True)
         for name in (
             "SceneNodeClickMessage",
             "SceneNodeDragMessage",

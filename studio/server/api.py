@@ -1,13 +1,13 @@
 """The routes for scripts: documents, commands, downloads, and logging everybody out."""
 
 from http import HTTPStatus
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, Protocol
 from urllib.parse import quote
 
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
 from starlette.background import BackgroundTask
-from starlette.responses import JSONResponse, PlainTextResponse, Response, StreamingResponse
+from starlette.responses import JSONResponse, Response, StreamingResponse
 
 import studio
 from studio.documents.exports import Download
@@ -15,7 +15,7 @@ from studio.errors import CommandError
 from studio.protocol import Event
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Documents, Refused
-from studio.protocol.roles import Role, Visitor
+from studio.protocol.roles import Person
 from studio.protocol.texts import GetUrdf, Urdf
 from studio.server.commands import Answers
 from studio.server.credentials import Credentials
@@ -25,6 +25,7 @@ from studio.server.surface import OpenDocuments
 
 _STATUS: Final = {
     "NotAllowedError": HTTPStatus.FORBIDDEN,
+    "NotInControlError": HTTPStatus.FORBIDDEN,
     "UnknownDocumentError": HTTPStatus.NOT_FOUND,
     "CommandError": HTTPStatus.UNPROCESSABLE_ENTITY,
     "InternalError": HTTPStatus.INTERNAL_SERVER_ERROR,
@@ -82,9 +83,9 @@ class Api:
         """Return that the studio runs; `session` changes with every start."""
         return Health(version=studio.__version__, session=self._session)
 
-    async def documents(self) -> Documents:
+    async def documents(self, request: Request) -> Documents:
         """Return all open documents."""
-        listener = Answers(Visitor(Role.PRESENTER))
+        listener = Answers(_visitor(request))
         self._engine.attach(listener)
         self._engine.detach(listener)
         return next(event for event in listener.events if isinstance(event, Documents))
@@ -112,7 +113,7 @@ class _UrdfFile(Response):
     media_type = "application/xml"
 
 
-def _visitor(request: Request) -> Visitor:
+def _visitor(request: Request) -> Person:
     return request.scope["state"]["visitor"]
 
 
@@ -139,14 +140,19 @@ async def _body(request: Request) -> bytes:
     return bytes(body)
 
 
-_NO_TOKEN = "This studio asks nobody for a token (--no-token): there is nobody to log out."
+class LogsOut(Protocol):
+    """The class."""
+
+    async def log_out(self) -> None:
+        """Make all members' cookies invalid."""
+        ...
 
 
 class LogOut:
     """The route, and the credentials that it revokes."""
 
-    def __init__(self, credentials: Credentials) -> None:
-        self._credentials = credentials
+    def __init__(self, credentials: Credentials, classroom: LogsOut) -> None:
+        self._credentials, self._classroom = credentials, classroom
 
     def router(self) -> APIRouter:
         """Return the one route."""
@@ -162,9 +168,8 @@ class LogOut:
 
     async def everybody(self, request: Request) -> Response:
         """Make every cookie invalid that was ever given, and end what is open with one."""
-        if self._credentials.token is None:
-            return PlainTextResponse(_NO_TOKEN, HTTPStatus.CONFLICT)
         self._credentials.revoke()
+        await self._classroom.log_out()
         ending = BackgroundTask(_end_all, request)
         return Response(status_code=HTTPStatus.NO_CONTENT, background=ending)
 

@@ -16,9 +16,11 @@ from studio.protocol.commands import demand
 from studio.server.access import PUBLIC_ROUTES, ROUTES
 from studio.server.api import Api, Exports, LogOut
 from studio.server.assets import Assets
+from studio.server.cookies import Cookies
 from studio.server.credentials import Credentials
+from studio.server.front import Front
 from studio.server.guard import Guard
-from studio.server.origin import KnownHosts
+from studio.server.joining import Joining
 from studio.server.pages import not_found_page, trouble_page
 from studio.server.schema import openapi
 from studio.server.site import Site
@@ -38,9 +40,9 @@ def make_app(
     assets: Assets,
     credentials: Credentials,
     session: str,
-    bound: tuple[str, int],
+    front: Front,
 ) -> ASGIApp:
-    """Return the whole application; `bound` is host and port that the server listens on.
+    """Return the whole application, which is reached at `front`.
 
     The caller starts and closes the engine.
     """
@@ -55,19 +57,21 @@ def make_app(
     )
     app.add_exception_handler(StudioError, _answer_error)
     app.add_exception_handler(HTTPException, _answer_http_error)
-    Site(engine, assets, session).add_to(app)
+    classroom = engine.classroom
+    cookies = Cookies(credentials, classroom, front)
+    Site(engine, assets, session, front.base).add_to(app)
     app.include_router(Api(engine, session).router())
     app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
-    app.include_router(LogOut(credentials).router())
+    app.include_router(LogOut(credentials, classroom).router())
+    app.include_router(Joining(classroom, cookies, front).router())
     document = openapi(app.routes)
 
     async def openapi_document() -> dict[str, Any]:
         return document
 
     app.add_api_route("/api/openapi.json", openapi_document, include_in_schema=False)
-    host, port = bound
-    return Guard(app, KnownHosts.of(host), credentials, port)
+    return Guard(app, front, credentials, cookies, lambda: classroom.admission.open)
 
 
 def check_role(connection: HTTPConnection) -> None:

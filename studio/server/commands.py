@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 from pydantic import BaseModel, ValidationError
 
@@ -13,15 +13,15 @@ from studio.errors import CommandError, StudioError
 from studio.outlet import Outlet
 from studio.protocol.commands import COMMAND_LIMIT_BYTES, demand
 from studio.protocol.documents import Refused
-from studio.protocol.listeners import send
+from studio.protocol.listeners import Listener, send
 from studio.protocol.message import adapter_of, all_events
+from studio.protocol.roles import Person
 from studio.server.websocket import FrameTransport, binary_frame, text_frame
 
 if TYPE_CHECKING:
     from studio.protocol import Command, Event
     from studio.protocol.documents import Hello
-    from studio.protocol.listeners import Listener
-    from studio.protocol.roles import Visitor
+    from studio.protocol.roles import Role
     from studio.server.surface import OpenDocuments
     from studio.server.websocket import Lane
 
@@ -77,7 +77,11 @@ def request_of(text: bytes) -> int:
         return 0
 
 
-async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None:
+class Asker(Listener, Person, Protocol):
+    """Where the answers go, and who asks."""
+
+
+async def answer(engine: OpenDocuments, listener: Asker, text: bytes) -> None:
     """Carry out one command; whatever is wrong with it becomes an answer."""
     try:
         command = parse_command(text)
@@ -103,9 +107,19 @@ async def answer(engine: OpenDocuments, listener: Listener, text: bytes) -> None
 class Answers:
     """The events that one command brought about, in their order; binary frames are left out."""
 
-    def __init__(self, visitor: Visitor) -> None:
-        self.role, self.person = visitor.role, visitor.person
+    def __init__(self, visitor: Person) -> None:
+        self._visitor = visitor
+        self.person = visitor.person
         self.events: list[Event] = []
+
+    @property
+    def role(self) -> Role:
+        """The role of who asks, now."""
+        return self._visitor.role
+
+    def controls(self, document: str) -> bool:
+        """Whether who asks has control."""
+        return self._visitor.controls(document)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Keep one event."""
@@ -131,11 +145,21 @@ _TOO_SLOW: Final = 1013
 class ControlLane:
     """One browser's control lane: the Listener that the engine posts to."""
 
-    def __init__(self, lane: Lane, visitor: Visitor) -> None:
-        self.role, self.person = visitor.role, visitor.person
+    def __init__(self, lane: Lane, visitor: Person) -> None:
+        self._visitor = visitor
+        self.person = visitor.person
         self._lane = lane
         self._outlet = Outlet(FrameTransport(lane), on_hopeless=lambda: lane.close(_TOO_SLOW))
         lane.on_drain(self._outlet.resume)
+
+    @property
+    def role(self) -> Role:
+        """The role of its person, now."""
+        return self._visitor.role
+
+    def controls(self, document: str) -> bool:
+        """Whether its person has control."""
+        return self._visitor.controls(document)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Queue one message without waiting; of one `key` only the newest need arrive."""

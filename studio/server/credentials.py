@@ -6,7 +6,7 @@ import hmac
 import os
 import secrets
 import stat
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.errors import DataFolderError, UnsafeKeyError
 from studio.files import write_whole
@@ -26,28 +26,34 @@ def new_token() -> str:
     return secrets.token_urlsafe(24)
 
 
+_ROLES: Final = (Role.PRESENTER, Role.GUEST)
+"""Of tokens and cookies that prove a role by themselves; helpers and students are in the class."""
+
+
 class Credentials:
     """Tokens, cookies and one-time codes.
 
     The presenter's `token` is fresh for every start. The cookies' key is kept for a day, so that a
     page that was open when the studio was restarted comes back by itself; `revoke` ends all
-    cookies before. `token` None: everyone who reaches the port is a presenter.
+    cookies before. With `guests`, whoever reaches the port may look, without a token.
     """
 
-    def __init__(self, token: str | None, key: bytes, key_folder: Path | None = None) -> None:
-        self.token = token
+    def __init__(
+        self, token: str, key: bytes, key_folder: Path | None = None, *, guests: bool = False
+    ) -> None:
+        self.token, self.guests = token, guests
         self._key, self._key_folder = key, key_folder
         self._codes: set[str] = set()
 
-    def token_of(self, role: Role) -> str | None:
-        """Return the token for an address; the viewer's does not reveal the presenter's."""
-        if self.token is None or role is Role.PRESENTER:
+    def token_of(self, role: Role) -> str:
+        """Return the token for an address; the guest's does not reveal the presenter's."""
+        if role is Role.PRESENTER or not self.token:
             return self.token
         return _sign(self.token.encode(), role.value)
 
     def role_of_token(self, given: str) -> Role | None:
         """Return the role of this token; None if it is not valid."""
-        return _match(given, {role: self.token_of(role) or "" for role in Role})
+        return _match(given, {role: self.token_of(role) for role in _ROLES})
 
     def new_code(self) -> str:
         """Return a code that makes a presenter of the first who shows it, and of nobody else."""
@@ -70,7 +76,7 @@ class Credentials:
     def visitor_of_cookie(self, given: str) -> Visitor | None:
         """Return the person of this cookie; None if it is not valid."""
         person, _, proof = given.partition(".")
-        role = _match(proof, {role: self._signed(role, person) for role in Role})
+        role = _match(proof, {role: self._signed(role, person) for role in _ROLES})
         return Visitor(role, person) if role else None
 
     def revoke(self) -> None:

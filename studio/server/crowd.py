@@ -16,13 +16,14 @@ from uvicorn.server import ServerState
 from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
-    from studio.protocol.roles import Visitor
+    from studio.protocol.roles import Person
 
 STRANGER_S: Final = 10.0
 """From the connection to a whole request that carries a cookie or a token."""
 VIEWER_CONNECTIONS_MAX: Final = 64
 """For one viewer: a browser holds three websockets per tab, and six requests at a time."""
-_STRANGERS_MAX: Final = 128
+_STRANGERS_MAX: Final = 512
+"""So many may open the form to join at once."""
 _DESCRIPTORS_WITHOUT_LIMIT: Final = 4096
 _LOG_EVERY_S: Final = 60.0
 _log = logging.getLogger(__name__)
@@ -54,7 +55,7 @@ class Allowance:
         return max(0.0, -self._left / self._units_per_s)
 
 
-class Person:
+class Account:
     """One browser, or one script: all connections with the same cookie or token."""
 
     def __init__(self, role: Role) -> None:
@@ -75,8 +76,8 @@ class Crowd:
         self.strangers_max = min(_STRANGERS_MAX, limit // 8)
         self.viewers_max = limit * 5 // 8
         self._strangers: dict[Connection, None] = {}
-        self._known: dict[Connection, Visitor] = {}
-        self._people: dict[Visitor, Person] = {}
+        self._known: dict[Connection, Person] = {}
+        self._people: dict[Person, Account] = {}
         self._viewer_connections = 0
         self._viewers = Allowance(10_000, 4_000)
         self._refused, self._logged_s = 0, -_LOG_EVERY_S
@@ -90,12 +91,12 @@ class Crowd:
             oldest.abort()
             self.refuse("too many connections without a request")
 
-    def recognise(self, connection: Connection, visitor: Visitor) -> bool:
+    def recognise(self, connection: Connection, visitor: Person) -> bool:
         """Assign a connection to a person; False when they have too many."""
         if self._known.get(connection) == visitor:
             return True
         self.leave(connection)
-        person = self._people.get(visitor) or Person(visitor.role)
+        person = self._people.get(visitor) or Account(visitor.role)
         if visitor.role is not Role.PRESENTER:
             if person.connections >= VIEWER_CONNECTIONS_MAX:
                 return False
@@ -130,6 +131,12 @@ class Crowd:
         if visitor.role is Role.PRESENTER:
             return pause_s
         return max(pause_s, self._viewers.spend(units, now_s))
+
+    def end_person(self, person: str) -> None:
+        """End the connections of one person."""
+        for connection, visitor in tuple(self._known.items()):
+            if visitor.person == person:
+                connection.abort()
 
     def end_all(self) -> None:
         """End the connections of all who were recognised: their cookies are no longer valid."""

@@ -1,10 +1,9 @@
-"""Checks Host, Origin and role of every request before it is routed."""
+"""Checks name, origin and person of every request before it is routed."""
 
 from __future__ import annotations
 
 from contextlib import suppress
 from http import HTTPStatus
-from http.cookies import CookieError, SimpleCookie
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qsl, quote, urlencode
 
@@ -13,32 +12,54 @@ from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.websockets import WebSocketDisconnect
 
-from studio.protocol.roles import Role, Visitor
+from studio.protocol.roles import Role
 from studio.server.http_protocol import connection_of
-from studio.server.origin import Authority, KnownHosts, is_same_origin, parse_authority
+from studio.server.origin import is_same_origin
 from studio.server.pages import no_access_page, return_page
 from studio.server.policy import COMMON_HEADERS, NOTHING_POLICY
 from studio.server.ports import CODE
 from studio.server.websocket import socket_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+    from studio.protocol.roles import Person
+    from studio.server.cookies import Cookies
     from studio.server.credentials import Credentials
+    from studio.server.front import Caller, Front
 
 _SAFE_METHODS = frozenset({"GET", "HEAD"})
 _PUBLIC_PREFIXES = ("/a/", "/favicon.ico")
+JOIN_PATH = "/join"
+"""The form by which others join; of its own, because who has no role may open it."""
+_SLASHES = "/\\"
 _BEARER = "bearer "
 _CROWDED = "This studio has as many viewers as it takes: close a tab, or try again later."
 
 
 class Guard:
-    """ASGI middleware in front of everything; leaves the caller's role in `scope["state"]`."""
+    """ASGI middleware in front of everything; leaves who asks in `scope["state"]`.
+
+    Args:
+        app: What it guards.
+        front: Where the studio is reached.
+        credentials: Prove a role.
+        cookies: By which browsers are known.
+        joining: Whether others may join the class, so that strangers are sent to its form.
+    """
 
     def __init__(
-        self, app: ASGIApp, hosts: KnownHosts, credentials: Credentials, port: int
+        self,
+        app: ASGIApp,
+        front: Front,
+        credentials: Credentials,
+        cookies: Cookies,
+        joining: Callable[[], bool],
     ) -> None:
-        self._app, self._hosts, self._credentials, self._port = app, hosts, credentials, port
+        self._app, self._front, self._joining = app, front, joining
+        self._credentials, self._cookies = credentials, cookies
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer what may not pass; hand on the rest with its role."""
@@ -51,85 +72,80 @@ class Guard:
         with suppress(ClientDisconnect, WebSocketDisconnect):  # the browser left and gets no answer
             await (answer or self._app)(scope, receive, send)
 
-    def _settle(self, scope: Scope) -> tuple[Response | None, Visitor | None]:
+    def _settle(self, scope: Scope) -> tuple[Response | None, Person | None]:
         """Return the answer to a caller who may not pass, or is sent on; and who it is."""
         headers = Headers(scope=scope)
-        host = self._host(headers)
-        if host is None:
+        caller = self._front.caller(scope, headers)
+        if caller is None:
             sentence = "This studio does not go by that name: use the address it printed."
             return _forbidden(sentence), None
+        if not self._front.enter(scope):
+            return RedirectResponse(f"{self._front.base}/", HTTPStatus.PERMANENT_REDIRECT), None
         bearer = self._visitor_of_bearer(headers)
-        visitor = bearer or self._visitor_of_cookie(headers, host)
+        visitor = bearer or self._cookies.visitor(headers, caller)
         if not _recognise(scope, visitor):
             return PlainTextResponse(_CROWDED, HTTPStatus.SERVICE_UNAVAILABLE), None
         if scope["type"] == "http" and scope["path"].startswith(_PUBLIC_PREFIXES):
             return None, visitor
-        if not _may_ask_from_there(scope, headers, host, has_bearer=bearer is not None):
+        if not _may_ask_from_there(scope, headers, caller, has_bearer=bearer is not None):
             sentence = "Another page may not do this: only the studio's own page may."
             return _forbidden(sentence), visitor
-        role = visitor.role if visitor else None
+        return self._admit(scope, headers, caller, visitor), visitor
+
+    def _admit(
+        self, scope: Scope, headers: Headers, caller: Caller, visitor: Person | None
+    ) -> Response | None:
+        """Return the answer to who is sent on, or may see nothing; None lets them in."""
         if _is_page_request(scope):
-            answer = self._exchange(scope, headers, host, role)
+            answer = self._exchange(scope, headers, caller, visitor)
             if answer is not None:
-                return answer, visitor
-        scope.setdefault("state", {}).update(visitor=visitor)
-        return None if role else _stranger(scope, headers), visitor
+                return answer
+        scope.setdefault("state", {}).update(visitor=visitor, caller=caller)
+        if visitor is not None or scope["path"] == JOIN_PATH:
+            return None
+        return self._stranger(scope, headers, caller)
 
-    def _host(self, headers: Headers) -> Authority | None:
-        """Return the one known name that the request is addressed to."""
-        given = headers.getlist("host")
-        host = parse_authority(given[0]) if len(given) == 1 else None
-        return host if host and self._hosts.knows(host) else None
-
-    def _visitor_of_bearer(self, headers: Headers) -> Visitor | None:
+    def _visitor_of_bearer(self, headers: Headers) -> Person | None:
         """Return the visitor of `Authorization: Bearer <token>`; scripts have no cookie."""
         given = headers.get("authorization", "")
         if given[: len(_BEARER)].lower() != _BEARER:
             return None
         role = self._credentials.role_of_token(given[len(_BEARER) :].strip())
-        return Visitor(role) if role else None
-
-    def _visitor_of_cookie(self, headers: Headers, host: Authority) -> Visitor | None:
-        """A browser that has a presenter's cookie and a viewer's is a presenter's."""
-        if self._credentials.token is None:
-            return Visitor(Role.PRESENTER)
-        jar = _cookies(headers)
-        for role in (Role.PRESENTER, Role.VIEWER):
-            given = jar.get(self._cookie_name(host, role))
-            visitor = self._credentials.visitor_of_cookie(given) if given else None
-            if visitor is not None:
-                return visitor
-        return None
-
-    def _cookie_name(self, host: Authority, role: Role) -> str:
-        """Return a name with the port that the browser uses, for all ports of a host share cookies.
-
-        Each role has its own: a viewer's link does not replace the presenter's cookie, not even
-        when it comes from another site, without the cookie.
-        """
-        name = f"studio-{host.port or self._port}"
-        return name if role is Role.PRESENTER else f"{name}-{role.value}"
+        return self._cookies.of_role(role) if role else None
 
     def _exchange(
-        self, scope: Scope, headers: Headers, host: Authority, role: Role | None
+        self, scope: Scope, headers: Headers, caller: Caller, visitor: Person | None
     ) -> Response | None:
-        """Take the token or the one-time code out of the address and give the cookie for it."""
+        """Take what is secret out of the address, and give the cookie for it."""
         query = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
+        if scope["path"] == JOIN_PATH:
+            return self._exchange_join(query, headers, caller, visitor)
+        role = visitor.role if visitor else None
         earned, rest = self._earned(query, is_head=scope["method"] == "HEAD")
         if len(rest) == len(query):
             return None
         if earned is None and role is None:
             return no_access_page(spent=True)
-        asked = urlencode(rest)
-        response = _go_to(_own_path(scope) + (f"?{asked}" if asked else ""), headers)
+        response = self._go_to(scope["path"], headers, urlencode(rest))
         if earned is not None and earned is not role and role is not Role.PRESENTER:
-            response.set_cookie(
-                self._cookie_name(host, earned),
-                self._credentials.cookie_of(earned),
-                path="/",
-                httponly=True,
-                samesite="strict",
-            )
+            self._cookies.give(response, caller, earned)
+        return response
+
+    def _exchange_join(
+        self,
+        query: list[tuple[str, str]],
+        headers: Headers,
+        caller: Caller,
+        visitor: Person | None,
+    ) -> Response | None:
+        """Take the code of a link into a cookie; who has a place here goes there."""
+        if visitor is not None and visitor.role is not Role.GUEST:
+            return self._go_to("/", headers)
+        code = dict(query).get(CODE)
+        if code is None:
+            return None
+        response = self._go_to(JOIN_PATH, headers)
+        self._cookies.keep_code(response, caller, code)
         return response
 
     def _earned(
@@ -142,8 +158,35 @@ class Guard:
             earned = self._credentials.redeem(given.get(CODE, ""))
         return earned, [pair for pair in query if pair[0] not in {"token", CODE}]
 
+    def _go_to(self, path: str, headers: Headers, query: str = "") -> Response:
+        """Send on. From another site's link a redirect would not carry the strict cookie yet."""
+        # One leading slash, whatever path was asked for: else it would name another host.
+        own = f"{self._front.base}/{quote(path.lstrip(_SLASHES))}"
+        address = f"{own}?{query}" if query else own
+        if _comes_from_elsewhere(headers):
+            return return_page(address)
+        return RedirectResponse(address, 303, headers={"referrer-policy": "no-referrer"})
 
-def _recognise(scope: Scope, visitor: Visitor | None) -> bool:
+    def _stranger(self, scope: Scope, headers: Headers, caller: Caller) -> Response:
+        """Return the answer for a stranger: a page for a person, a sentence for a program."""
+        if scope["type"] != "http" or "text/html" not in headers.get("accept", ""):
+            return _forbidden("Open the address that the studio printed: it carries the key.")
+        if _comes_from_elsewhere(headers):
+            return self._go_to(scope["path"], headers, scope["query_string"].decode("latin-1"))
+        if self._credentials.guests:
+            response = self._go_to(scope["path"], headers)
+            self._cookies.give(response, caller, Role.GUEST)
+            return response
+        if self._joining():
+            return self._go_to(JOIN_PATH, headers)
+        return no_access_page(spent=False)
+
+
+def _comes_from_elsewhere(headers: Headers) -> bool:
+    return headers.get("sec-fetch-site") in {"cross-site", "same-site"}
+
+
+def _recognise(scope: Scope, visitor: Person | None) -> bool:
     """Assign the connection to a person; False when they have too many."""
     connection = connection_of(scope) if scope["type"] == "http" else socket_of(scope)
     return connection.recognise(visitor)
@@ -170,11 +213,11 @@ def _with_headers(send: Send, *, closing: bool) -> Send:
 
 
 def _may_ask_from_there(
-    scope: Scope, headers: Headers, host: Authority, *, has_bearer: bool
+    scope: Scope, headers: Headers, caller: Caller, *, has_bearer: bool
 ) -> bool:
     """Whether the request comes from our page, as far as the browser reports it."""
     origin, site = headers.get("origin"), headers.get("sec-fetch-site")
-    if origin is not None and not is_same_origin(origin, host):
+    if origin is not None and not is_same_origin(origin, caller.host):
         return False
     if scope["type"] == "websocket" or scope["method"] not in _SAFE_METHODS:
         return site in {None, "same-origin"} and (origin is not None or has_bearer)
@@ -194,41 +237,6 @@ def _is_page_request(scope: Scope) -> bool:
         and scope["method"] in _SAFE_METHODS
         and not scope["path"].startswith("/api/")
     )
-
-
-def _cookies(headers: Headers) -> dict[str, str]:
-    """Return all cookies; those of other programs on this host may be of any form."""
-    found: dict[str, str] = {}
-    for part in headers.get("cookie", "").split(";"):
-        jar: SimpleCookie = SimpleCookie()
-        try:
-            jar.load(part.strip())
-        except CookieError:
-            continue
-        found |= {name: morsel.value for name, morsel in jar.items()}
-    return found
-
-
-def _own_path(scope: Scope) -> str:
-    """Return a path for a redirect: one leading slash, else it would name another host."""
-    return "/" + quote(scope["path"].lstrip("/\\"))
-
-
-def _go_to(address: str, headers: Headers) -> Response:
-    """Send on. From another site's link a redirect would not carry the strict cookie yet."""
-    if headers.get("sec-fetch-site") in {"cross-site", "same-site"}:
-        return return_page(address)
-    return RedirectResponse(address, 303, headers={"referrer-policy": "no-referrer"})
-
-
-def _stranger(scope: Scope, headers: Headers) -> Response:
-    """Return the answer for a stranger: a page for a person, a sentence for a program."""
-    if scope["type"] == "http" and "text/html" in headers.get("accept", ""):
-        if headers.get("sec-fetch-site") in {"cross-site", "same-site"}:
-            query = scope["query_string"].decode("latin-1")
-            return return_page(_own_path(scope) + (f"?{query}" if query else ""))
-        return no_access_page(spent=False)
-    return _forbidden("Open the address that the studio printed: it carries the key.")
 
 
 def _forbidden(sentence: str) -> Response:

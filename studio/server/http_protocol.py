@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from uvicorn.config import Config
     from uvicorn.server import ServerState
 
-    from studio.protocol.roles import Visitor
+    from studio.protocol.roles import Person
     from studio.server.crowd import CrowdedState
 
 _EXTENSION: Final = "studio.connection"
@@ -72,7 +72,7 @@ class StudioConnection(HttpToolsProtocol):
         self._allow_time()
         super().connection_lost(exc)
 
-    def recognise(self, visitor: Visitor | None) -> bool:
+    def recognise(self, visitor: Person | None) -> bool:
         """Assign the connection to a person; False when they have too many."""
         if visitor is None:
             self._crowd.leave(self)

@@ -19,7 +19,10 @@ from html import escape
 from pathlib import Path
 from string import Template
 from typing import TYPE_CHECKING, Final
+from urllib.parse import urlsplit
 
+from studio.classroom.classroom import Classroom, Reach
+from studio.classroom.qr_code import qr_lines
 from studio.description import checks as text_checks
 from studio.documents.engine import Engine
 from studio.errors import SettingsError
@@ -31,11 +34,21 @@ from studio.scene import CLIENT_PATH, viser_client
 from studio.server.app import make_app
 from studio.server.assets import CHECK_TEXTS, Assets, check_texts
 from studio.server.credentials import Credentials, cookie_key
-from studio.server.origin import is_loopback
-from studio.server.ports import address, bind, code_address, port_of
+from studio.server.front import Front
+from studio.server.origin import KnownHosts, is_loopback
+from studio.server.ports import (
+    bind,
+    lan_addresses,
+    page_address,
+    port_of,
+    with_code,
+    with_token,
+)
 from studio.server.progress_bar import ProgressBar
 from studio.server.server import Server
-from studio.settings import DEFAULT_PORT, Settings, repository_or_wheel
+from studio.settings import DEFAULT_PORT, LOOPBACK_HOSTS, Settings, repository_or_wheel
+
+from studio.system import raise_descriptor_limit
 
 if TYPE_CHECKING:
     import socket
@@ -147,20 +160,83 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
     logging.basicConfig(
         stream=sys.stderr, level=logging.WARNING, format="%(levelname)s %(message)s"
     )
-    if settings.token is None and not is_loopback(settings.host):
-        raise SettingsError("--no-token is only for this machine: leave it out with this --host.")
-    if settings.trusted and not is_loopback(settings.host):
-        raise SettingsError("--trust is only for this machine: leave it out with this --host.")
+    if settings.trusted and (viewer_link or not settings.is_private):
+        raise SettingsError(
+            "--trust is for you alone: leave it out where others come, with --host, --share, "
+            "--viewer-link, --no-token, --public-url or --trusted-proxy."
+        )
+    raise_descriptor_limit()
     key = cookie_key(settings.data_folder, datetime.now(UTC).timestamp())
-    credentials = Credentials(settings.token, key, settings.data_folder)
+    credentials = Credentials(settings.token, key, settings.data_folder, guests=settings.guests)
     with bind(settings.host, settings.port) as listener:
-        port = port_of(listener)
-        for sentence in remarks(settings, port, is_root=_is_root()):
+        place = place_of(settings, port_of(listener))
+        for sentence in remarks(settings, place.port, is_root=_is_root()):
             _warn(sentence)
-        roles = (Role.PRESENTER, Role.VIEWER) if viewer_link else (Role.PRESENTER,)
-        links = [address(settings.host, port, credentials.token_of(role)) for role in roles]
-        visit = _Visit(opening, links)
+        roles = (Role.PRESENTER, Role.GUEST) if viewer_link else (Role.PRESENTER,)
+        links = [with_token(place.address, credentials.token_of(role)) for role in roles]
+        visit = _Visit(opening, links, place)
         visit.run(settings, credentials, listener)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where the studio is reached.
+
+    Attributes:
+        port: The port that it listens on.
+        address: Of the page, for a browser on this machine.
+        reach: Where others find it.
+        front: Reads requests.
+        tls: The files of certificate and key; None: it is not encrypted.
+    """
+
+    port: int
+    address: str
+    reach: Reach
+    front: Front
+    tls: tuple[Path, Path] | None = None
+
+
+def place_of(settings: Settings, port: int) -> Place:
+    """Return where a studio with these settings is reached, once it has its port.
+
+    Raises:
+        SettingsError: The certificate cannot be used.
+        DataFolderError: One of its own cannot be written.
+    """
+    tls = settings.tls is not None
+    base = settings.base_path
+    here = page_address(settings.host, port, base, tls=tls)
+    found = lan_addresses(settings.host, port, base, tls=tls)
+    addresses = (settings.public_url,) if settings.public_url else found or (here,)
+    names = [urlsplit(one).hostname or "" for one in (here, *found)]
+    files, print_ = _tls_files(settings, [*names, *LOOPBACK_HOSTS])
+    why_not = "Start the studio without --trust to share it." if settings.trusted else ""
+    known = KnownHosts.of(settings.host, urlsplit(settings.public_url).hostname or "")
+    return Place(
+        port,
+        here,
+        Reach(addresses, not found and not settings.public_url, print_, why_not),
+        Front(known, port, base, settings.proxies),
+        files,
+    )
+
+
+def _tls_files(settings: Settings, names: list[str]) -> tuple[tuple[Path, Path] | None, str]:
+    """Return the files of certificate and key, and the fingerprint of one of our own."""
+    if settings.tls is None:
+        return None, ""
+    from studio.server.certificate import (  # noqa: PLC0415 - not every studio needs it
+        check_pair,
+        fingerprint,
+        own_certificate,
+    )
+
+    if settings.tls.certificate is not None and settings.tls.key is not None:
+        check_pair(settings.tls.certificate, settings.tls.key)
+        return (settings.tls.certificate, settings.tls.key), ""
+    files = own_certificate(settings.data_folder, names)
+    return files, fingerprint(files[0])
 
 
 def remarks(settings: Settings, port: int, *, is_root: bool = False) -> list[str]:
@@ -175,10 +251,11 @@ def remarks(settings: Settings, port: int, *, is_root: bool = False) -> list[str
         sentences.append(
             f"Port {DEFAULT_PORT} is taken by another program: this studio uses {port}."
         )
-    if not is_loopback(settings.host):
+    if not is_loopback(settings.host) and settings.tls is None:
         sentences.append(
             "Other machines reach this studio, and the connection is not encrypted: "
-            "whoever has the address with its token can change and save files."
+            "whoever has the address with its token can change and save files. Encrypt it with "
+            "--tls self."
         )
     return sentences
 
@@ -190,8 +267,8 @@ def _is_root() -> bool:
 class _Visit:
     """The life beside the server: the engine, and the opening of the first document."""
 
-    def __init__(self, opening: Opening, links: list[str]) -> None:
-        self._opening, self._links = opening, links
+    def __init__(self, opening: Opening, links: list[str], place: Place) -> None:
+        self._opening, self._links, self._place = opening, links, place
         self._opens: asyncio.Task[None] | None = None
         self._failure: Exception | None = None
 
@@ -201,11 +278,12 @@ class _Visit:
         Raises:
             Exception: What ended it early; a StudioError unless it is a bug.
         """
-        self._engine = Engine(settings)
+        place = self._place
+        kept = settings.data_folder / f"class-{place.port}.json"
+        self._classroom = Classroom(kept, place.reach)
+        self._engine = Engine(settings, self._classroom)
         self._window = Window(settings.data_folder)
         self._settings, self._credentials = settings, credentials
-        self._port = port_of(listener)
-        bound = (settings.host, self._port)
         assets = Assets(
             repository_or_wheel("frontend_assets"),
             {
@@ -213,8 +291,9 @@ class _Visit:
                 CHECK_TEXTS: check_texts(whys(robot_checks, text_checks)),
             },
         )
-        app = make_app(self._engine, assets, credentials, secrets.token_hex(8), bound)
-        self._server = Server(app, self)
+        app = make_app(self._engine, assets, credentials, secrets.token_hex(8), place.front)
+        self._server = Server(app, self, place.tls)
+        self._classroom.end_pages = self._server.server_state.crowd.end_person
         self._server.run(sockets=[listener])
         if self._failure is not None:
             raise self._failure
@@ -251,18 +330,34 @@ class _Visit:
         gc.freeze()  # the objects of the start stay: a collection over all of them takes 40 ms
         for name, link in zip(("Studio", "Viewer"), self._links, strict=False):
             _print(f"{name}: {link}")
+        if self._settings.shared:
+            await self._share()
         if self._settings.open_browser and has_display():
             self._open_browser()
         if opening.then is not None:
             opening.then()
         self._engine.rejoin(always=opening.joins_ros)
 
+    async def _share(self) -> None:
+        """Begin the class, or go on with it, and print how others join."""
+        await self._classroom.start()
+        for line in invitation(self._classroom):
+            _print(line)
+
     def _open_browser(self) -> None:
-        if self._credentials.token is None:
-            self._window.show(self._links[0])
-            return
         code = self._credentials.new_code()
-        self._window.show(code_address(self._settings.host, self._port, code))
+        self._window.show(with_code(self._place.address, code))
+
+
+def invitation(classroom: Classroom) -> list[str]:
+    """Return what a terminal shows of a class: address, code, QR code and fingerprint."""
+    reach = classroom.reach
+    first, *others = reach.addresses
+    lines = [f"Class: {first}  Code: {classroom.admission.code}"]
+    lines += [f"   or: {other}" for other in others]
+    if reach.fingerprint:
+        lines.append(f"SHA-256 of its certificate: {reach.fingerprint}")
+    return [*lines, qr_lines(classroom.link)]
 
 
 def _print(line: str) -> None:

@@ -53,9 +53,14 @@ class KnownHosts:
     any_address: bool
 
     @classmethod
-    def of(cls, bound_host: str) -> KnownHosts:
-        """Loopback names, the bound host, and the machine's own name when bound to everything."""
-        names = {*LOOPBACK_HOSTS, bound_host.lower()}
+    def of(cls, bound_host: str, public: str = "") -> KnownHosts:
+        """Loopback names, the bound host, and the machine's own name when bound to everything.
+
+        Args:
+            bound_host: What the studio listens on.
+            public: Another name by which others come; empty: there is none.
+        """
+        names = {*LOOPBACK_HOSTS, bound_host.lower(), public.lower() or bound_host.lower()}
         if bound_host in _WILDCARDS:
             machine = socket.gethostname().lower()
             names |= {machine, f"{machine}.local"}

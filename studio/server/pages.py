@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import secrets
+from dataclasses import dataclass
 from html import escape
 from string import Template
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from starlette.responses import HTMLResponse
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from studio.server.assets import Tree
 
 _PLAIN = Template("""<!doctype html>
-<html lang="en">
+<html lang="$language">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
@@ -30,6 +31,20 @@ main { max-width: 34rem; margin: 1rem; padding: 2rem 2.25rem; border-radius: 12p
 h1 { margin: 0 0 .5rem; font-size: 1.3rem; }
 p { margin: .5rem 0 0; }
 a { color: light-dark(#1560c8, #7db1ff); }
+form { display: grid; gap: .9rem; margin-top: 1.1rem; }
+label { display: grid; gap: .25rem; font-weight: 600; font-size: .95rem; }
+small { font-weight: 400; color: light-dark(#586273, #9aa5b5); }
+input { font: inherit; padding: .6rem .75rem; border-radius: 8px; min-width: 0;
+  border: 1px solid light-dark(#b6bfcc, #47505e); background: light-dark(#fff, #15181d);
+  color: inherit; }
+input[name=code] { font: 600 1.5rem/1.2 ui-monospace, monospace; letter-spacing: .25em;
+  text-transform: uppercase; }
+button { font: inherit; font-weight: 600; padding: .7rem; border: 0; border-radius: 8px;
+  color: #fff; background: #1560c8; cursor: pointer; }
+:is(input, button, a):focus-visible { outline: 3px solid light-dark(#1560c8, #7db1ff);
+  outline-offset: 2px; }
+.trouble { padding: .6rem .8rem; border-radius: 8px; background: light-dark(#fdeaea, #45262a);
+  color: light-dark(#8d1b1b, #ffc9c9); }
 </style>
 </head>
 <body><main><h1>$title</h1>$body</main></body>
@@ -37,9 +52,11 @@ a { color: light-dark(#1560c8, #7db1ff); }
 """)
 
 
-def _plain_page(title: str, body: str, status: int, refresh: str = "") -> HTMLResponse:
+def _plain_page(
+    title: str, body: str, status: int, refresh: str = "", language: str = "en"
+) -> HTMLResponse:
     """Fill the plain page; `body` and `refresh` are markup."""
-    text = _PLAIN.substitute(title=escape(title), body=body, refresh=refresh)
+    text = _PLAIN.substitute(title=escape(title), body=body, refresh=refresh, language=language)
     headers = {"content-security-policy": PLAIN_PAGE_POLICY, "cache-control": "no-store"}
     return HTMLResponse(text, status, headers)
 
@@ -67,6 +84,96 @@ def not_found_page() -> HTMLResponse:
     return _plain_page("Nothing is open under this address", body, 404)
 
 
+_JOIN: Final = {
+    "en": {
+        "title": "Join the class",
+        "code": "Code",
+        "code.hint": "six letters, from the projector",
+        "name": "Your name",
+        "name.hint": "the class sees it; no account is made",
+        "password": "Password",
+        "join": "Join",
+        "kept": "Your name is kept on the teacher's computer until the class is ended, and a "
+        "cookie in this browser finds you again.",
+    },
+    "de": {
+        "title": "An der Klasse teilnehmen",
+        "code": "Code",
+        "code.hint": "sechs Buchstaben, vom Beamer",
+        "name": "Dein Name",
+        "name.hint": "die Klasse sieht ihn; es entsteht kein Konto",
+        "password": "Passwort",
+        "join": "Teilnehmen",
+        "kept": "Dein Name bleibt auf dem Rechner der Lehrkraft, bis die Klasse beendet wird, und "
+        "ein Cookie in diesem Browser erkennt dich wieder.",
+        "trouble.code": "Das ist nicht der Code dieser Klasse: gib ihn noch einmal ein.",
+        "trouble.locked": "Die Klasse ist geschlossen: bitte darum, sie zu öffnen.",
+        "trouble.password": "Das ist nicht das Passwort: gib es noch einmal ein.",
+        "trouble.name": "Ein Name braucht Buchstaben: gib einen anderen ein.",
+        "trouble.tries": "Zu viele falsche Versuche: warte eine Minute.",
+        "trouble.full": "Die Klasse ist voll.",
+        "trouble.removed": "Du bist aus dieser Klasse entfernt worden: bitte um Einlass.",
+        "trouble.closed": "Gerade kann niemand teilnehmen: frage, wer die Klasse leitet.",
+    },
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """What is in the form to join.
+
+    Attributes:
+        has_code: The code came with a link and need not be typed.
+        code: As it was typed.
+        name: As it was typed.
+        trouble: Why it was refused, as `NotJoiningError.why`; empty: it was not.
+        sentence: The same for people, in English.
+    """
+
+    has_code: bool = False
+    code: str = ""
+    name: str = ""
+    trouble: str = ""
+    sentence: str = ""
+
+
+_JOIN_STATUS: Final = {"": 200, "tries": 429}
+
+
+def join_page(form: Form, *, needs_password: bool, language: str) -> HTMLResponse:
+    """Return the form by which others join; what was typed is in it again."""
+    words = _JOIN[language]
+    fields: list[str] = []
+    if form.trouble:
+        said = words.get(f"trouble.{form.trouble}", form.sentence)
+        fields.append(f'<p class="trouble" role="alert">{escape(said)}</p>')
+    if not form.has_code:
+        fields.append(
+            f"<label>{words['code']} <small>{words['code.hint']}</small>"
+            f'<input name="code" required maxlength="32" autocomplete="off" autocapitalize='
+            f'"characters" spellcheck="false" value="{escape(form.code, quote=True)}"></label>'
+        )
+    fields.append(
+        f"<label>{words['name']} <small>{words['name.hint']}</small>"
+        f'<input name="name" required maxlength="40" autocomplete="nickname" '
+        f'value="{escape(form.name, quote=True)}"></label>'
+    )
+    if needs_password:
+        fields.append(
+            f"<label>{words['password']}"
+            '<input name="password" type="password" required maxlength="200" '
+            'autocomplete="off"></label>'
+        )
+    body = (
+        f'<form method="post">{"".join(fields)}<button>{words["join"]}</button></form>'
+        f"<p><small>{words['kept']}</small></p>"
+    )
+    status = _JOIN_STATUS.get(form.trouble, 403)
+    response = _plain_page(words["title"], body, status, language=language)
+    response.headers["content-security-policy"] = f"{PLAIN_PAGE_POLICY}; form-action 'self'"
+    return response
+
+
 def trouble_page(sentence: str, status: int) -> HTMLResponse:
     """Return the page for any other error."""
     body = f'<p>{escape(sentence)}</p><p><a href="/">Go to the open robot</a></p>'
@@ -86,9 +193,13 @@ def return_page(address: str) -> HTMLResponse:
     return response
 
 
-def studio_page(tree: Tree) -> HTMLResponse:
-    """Return the page: `{{base}}` is where its files are, `{{nonce}}` is for its import map."""
+def studio_page(tree: Tree, root: str = "") -> HTMLResponse:
+    """Return the page: `{{base}}` is where its files are, `{{nonce}}` is for its import map.
+
+    `root`, which it finds as `{{root}}`, is the path below which the studio is reached.
+    """
     nonce = secrets.token_urlsafe(16)
-    text = tree.index.replace("{{base}}", tree.base).replace("{{nonce}}", nonce)
+    text = tree.index.replace("{{base}}", root + tree.base).replace("{{nonce}}", nonce)
+    text = text.replace("{{root}}", root)
     headers = {"content-security-policy": page_policy(nonce), "cache-control": "no-store"}
     return HTMLResponse(text, 200, headers)

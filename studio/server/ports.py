@@ -8,7 +8,7 @@ import socket
 from typing import Final
 
 from studio.errors import PortTakenError, SettingsError
-from studio.settings import DEFAULT_PORT
+from studio.settings import DEFAULT_PORT, LOOPBACK_HOSTS
 
 CODE: Final = "code"
 """The part of an address that holds a one-time code."""
@@ -60,16 +60,50 @@ def port_of(listener: socket.socket) -> int:
     return int(listener.getsockname()[1])
 
 
-def address(host: str, port: int, token: str | None) -> str:
-    """Return the address for a browser on this machine, with the token if one is needed."""
-    return _page(host, port) + (f"?token={token}" if token else "")
-
-
-def code_address(host: str, port: int, code: str) -> str:
-    """Return the same with a one-time code instead of the token."""
-    return f"{_page(host, port)}?{CODE}={code}"
-
-
-def _page(host: str, port: int) -> str:
+def page_address(host: str, port: int, base: str = "", *, tls: bool = False) -> str:
+    """Return the address of the page for a browser on this machine."""
     name = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
-    return f"http://[{name}]:{port}/" if ":" in name else f"http://{name}:{port}/"
+    return _address(name, port, base, tls=tls)
+
+
+def with_token(address: str, token: str) -> str:
+    """Return the address with the token that a browser exchanges for a cookie."""
+    return f"{address}?token={token}"
+
+
+def with_code(address: str, code: str) -> str:
+    """Return the same with a one-time code instead of the token."""
+    return f"{address}?{CODE}={code}"
+
+
+def lan_addresses(host: str, port: int, base: str = "", *, tls: bool = False) -> tuple[str, ...]:
+    """Return where other machines find the page, the likeliest first; nowhere on loopback."""
+    if host not in {"0.0.0.0", "::"}:
+        return () if host in LOOPBACK_HOSTS else (_address(host, port, base, tls=tls),)
+    names = [own for family, far in _FAR if (own := _own_address(family, far))]
+    if host == "0.0.0.0":
+        names = [name for name in names if ":" not in name]
+    names.append(f"{socket.gethostname().lower().removesuffix('.local')}.local")
+    return tuple(_address(name, port, base, tls=tls) for name in dict.fromkeys(names))
+
+
+_FAR: Final = ((socket.AF_INET, "192.0.2.1"), (socket.AF_INET6, "2001:db8::1"))
+"""Addresses of documentation (RFC 5737, RFC 3849): to connect a datagram socket sends nothing."""
+
+
+def _own_address(family: int, far: str) -> str:
+    """Return the address of the interface by which this machine reaches others; empty: none."""
+    try:
+        with socket.socket(family, socket.SOCK_DGRAM) as asking:
+            asking.connect((far, 9))
+            own: str = asking.getsockname()[0]
+    except OSError:
+        return ""
+    return "" if own.startswith("127.") or own == "::1" else own
+
+
+def _address(name: str, port: int, base: str, *, tls: bool) -> str:
+    scheme = "https" if tls else "http"
+    host = f"[{name}]" if ":" in name else name
+    shown = "" if port == (443 if tls else 80) else f":{port}"
+    return f"{scheme}://{host}{shown}{base}/"

@@ -16,6 +16,7 @@ from studio.server.websocket import StudioSocket
 
 if TYPE_CHECKING:
     import socket
+    from pathlib import Path
     from types import FrameType
 
     from starlette.types import ASGIApp
@@ -45,8 +46,8 @@ class Life(Protocol):
 class Server(uvicorn.Server):
     """uvicorn with a life beside it, and without raising a signal again that it obeyed."""
 
-    def __init__(self, app: ASGIApp, life: Life) -> None:
-        super().__init__(_configuration(app))
+    def __init__(self, app: ASGIApp, life: Life, tls: tuple[Path, Path] | None = None) -> None:
+        super().__init__(_configuration(app, tls))
         self.server_state = CrowdedState()
         self._life = life
 
@@ -71,9 +72,13 @@ class Server(uvicorn.Server):
         last_resort.start()
 
 
-def _configuration(app: ASGIApp) -> uvicorn.Config:
+def _configuration(app: ASGIApp, tls: tuple[Path, Path] | None) -> uvicorn.Config:
+    certificate, key = tls or (None, None)
     return uvicorn.Config(
         app,
+        ssl_certfile=certificate,
+        ssl_keyfile=key,
+        proxy_headers=False,  # ours know which proxies are trusted, and their sub-path
         log_config=None,
         access_log=False,  # it would write the token of the first request
         lifespan="off",

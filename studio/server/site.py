@@ -12,7 +12,7 @@ from starlette.websockets import WebSocket
 import studio
 from studio.protocol.commands import may
 from studio.protocol.documents import Hello
-from studio.protocol.roles import Visitor
+from studio.protocol.roles import Person
 from studio.scene import SUBPROTOCOL, viser_page
 from studio.server.access import VISER
 from studio.server.assets import Asset, Assets, Tree, accepted_coding
@@ -26,7 +26,7 @@ from studio.server.websocket import Lane
 
 
 async def serve_scene(
-    websocket: WebSocket, scene: OpenScene, visitor: Visitor, document: str
+    websocket: WebSocket, scene: OpenScene, visitor: Person, document: str
 ) -> None:
     """Speak viser's protocol until the browser leaves or the document is closed."""
     offered: list[str] = websocket.scope["subprotocols"]
@@ -47,8 +47,9 @@ _SCENE_SCRIPT: Final = "viser/studio3d.js"
 class Site:
     """The routes and what they need."""
 
-    def __init__(self, engine: OpenDocuments, assets: Assets, session: str) -> None:
+    def __init__(self, engine: OpenDocuments, assets: Assets, session: str, base: str) -> None:
         self._engine, self._assets, self._session = engine, assets, session
+        self._base = base
         self._bulk_keys = BulkKeys()
 
     def add_to(self, app: FastAPI) -> None:
@@ -84,18 +85,18 @@ class Site:
         """Redirect to the default document; serve the page itself while there is none."""
         document = self._engine.default_document
         if document is None:
-            return studio_page(self._assets.current())
-        return RedirectResponse(f"/d/{document}", HTTPStatus.SEE_OTHER)
+            return studio_page(self._assets.current(), self._base)
+        return RedirectResponse(f"{self._base}/d/{document}", HTTPStatus.SEE_OTHER)
 
     async def page(self, document: str) -> Response:
         """Return the studio's page for one document."""
         self._engine.document(document)
-        return studio_page(self._assets.current())
+        return studio_page(self._assets.current(), self._base)
 
     async def scene_page(self, document: str, request: Request) -> Response:
         """Return viser's page, to be shown inside ours; another version would be refused."""
         self._engine.document(document)
-        answer = _send(_scene_page(self._assets.current()), request, "no-store")
+        answer = _send(_scene_page(self._assets.current(), self._base), request, "no-store")
         answer.headers["content-security-policy"] = SCENE_POLICY
         return answer
 
@@ -120,7 +121,7 @@ class Site:
     async def control(self, websocket: WebSocket) -> None:
         """The control lane."""
         await websocket.accept()
-        visitor: Visitor = websocket.scope["state"]["visitor"]
+        visitor: Person = websocket.scope["state"]["visitor"]
         hello = Hello(role=visitor.role.value, version=studio.__version__, session=self._session)
         await ControlLane(Lane(websocket), visitor).serve(self._engine, hello)
 
@@ -140,9 +141,10 @@ class Site:
 
 
 @lru_cache(maxsize=2)
-def _scene_page(tree: Tree) -> Asset:
+def _scene_page(tree: Tree, root: str) -> Asset:
     """Viser's page with the modules of ours that it begins with."""
-    page = viser_page(tree.base.rstrip("/"), tree.preloads([_SCENE_SCRIPT], tree.base))
+    base = root + tree.base
+    page = viser_page(base.rstrip("/"), tree.preloads([_SCENE_SCRIPT], base))
     return Asset(page, "text/html; charset=utf-8")
 
 

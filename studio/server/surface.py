@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 
+    from studio.classroom.classroom import Classroom
     from studio.documents.exports import Download, MeshNames
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
@@ -89,6 +90,11 @@ class OpenDocuments(Protocol):
     @property
     def browser_topics(self) -> SubscribesTopics:
         """The subscriptions of browsers."""
+        ...
+
+    @property
+    def classroom(self) -> Classroom:
+        """The class that shares it."""
         ...
 
     @property

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from websockets.frames import Frame
     from websockets.http11 import Request
 
-    from studio.protocol.roles import Visitor
+    from studio.protocol.roles import Person
     from studio.server.crowd import CrowdedState
 
 
@@ -84,7 +84,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
             self._rest.cancel()
         super().connection_lost(exc)
 
-    def recognise(self, visitor: Visitor | None) -> bool:
+    def recognise(self, visitor: Person | None) -> bool:
         """Assign the websocket to a person; False when they have too many."""
         if visitor is None:
             return True

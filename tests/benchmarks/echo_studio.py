@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from studio.server.assets import Assets
     from studio.server.credentials import Credentials
+    from studio.server.front import Front
     from studio.server.surface import OpenDocuments
 
 PATH = "/echo"
@@ -54,9 +55,9 @@ def _make_app_with_echo(
     assets: Assets,
     credentials: Credentials,
     session: str,
-    bound: tuple[str, int],
+    front: Front,
 ) -> ASGIApp:
-    return EchoBeside(make_app(engine, assets, credentials, session, bound))
+    return EchoBeside(make_app(engine, assets, credentials, session, front))
 
 
 if __name__ == "__main__":

@@ -326,7 +326,7 @@ def test_work_on_another_served_file_is_offered_to_presenters_and_can_be_given_u
     async def run() -> None:
         await work(mast, tmp_path / "data")
         async with engine(tmp_path / "data") as made:
-            presenter, viewer = Ear(), Ear(Role.VIEWER)
+            presenter, viewer = Ear(), Ear(Role.GUEST)
             made.attach(presenter)
             made.attach(viewer)
             await opened(made, other)

@@ -51,7 +51,7 @@ BODY = """
 
 async def asked(document: Document, command: Command) -> dict[str, Any]:
     """What one who only looks is told."""
-    ear = Ear(Role.VIEWER)
+    ear = Ear(Role.GUEST)
     await ask_document(document, command, ear)
     (event,) = ear.events
     return event

@@ -41,7 +41,7 @@ BODY = """
 """
 
 
-async def asked(document: Document, command: Command, role: Role = Role.VIEWER) -> dict[str, Any]:
+async def asked(document: Document, command: Command, role: Role = Role.GUEST) -> dict[str, Any]:
     """What the asker alone hears."""
     ear = Ear(role)
     await ask_document(document, command, ear)

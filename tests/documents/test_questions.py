@@ -56,7 +56,7 @@ def test_a_flood_of_one_viewer_costs_two_answers(tmp_path: Path):
         worker = NotedWorker()
         async with loop_story(tmp_path, worker) as story:
             story.stop()
-            viewer = Ear(Role.VIEWER)
+            viewer = Ear(Role.GUEST)
             begun = story.asked(SiteEffectsQuery("0"), viewer)
             await story.until_asked()
             flood = [story.asked(SiteEffectsQuery(str(n)), viewer) for n in range(1, 65)]
@@ -172,7 +172,7 @@ def test_a_viewers_question_waits_until_the_presenters_drag_rests(
     async def run() -> None:
         async with engine(tmp_path / "data") as made:
             document, ear = await opened(made, file)
-            site, viewer = ear.site("m")["id"], Ear(Role.VIEWER)
+            site, viewer = ear.site("m")["id"], Ear(Role.GUEST)
 
             async def drag(text: str) -> None:
                 await ask_document(document, EditSite(site=site, text=text, gesture="g"), ear)

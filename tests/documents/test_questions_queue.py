@@ -95,7 +95,7 @@ def test_one_who_comes_back_to_a_question_that_still_waits_gets_its_answer():
 def test_what_several_ask_alike_is_answered_once_for_all():
     def story() -> None:
         queue = QuestionQueue()
-        asked = [queue.add(OUTLINE, Ear(Role.VIEWER)) for _ in range(200)]
+        asked = [queue.add(OUTLINE, Ear(Role.GUEST)) for _ in range(200)]
         assert taken(queue) == [OUTLINE]
         assert {answer.result() for answer in asked} == {NoReply(str(OUTLINE))}
 
@@ -116,12 +116,12 @@ def test_one_who_asks_something_newer_leaves_the_others_their_answer():
 
 def test_the_presenter_is_answered_first_and_no_viewer_keeps_another_waiting():
     def story() -> None:
-        queue, greedy = QuestionQueue(), Ear(Role.VIEWER)
+        queue, greedy = QuestionQueue(), Ear(Role.GUEST)
         look_up = LookUpQuery("a.xacro", b"", 0)
         greedily = [OUTLINE, effects("a"), PartOriginQuery("link:a"), look_up]
         for query in greedily:
             queue.add(query, greedy)
-        queue.add(effects("b"), Ear(Role.VIEWER))
+        queue.add(effects("b"), Ear(Role.GUEST))
         queue.add(effects("c"), Ear(Role.PRESENTER))
         assert taken(queue) == [effects("c"), greedily[0], effects("b"), *greedily[1:]]
 
@@ -130,7 +130,7 @@ def test_the_presenter_is_answered_first_and_no_viewer_keeps_another_waiting():
 
 def test_a_question_that_the_presenter_shares_counts_as_the_presenters():
     def story() -> None:
-        queue, viewer = QuestionQueue(), Ear(Role.VIEWER)
+        queue, viewer = QuestionQueue(), Ear(Role.GUEST)
         queue.add(effects("a"), viewer)
         queue.add(OUTLINE, viewer)
         queue.add(OUTLINE, Ear(Role.PRESENTER))
@@ -166,7 +166,7 @@ def test_strangers_without_a_number_keep_no_more_than_the_limit_waiting():
     def story() -> None:
         queue = QuestionQueue()
         presenters = queue.add(effects("mine"), Ear())
-        asked = [queue.add(effects(str(n)), Ear(Role.VIEWER)) for n in range(WAITING_LIMIT + 5)]
+        asked = [queue.add(effects(str(n)), Ear(Role.GUEST)) for n in range(WAITING_LIMIT + 5)]
         assert [answer.done() for answer in asked].count(True) == 5
         assert isinstance(asked[4].exception(), SupersededError)
         assert len(taken(queue)) == WAITING_LIMIT + 1

@@ -113,7 +113,7 @@ def test_a_renaming_is_refused_with_other_places_or_none(tmp_path: Path):
 
 def test_words_are_found_in_the_files_of_the_robot_alone(tmp_path: Path):
     async def story(document: Document, mast: Path, parts: Path) -> None:
-        answer = await asked(document, FindTexts(text="REACH"), Role.VIEWER)
+        answer = await asked(document, FindTexts(text="REACH"), Role.GUEST)
         found = [(one["place"]["file"], one["place"]["line"]) for one in answer["places"]]
         assert found == [(str(mast), 4), (str(mast), 5), (str(parts), 4)]
         assert (answer["count"], answer["files"]) == (3, 2)

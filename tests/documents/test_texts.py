@@ -166,7 +166,7 @@ def test_an_edit_of_a_text_that_has_changed_since_is_refused(mast: Path, tmp_pat
             await one.type(one.change('"0.4"', '"0.123"'))
             stale = EditText(file=two.file, version=two.version, changes=(seen,))
             with pytest.raises(StaleTextError, match="was changed meanwhile"):
-                await document.texts.edit(stale)
+                await document.texts.edit(stale, Role.PRESENTER)
             assert two.follow() == one.text
             await two.type(two.change('"0.1"', '"0.3"'))
             assert (
@@ -174,7 +174,9 @@ def test_an_edit_of_a_text_that_has_changed_since_is_refused(mast: Path, tmp_pat
             )
             await document.edits.edit_site(ear.site("reach")["id"], "0.2", "")
             with pytest.raises(StaleTextError):
-                await document.texts.edit(stale.model_copy(update={"version": one.version}))
+                await document.texts.edit(
+                    stale.model_copy(update={"version": one.version}), Role.PRESENTER
+                )
 
     asyncio.run(run())
 
@@ -234,7 +236,8 @@ def test_letters_that_come_during_a_run_all_count(mast: Path, tmp_path: Path):
                             version=tab.version + number,
                             changes=(TextChange(start=start + 3, end=start + 3, text="1"),),
                             gesture="g",
-                        )
+                        ),
+                        Role.PRESENTER,
                     )
                 )
                 for number in range(6)
@@ -294,12 +297,12 @@ def test_texts_that_are_none_or_not_ours_are_refused_in_words(mast: Path, tmp_pa
                 with pytest.raises(error, match=words):
                     document.texts.answer(GetText(file=str(file)), Role.PRESENTER)
             with pytest.raises(CommandError, match="is no file of this document"):
-                document.texts.answer(GetText(file=str(mesh)), Role.VIEWER)
+                document.texts.answer(GetText(file=str(mesh)), Role.GUEST)
             never_asked = EditText(
                 file=str(mast), version=1, changes=(TextChange(start=0, end=0, text="x"),)
             )
             with pytest.raises(StaleTextError):
-                await document.texts.edit(never_asked)
+                await document.texts.edit(never_asked, Role.PRESENTER)
 
     asyncio.run(run())
 
@@ -357,7 +360,7 @@ def test_a_file_of_a_read_only_package_opens_with_the_reason_and_is_not_edited(
     async def run() -> None:
         async with engine(tmp_path / "data", tmp_path / "elsewhere") as made:
             document, _ = await opened(made, mast)
-            tab = Tab(document, shared / "part.xacro", Role.VIEWER)
+            tab = Tab(document, shared / "part.xacro", Role.GUEST)
             assert tab.text == "<robot/>"
             assert "it lies where the studio may only read" in tab.read_only
             with pytest.raises(ReadOnlyTextError, match="cannot be edited"):

@@ -109,7 +109,7 @@ def test_what_was_typed_a_moment_ago_is_completed_before_its_run_has_ended(
             at = offset(MAST, "|</robot>")
             change = TextChange(start=at, end=at, text=typed)
             edit = EditText(file=str(mast), version=text.version, changes=(change,))
-            editing = asyncio.create_task(document.texts.edit(edit))
+            editing = asyncio.create_task(document.texts.edit(edit, Role.PRESENTER))
             await asyncio.sleep(0)
             command = Complete(file=str(mast), offset=at + len(typed))
             completions = (await asked(document, command))["completions"]
@@ -127,15 +127,15 @@ def test_the_outline_is_told_to_viewers_and_files_of_the_robot_are_explained_to_
     async def story() -> None:
         async with engine(tmp_path / "data") as made:
             document, _ = await opened(made, mast)
-            answer = await asked(document, GetOutline(), Role.VIEWER)
+            answer = await asked(document, GetOutline(), Role.GUEST)
             assert [one["name"] for one in answer["outline"]["macros"]] == ["pole"]
             at = offset(PARTS, "${si|ze}")
             known = LookUp(file=str(mast.parent / "parts.xacro"), offset=at)
-            assert (await asked(document, known, Role.VIEWER))["meaning"]["values"] == ["0.4"]
+            assert (await asked(document, known, Role.GUEST))["meaning"]["values"] == ["0.4"]
             other = LookUp(file=str(mast.parent / "other.xacro"), offset=at)
             assert (await asked(document, other))["meaning"]["kind"] == "parameter"
             with pytest.raises(CommandError, match="no file of this document"):
-                await asked(document, other, Role.VIEWER)
+                await asked(document, other, Role.GUEST)
 
     asyncio.run(story())
 

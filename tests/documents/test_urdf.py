@@ -91,7 +91,7 @@ def test_files_on_disk_that_do_not_run_are_said(tmp_path: Path):
             text = file.read_bytes()
             at = text.index(b"${nothing}")
             edit = type_edit(document, file, at, at + len(b"${nothing}"))
-            await document.texts.edit(edit)
+            await document.texts.edit(edit, Role.PRESENTER)
             assert (await changes(document))["fault"].startswith("The files on disk do not run")
 
     asyncio.run(run())

@@ -50,17 +50,17 @@ def test_a_command_keeps_its_role_and_scope_in_the_whole():
     whole.include(PART, lambda part, _: part)
     permissions = {one.name: (one.role, one.scope) for one in (each.permission for each in whole)}
     assert permissions == {
-        "undo": (Role.VIEWER, Scope.DOCUMENT),
+        "undo": (Role.GUEST, Scope.DOCUMENT),
         "redo": (Role.PRESENTER, Scope.ROS),
     }
 
 
 def test_a_viewer_is_allowed_what_all_may_and_nobody_is_allowed_nothing():
     undo, redo = (PART[kind].permission for kind in (Undo, Redo))
-    assert may(Visitor(Role.VIEWER), undo)
+    assert may(Visitor(Role.GUEST), undo)
     assert may(Visitor(Role.PRESENTER), undo)
     assert may(Visitor(Role.PRESENTER), redo)
-    assert not may(Visitor(Role.VIEWER), redo)
+    assert not may(Visitor(Role.GUEST), redo)
     assert not may(None, undo)
 
 

@@ -1,12 +1,12 @@
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 from viser import _messages as viser_messages  # pyright: ignore[reportPrivateUsage]
 
 from studio.documents.engine import COMMANDS as REGISTRY
-from studio.errors import NotAllowedError
+from studio.errors import NotAllowedError, NotInControlError
 from studio.protocol.commands import demand, may
 from studio.protocol.roles import Role, Visitor
 from studio.scene import VIEWER_MESSAGES
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 COMMANDS = {entry.permission.name: entry.permission for entry in REGISTRY}
-PRESENTER, VIEWER = Visitor(Role.PRESENTER), Visitor(Role.VIEWER)
+PRESENTER, VIEWER = Visitor(Role.PRESENTER), Visitor(Role.GUEST)
 VIEWER_COMMANDS = {
     *("get_managed", "get_diagnostics"),
     *("get_lessons", "get_demos", "get_demo_output", "get_demo_code"),
@@ -38,7 +38,22 @@ VIEWER_COMMANDS = {
         "get_node",
     ),
     *("list_topics", "get_topic_ends"),
+    "set_name",
 }
+"""What everybody may who sees the page."""
+STUDENT_COMMANDS = {"ask_control", "return_control", "raise_hand", "stop_robot"}
+HELPER_COMMANDS = {"give_control", "take_control", "lower_hand"}
+PRESENTER_COMMANDS = {
+    *("start_class", "pause_class", "end_class", "set_class", "renew_code"),
+    *("set_member_role", "remove_member", "readmit_member"),
+    *("open_path", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),
+    *("list_recent", "forget_recent", "list_examples", "list_places", "open_recent"),
+    *("open_example", "new_robot", "new_untitled", "save_as", "save_copy", "choose_package"),
+    *("discard_restored", "add_interfaces", "start_demo", "stop_demo"),
+    *("connect_wire", "examine_wire", "disconnect_wire", "find_wire_robots", "open_from_wire"),
+}
+"""What reaches beyond the robot that is shared: files, processes, connections, people."""
+ROLES = (Role.GUEST, Role.STUDENT, Role.HELPER, Role.PRESENTER)
 CLIENT_MESSAGES = {
     "ViewerCameraMessage",
     "SceneNodeClickMessage",
@@ -59,17 +74,55 @@ def all_viser_messages() -> Iterator[str]:
         yield kind.__name__
 
 
+class Somebody(NamedTuple):
+    """A person of a role, who has control or has not."""
+
+    role: Role
+    has_control: bool
+    person: str = "somebody"
+
+    def controls(self, document: str) -> bool:
+        del document
+        return self.has_control
+
+
+PEOPLE = [Somebody(role, has_control) for role in ROLES for has_control in (False, True)]
+
+
+def may_who(command: str) -> set[Somebody]:
+    """Who may send a command, by the lists above: what is in none needs control."""
+    for commands, least in (
+        (VIEWER_COMMANDS, Role.GUEST),
+        (STUDENT_COMMANDS, Role.STUDENT),
+        (HELPER_COMMANDS, Role.HELPER),
+        (PRESENTER_COMMANDS, Role.PRESENTER),
+    ):
+        if command in commands:
+            return {one for one in PEOPLE if one.role in ROLES[ROLES.index(least) :]}
+    return {one for one in PEOPLE if one.has_control and one.role is not Role.GUEST}
+
+
 @pytest.mark.parametrize("command", sorted(COMMANDS))
-def test_the_presenter_may_every_command_and_a_viewer_only_look(command: str):
-    assert may(PRESENTER, COMMANDS[command])
-    assert may(VIEWER, COMMANDS[command]) == (command in VIEWER_COMMANDS)
+def test_every_command_is_for_whom_the_lists_say(command: str):
+    assert {one for one in PEOPLE if may(one, COMMANDS[command])} == may_who(command)
     assert not may(None, COMMANDS[command])
 
 
+def test_the_lists_name_only_commands_that_there_are():
+    listed = VIEWER_COMMANDS | STUDENT_COMMANDS | HELPER_COMMANDS | PRESENTER_COMMANDS
+    assert listed <= COMMANDS.keys()
+
+
 @pytest.mark.parametrize("message", sorted(set(all_viser_messages())))
-def test_of_visers_messages_a_viewer_sends_the_camera_and_nobody_opens_a_tunnel(message: str):
-    assert may(PRESENTER, VISER.get(message)) == (message in CLIENT_MESSAGES)
-    assert may(VIEWER, VISER.get(message)) == (message in VIEWER_MESSAGES)
+def test_of_visers_messages_all_send_the_camera_who_has_control_more_and_nobody_opens_a_tunnel(
+    message: str,
+):
+    found = {one for one in PEOPLE if may(one, VISER.get(message))}
+    in_control = {one for one in PEOPLE if one.has_control and one.role is not Role.GUEST}
+    if message in VIEWER_MESSAGES:
+        assert found == set(PEOPLE)
+    else:
+        assert found == (in_control if message in CLIENT_MESSAGES else set())
 
 
 def test_the_table_names_no_message_that_viser_does_not_have():
@@ -85,8 +138,12 @@ def test_what_no_table_names_nobody_may(name: str):
 
 
 def test_a_refusal_says_who_may_not_do_what():
-    with pytest.raises(NotAllowedError, match="A viewer may not edit site: ask the presenter"):
+    with pytest.raises(NotAllowedError, match="A guest may not edit site: ask the presenter"):
         demand(VIEWER, COMMANDS["edit_site"])
+    with pytest.raises(NotInControlError, match="Only who has control may edit site: ask for it"):
+        demand(Somebody(Role.STUDENT, has_control=False), COMMANDS["edit_site"])
+    with pytest.raises(NotInControlError, match="may edit site: take it back first"):
+        demand(Somebody(Role.PRESENTER, has_control=False), COMMANDS["edit_site"])
     demand(PRESENTER, COMMANDS["edit_site"])
 
 

@@ -21,7 +21,7 @@ def test_logging_out_ends_every_cookie_and_websocket_and_the_printed_address_lea
 ):
     with running_web(assets_folder) as web, web.client(headers={"origin": web.origin}) as page:
         page.get(f"/?token={TOKEN}")
-        with web.websocket("/control", Role.VIEWER) as lane, web.client(Role.VIEWER) as viewer:
+        with web.websocket("/control", Role.GUEST) as lane, web.client(Role.GUEST) as viewer:
             assert viewer.post("/api/log-out").status_code == 403
             assert page.post("/api/log-out").status_code == 204
             with pytest.raises(ConnectionClosed):
@@ -30,14 +30,3 @@ def test_logging_out_ends_every_cookie_and_websocket_and_the_printed_address_lea
                 assert client.get("/api/health").status_code == 403
         page.get(f"/?token={TOKEN}")
         assert page.get("/api/health").status_code == 200
-
-
-def test_a_studio_that_asks_nobody_for_a_token_says_that_nobody_can_be_logged_out(
-    assets_folder: Path,
-):
-    with (
-        running_web(assets_folder, token=None) as web,
-        web.client(headers={"origin": web.origin}) as page,
-    ):
-        answer = page.post("/api/log-out")
-        assert (answer.status_code, "nobody to log out" in answer.text) == (409, True)

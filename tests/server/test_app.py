@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from itertools import product
 from typing import TYPE_CHECKING
 
 import pytest
@@ -14,7 +15,11 @@ from studio.scene import SUBPROTOCOL
 from studio.server.access import PUBLIC_ROUTES, ROUTES
 from studio.server.api import Api, Exports, LogOut
 from studio.server.assets import Assets
+from studio.server.cookies import Cookies
 from studio.server.credentials import Credentials
+from studio.server.front import Front
+from studio.server.joining import Joining
+from studio.server.origin import KnownHosts
 from studio.server.site import Site
 from studio.server.uploads import Uploads
 from tests.support.small_engine import URDF, SmallEngine
@@ -23,6 +28,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.protocol import Command
+    from studio.protocol.commands import Permission
     from tests.support.web_server import RunningWeb
 
 SOCKETS = {"/data", "/control", "/d/{document}/viser"}
@@ -34,11 +40,14 @@ STREAMS = {"/bulk"}
 def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder: Path):
     app = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
     engine = SmallEngine()
-    Site(engine, Assets(assets_folder), "session").add_to(app)
+    front, classroom = Front(KnownHosts.of("127.0.0.1"), 1), engine.classroom
+    credentials = Credentials("token", b"")
+    Site(engine, Assets(assets_folder), "session", "").add_to(app)
     app.include_router(Api(engine, "session").router())
     app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
-    app.include_router(LogOut(Credentials(None, b"")).router())
+    app.include_router(LogOut(credentials, classroom).router())
+    app.include_router(Joining(classroom, Cookies(credentials, classroom, front), front).router())
     found = {path for route in app.routes for path in _paths(route)}
     assert found | {"/api/openapi.json"} == ROUTES.keys() | PUBLIC_ROUTES
 
@@ -99,6 +108,8 @@ FIELDS: dict[str, object] = {
     "demo": "talker",
     "subject": "graph",
     "pressed": "up",
+    "person": "x",
+    "role": "student",
 }
 """A value for each field that a command needs."""
 
@@ -109,17 +120,25 @@ def test_every_command_by_rest_is_asked_of_the_same_table(web: RunningWeb, kind:
     name: str = kind.model_fields["type"].default
     command |= {"type": name, "document": "small"}
     web.engine.go_on.set()
-    for role in Role:
-        with web.client(role) as client:
+    for holder, role in product((Role.PRESENTER, Role.HELPER, Role.STUDENT), Role):
+        with web.in_control(holder), web.client(role) as client:
             answer = client.post("/api/commands", content=json.dumps(command))
-            refused_by_table = answer.json().get("kind") == "NotAllowedError"
-            assert answer.status_code != 422, answer.text
-            assert refused_by_table == (not may(Visitor(role), COMMANDS[kind].permission))
-            assert (answer.status_code == 403) == refused_by_table
+        kind_of_refusal = answer.json().get("kind")
+        assert answer.status_code != 422, answer.text
+        expected = refusal_of(role, COMMANDS[kind].permission, has_control=role is holder)
+        assert (kind_of_refusal if answer.status_code == 403 else None) == expected
+
+
+def refusal_of(role: Role, permission: Permission, *, has_control: bool) -> str | None:
+    """The error by which a command is refused; None: it is carried out."""
+    order = [Role.GUEST, Role.STUDENT, Role.HELPER, Role.PRESENTER]
+    if order.index(role) < order.index(permission.role):
+        return "NotAllowedError"
+    return "NotInControlError" if permission.needs_control and not has_control else None
 
 
 def test_the_root_leads_to_the_default_document(web: RunningWeb):
-    with web.client(Role.VIEWER) as client:
+    with web.client(Role.GUEST) as client:
         answer = client.get("/")
         assert (answer.status_code, answer.headers["location"]) == (303, "/d/small")
 
@@ -127,7 +146,7 @@ def test_the_root_leads_to_the_default_document(web: RunningWeb):
 def test_the_root_is_the_page_while_nothing_is_open(web: RunningWeb):
     web.engine.default_document = None
     try:
-        with web.client(Role.VIEWER) as client:
+        with web.client(Role.GUEST) as client:
             answer = client.get("/")
             assert answer.status_code == 200
             assert 'src="/a/' in answer.text
@@ -137,12 +156,12 @@ def test_the_root_is_the_page_while_nothing_is_open(web: RunningWeb):
 
 @pytest.mark.parametrize("path", ["/d/gone", "/d/%3Cscript%3E", "/d/gone/viser/", "/no/such"])
 def test_an_unknown_address_says_so_and_links_home(web: RunningWeb, path: str):
-    with web.client(Role.VIEWER, {"accept": "text/html"}) as client:
+    with web.client(Role.GUEST, {"accept": "text/html"}) as client:
         answer = client.get(path)
         assert answer.status_code == 404
         assert '<a href="/">' in answer.text
         assert "<script" not in answer.text
-    with web.client(Role.VIEWER) as client:
+    with web.client(Role.GUEST) as client:
         assert client.get(path).json()["reason"]
 
 
@@ -153,7 +172,7 @@ def test_a_websocket_behind_which_nothing_is_does_not_open(web: RunningWeb):
 
 
 def test_the_urdf_comes_as_a_file(web: RunningWeb):
-    with web.client(Role.VIEWER) as client:
+    with web.client(Role.GUEST) as client:
         answer = client.get("/api/documents/small/urdf")
         assert answer.text == URDF
         assert answer.headers["content-type"] == "application/xml"
@@ -183,7 +202,7 @@ def test_a_malformed_command_by_rest_is_a_sentence(web: RunningWeb, body: str):
 
 
 def test_the_documents_are_listed(web: RunningWeb):
-    with web.client(Role.VIEWER) as client:
+    with web.client(Role.GUEST) as client:
         assert client.get("/api/documents").json()["documents"][0]["id"] == "small"
     assert not web.engine.listeners
 

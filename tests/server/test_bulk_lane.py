@@ -34,7 +34,7 @@ def ask_key(lane: Connection) -> str:
 
 
 @contextmanager
-def bulk_lane(web: RunningWeb, key: str, role: Role = Role.VIEWER) -> Generator[httpx2.Response]:
+def bulk_lane(web: RunningWeb, key: str, role: Role = Role.GUEST) -> Generator[httpx2.Response]:
     with web.client(role) as client, client.stream("GET", "/bulk", params={"key": key}) as answer:
         assert answer.status_code == 200
         yield answer

@@ -131,7 +131,7 @@ def test_a_command_whose_document_is_closed_meanwhile_is_answered(web: RunningWe
 
 def test_a_viewer_is_refused_and_the_engine_hears_nothing(web: RunningWeb):
     before = len(web.engine.executed)
-    with web.websocket("/control", Role.VIEWER) as lane:
+    with web.websocket("/control", Role.GUEST) as lane:
         greet(lane)
         say(lane, type="save", request=2, document="small")
         refused = hear(lane)

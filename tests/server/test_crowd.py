@@ -39,7 +39,7 @@ def test_who_was_recognised_is_not_ended_for_strangers():
     crowd = Crowd(descriptors=80)
     known = Held()
     crowd.arrive(known)
-    assert crowd.recognise(known, Visitor(Role.VIEWER, "a"))
+    assert crowd.recognise(known, Visitor(Role.GUEST, "a"))
     for _ in range(crowd.strangers_max + 3):
         crowd.arrive(Held())
     assert not known.ended
@@ -47,7 +47,7 @@ def test_who_was_recognised_is_not_ended_for_strangers():
 
 def test_one_viewer_has_so_many_connections_and_another_is_not_refused_for_it():
     crowd = Crowd(descriptors=10_000)
-    greedy, other = Visitor(Role.VIEWER, "a"), Visitor(Role.VIEWER, "b")
+    greedy, other = Visitor(Role.GUEST, "a"), Visitor(Role.GUEST, "b")
     held = [Held() for _ in range(VIEWER_CONNECTIONS_MAX)]
     assert all(crowd.recognise(one, greedy) for one in held)
     assert not crowd.recognise(Held(), greedy)
@@ -59,7 +59,7 @@ def test_one_viewer_has_so_many_connections_and_another_is_not_refused_for_it():
 
 def test_viewers_together_leave_room_for_the_presenter():
     crowd = Crowd(descriptors=100)
-    admitted = [crowd.recognise(Held(), Visitor(Role.VIEWER, str(n))) for n in range(200)]
+    admitted = [crowd.recognise(Held(), Visitor(Role.GUEST, str(n))) for n in range(200)]
     assert sum(admitted) == crowd.viewers_max
     assert crowd.viewers_max + crowd.strangers_max < 100
     assert all(crowd.recognise(Held(), Visitor(Role.PRESENTER, "p")) for _ in range(200))
@@ -71,7 +71,7 @@ def test_a_viewer_s_flood_costs_the_presenter_nothing():
     crowd.recognise(presenter, Visitor(Role.PRESENTER, "p"))
     for number in range(100):
         viewer = Held()
-        crowd.recognise(viewer, Visitor(Role.VIEWER, str(number)))
+        crowd.recognise(viewer, Visitor(Role.GUEST, str(number)))
         pause_s = crowd.spend(viewer, 10_000)
         assert pause_s > 1
     assert crowd.spend(presenter, 1_000) == 0

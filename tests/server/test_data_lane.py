@@ -102,7 +102,7 @@ def test_a_worker_may_open_the_lane_and_load_its_scripts_and_nothing_else(
     web: RunningWeb, assets_folder: Path
 ):
     base = Assets(assets_folder).current().base
-    with web.client(Role.VIEWER) as client:
+    with web.client(Role.GUEST) as client:
         policies = [
             client.get(base + path).headers["content-security-policy"]
             for path in ("workers/data.js", "app/main.js")

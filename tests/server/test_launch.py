@@ -163,9 +163,16 @@ def test_a_viewer_gets_an_address_of_their_own_and_only_looks(demo: RunningStudi
         assert (refused.status_code, refused.json()["kind"]) == (403, "NotAllowedError")
 
 
-def test_without_a_token_the_address_has_none(tokenless: RunningStudio):
-    assert tokenless.line == f"Studio: http://127.0.0.1:{tokenless.port}/"
-    assert httpx2.get(f"{tokenless.origin}/d/rover", trust_env=False).status_code == 200
+def test_without_a_token_one_may_look_and_the_owners_address_has_it_still(
+    tokenless: RunningStudio,
+):
+    assert re.fullmatch(rf"Studio: {tokenless.origin}/\?token=[\w-]{{32}}", tokenless.line)
+    with httpx2.Client(base_url=tokenless.origin, trust_env=False, follow_redirects=True) as client:
+        client.headers["accept"] = "text/html"
+        assert client.get("/d/rover").status_code == 200
+        own, command = {"origin": tokenless.origin}, {"type": "list_recent"}
+        refused = client.post("/api/commands", json=command, headers=own)
+        assert refused.json()["kind"] == "NotAllowedError"
 
 
 def test_beyond_this_machine_it_warns():

@@ -16,7 +16,7 @@ def directives(policy: str) -> dict[str, str]:
 
 
 def test_the_page_runs_its_own_files_and_what_carries_this_answers_nonce(web: RunningWeb):
-    with web.client(Role.VIEWER) as client:
+    with web.client(Role.GUEST) as client:
         answer, again = client.get("/d/small"), client.get("/d/small")
     policy = directives(answer.headers["content-security-policy"])
     (nonce,) = re.findall(r'nonce="([^"]+)"', answer.text)
@@ -33,7 +33,7 @@ def test_the_page_runs_its_own_files_and_what_carries_this_answers_nonce(web: Ru
 
 
 def test_visers_page_has_a_policy_of_its_own_and_reaches_no_other_host(web: RunningWeb):
-    with web.client(Role.VIEWER) as client:
+    with web.client(Role.GUEST) as client:
         answer = client.get("/d/small/viser/")
     assert answer.headers["content-type"].startswith("text/html")
     assert answer.headers["cache-control"] == "no-store"

@@ -6,7 +6,7 @@ import pytest
 
 from studio.errors import PortTakenError, SettingsError
 from studio.server import ports
-from studio.server.ports import address, bind, port_of
+from studio.server.ports import bind, lan_addresses, page_address, port_of
 from studio.settings import DEFAULT_PORT
 
 
@@ -42,15 +42,28 @@ def test_a_host_that_is_not_ours_is_a_sentence():
 
 
 @pytest.mark.parametrize(
-    ("host", "token", "expected"),
+    ("host", "expected"),
     [
-        ("127.0.0.1", "abc", "http://127.0.0.1:8765/?token=abc"),
-        ("127.0.0.1", None, "http://127.0.0.1:8765/"),
-        ("0.0.0.0", "abc", "http://127.0.0.1:8765/?token=abc"),
-        ("::1", "abc", "http://[::1]:8765/?token=abc"),
-        ("::", None, "http://[::1]:8765/"),
-        ("robot.local", None, "http://robot.local:8765/"),
+        ("127.0.0.1", "http://127.0.0.1:8765/"),
+        ("0.0.0.0", "http://127.0.0.1:8765/"),
+        ("::1", "http://[::1]:8765/"),
+        ("::", "http://[::1]:8765/"),
+        ("robot.local", "http://robot.local:8765/"),
     ],
 )
-def test_the_address_works_on_this_machine(host: str, token: str | None, expected: str):
-    assert address(host, DEFAULT_PORT, token) == expected
+def test_the_address_works_on_this_machine(host: str, expected: str):
+    assert page_address(host, DEFAULT_PORT) == expected
+
+
+def test_the_address_has_its_path_and_its_scheme_and_the_usual_port_is_not_written():
+    assert page_address("127.0.0.1", 8765, "/studio", tls=True) == "https://127.0.0.1:8765/studio/"
+    assert page_address("127.0.0.1", 443, tls=True) == "https://127.0.0.1/"
+    assert page_address("127.0.0.1", 80) == "http://127.0.0.1/"
+
+
+def test_others_find_it_under_the_address_of_the_network_and_the_name_of_the_machine():
+    assert lan_addresses("127.0.0.1", 8765) == ()
+    assert lan_addresses("203.0.113.7", 8765) == ("http://203.0.113.7:8765/",)
+    *numbers, name = lan_addresses("0.0.0.0", 8765)
+    assert name == f"http://{socket.gethostname().lower().removesuffix('.local')}.local:8765/"
+    assert not any("127.0.0.1" in one or "[" in one for one in numbers)

@@ -69,6 +69,6 @@ def test_no_token_is_written_to_the_log(assets_folder: Path, tmp_path: Path):
 
 
 def test_messages_are_not_deflated(web: RunningWeb):
-    with web.websocket("/control", Role.VIEWER) as lane:
+    with web.websocket("/control", Role.GUEST) as lane:
         assert lane.response is not None
         assert "Sec-WebSocket-Extensions" not in lane.response.headers

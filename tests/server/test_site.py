@@ -15,7 +15,7 @@ PATH = "/d/small/viser"
 
 
 def test_the_presenter_may_click_and_the_viewer_only_looks(web: RunningWeb):
-    for role, heard in {Role.PRESENTER: b"SceneNodeClickMessage", Role.VIEWER: b"end"}.items():
+    for role, heard in {Role.PRESENTER: b"SceneNodeClickMessage", Role.GUEST: b"end"}.items():
         with web.websocket(PATH, role, subprotocols=(SUBPROTOCOL,)) as lane:
             assert lane.subprotocol == SUBPROTOCOL
             lane.send(b"ShareUrlRequest")

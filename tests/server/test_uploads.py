@@ -58,7 +58,7 @@ def test_a_body_without_its_first_line_is_refused(web: RunningWeb, body: bytes):
 
 
 def test_a_viewer_and_a_stranger_send_nothing(web: RunningWeb):
-    for role in (Role.VIEWER, None):
+    for role in (Role.GUEST, None):
         with web.client(role) as client:
             assert client.post("/api/uploads", content=b"[]\n").status_code == 403
     assert web.engine.uploads.taken == []

@@ -101,7 +101,7 @@ def test_a_viewer_s_flood_of_frames_holds_up_no_presenter(web: RunningWeb, part:
 @pytest.mark.parametrize("path", LANES)
 @pytest.mark.parametrize(
     ("role", "limit_bytes"),
-    [(Role.VIEWER, VIEWER_MESSAGE_LIMIT_BYTES), (Role.PRESENTER, COMMAND_LIMIT_BYTES)],
+    [(Role.GUEST, VIEWER_MESSAGE_LIMIT_BYTES), (Role.PRESENTER, COMMAND_LIMIT_BYTES)],
 )
 def test_a_message_that_is_too_large_is_refused_before_it_is_read(
     web: RunningWeb, path: str, role: Role, limit_bytes: int
@@ -177,7 +177,7 @@ def test_what_is_no_websocket_is_ended_without_a_line(
 def test_a_viewer_who_opens_too_many_websockets_is_refused_and_the_presenter_is_not(
     web: RunningWeb,
 ):
-    cookie = {"Cookie": web.cookie(Role.VIEWER)}
+    cookie = {"Cookie": web.cookie(Role.GUEST)}
     with contextlib.ExitStack() as opened:
         for _ in range(VIEWER_CONNECTIONS_MAX):
             opened.enter_context(web.websocket("/control", None, headers=cookie))

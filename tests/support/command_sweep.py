@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.documents.engine import Engine
 from studio.documents.services import USED_LATER
-from studio.protocol.roles import Role
+from studio.protocol.roles import Role, Visitor
 from studio.server.commands import answer
 from studio.settings import Settings, WireChoice
 from tests.support.command_fuzzer import WORDS, CommandFuzzer
@@ -54,6 +54,9 @@ class Swept:
 class _SweepEar(Ear):
     """Reads refusals only: reading long answers is no work of the engine."""
 
+    def controls(self, document: str) -> bool:
+        return Visitor(self.role).controls(document)
+
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         if data.startswith(b'{"type":"refused"'):
             super().post(data, binary=binary, key=key)
@@ -75,7 +78,7 @@ class _Sweep:
     def __init__(self, made: Engine, folder: Path, random: Random, stall_s: float) -> None:
         self._engine, self._folder, self._random = made, folder, random
         self._stall_s = stall_s
-        self._ears = (_SweepEar(), _SweepEar(), _SweepEar(Role.VIEWER))
+        self._ears = (_SweepEar(), _SweepEar(), _SweepEar(Role.GUEST))
         self._fuzzer = CommandFuzzer(random, {})
         self._under_way: list[str] = []
         self.swept = Swept()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from starlette.requests import ClientDisconnect
 
+from studio.classroom.classroom import Classroom
 from studio.documents.exports import Download
 from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
 from studio.live.topics.frames import Tick, chunk_of
@@ -123,6 +124,7 @@ class SmallEngine:
 
     def __init__(self) -> None:
         self.documents = {"small": SmallDocument()}
+        self.classroom = Classroom()
         self.uploads = SmallUploads()
         self.browser_topics = SmallTopics()
         self.default_document: str | None = "small"

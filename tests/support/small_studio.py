@@ -13,7 +13,9 @@ from pathlib import Path
 from studio.server.app import make_app
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
-from studio.server.ports import address, bind, port_of
+from studio.server.front import Front
+from studio.server.origin import KnownHosts
+from studio.server.ports import bind, page_address, port_of, with_token
 from studio.server.server import Server
 from tests.support.small_engine import SmallEngine
 
@@ -41,8 +43,14 @@ def main(folder: Path, mood: str = "") -> None:
     credentials = Credentials("token", bytes(32))
     listener = bind("127.0.0.1", 0)
     port = port_of(listener)
-    app = make_app(SmallEngine(), Assets(folder), credentials, "session", ("127.0.0.1", port))
-    life = _Life(address("127.0.0.1", port, "token"), mood)
+    app = make_app(
+        SmallEngine(),
+        Assets(folder),
+        credentials,
+        "session",
+        Front(KnownHosts.of("127.0.0.1"), port),
+    )
+    life = _Life(with_token(page_address("127.0.0.1", port), "token"), mood)
     Server(app, life).run(sockets=[listener])
 
 

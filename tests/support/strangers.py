@@ -65,7 +65,7 @@ def handshake(web: RunningWeb, path: str, role: Role | None, *more: str) -> byte
 
 @contextmanager
 def raw_websocket(
-    web: RunningWeb, path: str, role: Role | None = Role.VIEWER
+    web: RunningWeb, path: str, role: Role | None = Role.GUEST
 ) -> Generator[socket.socket]:
     """An open websocket whose frames are made by hand."""
     with dialled(web) as opened:

@@ -14,6 +14,8 @@ from studio.protocol.roles import Role
 from studio.server.app import make_app
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
+from studio.server.front import Front
+from studio.server.origin import KnownHosts
 from studio.server.ports import bind, port_of
 from studio.server.server import Server
 from studio.server.websocket import StudioSocket
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from websockets.sync.connection import Connection
+
+    from studio.classroom.members import Member
 
 KEY = bytes(32)
 TOKEN = "the-presenters-token"
@@ -40,15 +44,37 @@ class RunningWeb:
         self.engine, self.credentials, self.port = engine, credentials, port
         self.origin = f"http://127.0.0.1:{port}"
         self._server = server
+        self._members: dict[Role, Member] = {}
 
     def pending_bytes(self) -> list[int]:
         """What the system has not yet taken, of every websocket that is open."""
         found = tuple(self._server.server_state.connections)
         return [one.pending_bytes() for one in found if isinstance(one, StudioSocket)]
 
+    def member(self, role: Role) -> Member:
+        """A person of the class, always the same of one role; the class is open then."""
+        classroom = self.engine.classroom
+        classroom.admission.open = True
+        if self._members.get(role) not in tuple(classroom.members):
+            self._members[role] = classroom.members.add(role.value, role)
+        return self._members[role]
+
     def cookie(self, role: Role) -> str:
         """The `Cookie` header of a role."""
-        return f"studio-{self.port}={self.credentials.cookie_of(role)}"
+        if role in {Role.PRESENTER, Role.GUEST}:
+            return f"studio-{self.port}={self.credentials.cookie_of(role)}"
+        value = self.engine.classroom.members.cookie_of(self.member(role))
+        return f"studio-{self.port}-member={value}"
+
+    @contextmanager
+    def in_control(self, role: Role) -> Generator[None]:
+        """Within this block the member of a role has control; the presenter, if it is theirs."""
+        control = self.engine.classroom.control
+        control.give("" if role is Role.PRESENTER else self.member(role).person)
+        try:
+            yield
+        finally:
+            control.give("")
 
     def client(
         self, role: Role | None = None, headers: Mapping[str, str] | None = None
@@ -103,19 +129,29 @@ class _Life:
 
 
 @contextmanager
-def running_web(
+def running_web(  # noqa: PLR0913 - each test gives one or two
     assets: Path,
     *,
-    token: str | None = TOKEN,
+    token: str = TOKEN,
+    guests: bool = False,
+    base: str = "",
+    proxies: frozenset[str] = frozenset(),
     host: str = "127.0.0.1",
     patience_s: float | None = None,
 ) -> Generator[RunningWeb]:
     """Serve until the block ends; with a patience, browsers are always asked if they are there."""
-    engine, credentials, life = SmallEngine(), Credentials(token, KEY), _Life()
+    engine, credentials, life = SmallEngine(), Credentials(token, KEY, guests=guests), _Life()
     listener: socket.socket = bind("127.0.0.1", 0)
     port = port_of(listener)
-    app = make_app(engine, Assets(assets), credentials, "session", (host, port))
+    app = make_app(
+        engine,
+        Assets(assets),
+        credentials,
+        "session",
+        Front(KnownHosts.of(host), port, base, proxies),
+    )
     server = Server(app, life)
+    engine.classroom.end_pages = server.server_state.crowd.end_person
     if patience_s is not None:
         server.config.ws_ping_interval, server.config.ws_ping_timeout = _PING_S, patience_s
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})

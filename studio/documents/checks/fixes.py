@@ -74,8 +74,8 @@ class Fixes:
 
 
 COMMANDS: Final = Commands[Fixes](Scope.DOCUMENT)
-COMMANDS.presenter(ApplyFix, lambda fixes, c, _: fixes.apply(c.code, c.sentence, c.label))
-COMMANDS.presenter(MendAll, lambda fixes, _, __: fixes.apply_all())
+COMMANDS.controller(ApplyFix, lambda fixes, c, _: fixes.apply(c.code, c.sentence, c.label))
+COMMANDS.controller(MendAll, lambda fixes, _, __: fixes.apply_all())
 
 
 def _fixes(problems: Sequence[Problem]) -> Iterator[Fix]:

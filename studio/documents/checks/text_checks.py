@@ -48,7 +48,7 @@ class TextChecks:
         pace: When the checks start.
     """
 
-    role = Role.VIEWER
+    role = Role.GUEST
     person = ""
 
     def __init__(

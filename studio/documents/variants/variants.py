@@ -261,12 +261,12 @@ class NamedVariants:
 
 
 COMMANDS: Final = Commands[NamedVariants](Scope.DOCUMENT)
-COMMANDS.presenter(SaveVariant, lambda variants, c, _: variants.save(c))
-COMMANDS.presenter(UpdateVariant, lambda variants, c, _: variants.save(c))
-COMMANDS.presenter(ApplyVariant, lambda variants, c, _: variants.apply(c))
-COMMANDS.presenter(RenameVariant, lambda variants, c, _: variants.rename(c))
-COMMANDS.presenter(DeleteVariant, lambda variants, c, _: variants.delete(c.name))
-COMMANDS.presenter(CompareVariants, lambda variants, c, _: variants.compare(c.sides))
+COMMANDS.controller(SaveVariant, lambda variants, c, _: variants.save(c))
+COMMANDS.controller(UpdateVariant, lambda variants, c, _: variants.save(c))
+COMMANDS.controller(ApplyVariant, lambda variants, c, _: variants.apply(c))
+COMMANDS.controller(RenameVariant, lambda variants, c, _: variants.rename(c))
+COMMANDS.controller(DeleteVariant, lambda variants, c, _: variants.delete(c.name))
+COMMANDS.controller(CompareVariants, lambda variants, c, _: variants.compare(c.sides))
 
 
 def _view(variant: Variant) -> VariantView:

@@ -267,6 +267,6 @@ class RobotFeed:
 
 
 COMMANDS: Final = Commands[RobotFeed](Scope.ROS)
-COMMANDS.presenter(SetJointSource, lambda feed, c, _: feed.choose(c.source))
-COMMANDS.presenter(PublishRobot, lambda feed, c, _: feed.publish_robot(running=c.running))
-COMMANDS.presenter(PublishJoints, lambda feed, c, _: feed.publish_joints(running=c.running))
+COMMANDS.controller(SetJointSource, lambda feed, c, _: feed.choose(c.source))
+COMMANDS.controller(PublishRobot, lambda feed, c, _: feed.publish_robot(running=c.running))
+COMMANDS.controller(PublishJoints, lambda feed, c, _: feed.publish_joints(running=c.running))

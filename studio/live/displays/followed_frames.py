@@ -88,14 +88,16 @@ class FollowedFrames:
     def __init__(self, scene: DrawsLive) -> None:
         self._scene = scene
         self._asked = {
-            Role.PRESENTER: _Asked(FOLLOWED_MAX),
-            Role.VIEWER: _Asked(FOLLOWED_BY_VIEWER_MAX),
+            True: _Asked(FOLLOWED_MAX),
+            False: _Asked(FOLLOWED_BY_VIEWER_MAX),
         }
         self._drawn: tuple[str, ...] = ()
 
     def ask(self, frame: str, now_ns: int, visitor: Visitor) -> str:
         """Follow a frame for a while; return why it cannot be, or an empty text."""
-        return self._asked[visitor.role].ask(frame, now_ns + FOLLOWED_FOR_NS, visitor)
+        return self._asked[visitor.role is Role.PRESENTER].ask(
+            frame, now_ns + FOLLOWED_FOR_NS, visitor
+        )
 
     def step(self, lookup: Lookup, now_ns: int) -> None:
         """Put each where its frame is now; one that is nowhere stays where it was."""

@@ -110,5 +110,5 @@ _STATES: Final[dict[str, _State]] = {
 }
 
 COMMANDS: Final = Commands[ServiceCalls](Scope.ROS)
-COMMANDS.presenter(CallService, lambda one, c, _: one.begin(c), needs_router=True)
-COMMANDS.presenter(CancelCall, lambda one, c, _: one.cancel(c))
+COMMANDS.controller(CallService, lambda one, c, _: one.begin(c), needs_router=True)
+COMMANDS.controller(CancelCall, lambda one, c, _: one.cancel(c))

@@ -12,12 +12,17 @@ from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.publishing import Drive
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
     from studio.protocol.listeners import Listener
 
 _SILENCE_S: Final = 0.5
 _DRIVEN_MAX: Final = 20
+_HALT_PATIENCE_S: Final = 0.3
+"""A publisher that is made for a stop is known to the subscribers after a few milliseconds."""
+_LOOK_EVERY_S: Final = 0.005
 _ROUTER_PATIENCE_S: Final = 120.0
 """When a router goes away during a drive: the robot may move on until it is back."""
 
@@ -59,6 +64,12 @@ class VelocityPublisher:
         """Whether the router is there, and somebody subscribes."""
         return self.is_reached and self._publisher.get_subscription_count() > 0
 
+    def wait_for_subscriber(self, timeout_s: float) -> None:
+        """Return once somebody subscribes, or the time is over."""
+        end_s = time.monotonic() + timeout_s
+        while not self.has_subscriber and time.monotonic() < end_s:
+            time.sleep(_LOOK_EVERY_S)
+
     def steer(self, x_m_s: float, y_m_s: float, yaw_rad_s: float) -> None:
         """Publish a velocity, each part of it no faster than `SPEED_MAX`."""
         x, y, yaw = (max(-SPEED_MAX, min(part, SPEED_MAX)) for part in (x_m_s, y_m_s, yaw_rad_s))
@@ -95,6 +106,8 @@ class Driving:
     def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._drivers: dict[str, _Driver] = {}
+        self._driven: dict[str, bool] = {}
+        """Topics on which somebody drove with this connection, and whether it was stamped."""
         self._ends: set[asyncio.Task[object]] = set()
         self._leaves = False
 
@@ -106,6 +119,7 @@ class Driving:
         """
         topic = command.topic if command.topic.startswith("/") else f"/{command.topic}"
         driver = self._driver(topic, listener)
+        self._driven[topic] = command.stamped
         self._wait_for_more(topic, driver)
         async with driver.turn:
             await self._send(driver, command)
@@ -116,6 +130,27 @@ class Driving:
             if driver.listener is listener:
                 self._end(topic, driver)
 
+    def release(self, person: str) -> None:
+        """Stop all that a person drives: they have no control any more."""
+        for topic, driver in tuple(self._drivers.items()):
+            if driver.listener.person == person:
+                self._end(topic, driver)
+
+    async def stop(self, also: Mapping[str, bool]) -> None:
+        """Stop all, and publish zero wherever somebody drove since the connection stands.
+
+        Args:
+            also: Other topics of velocities, and whether their messages are stamped.
+        """
+        for topic, driver in tuple(self._drivers.items()):
+            self._end(topic, driver)
+        await asyncio.gather(*self._ends)
+        if (link := self._wire.current) is not None:
+            halted = (self._driven | dict(also)).items()
+            await asyncio.gather(
+                *(outcome_of(asyncio.to_thread(_halt, link, *one)) for one in halted)
+            )
+
     async def let_go(self) -> None:
         """Stop all: the connection is about to end."""
         for topic, driver in tuple(self._drivers.items()):
@@ -123,6 +158,7 @@ class Driving:
         self._leaves = True
         await asyncio.gather(*self._ends)
         self._leaves = False
+        self._driven.clear()
 
     def _driver(self, topic: str, listener: Listener) -> _Driver:
         driver = self._drivers.get(topic)
@@ -178,8 +214,17 @@ class Driving:
             await came_true(lambda: self._leaves or publisher.has_subscriber, _ROUTER_PATIENCE_S)
 
 
+def _halt(link: WireLink, topic: str, stamped: bool) -> None:  # noqa: FBT001 - see `stop`
+    """Publish zero once, to all who subscribe by then."""
+    publisher = VelocityPublisher(link, topic, stamped)
+    try:
+        publisher.wait_for_subscriber(_HALT_PATIENCE_S)
+    finally:
+        publisher.close()
+
+
 COMMANDS: Final = Commands[Driving](Scope.ROS)
-COMMANDS.presenter(
+COMMANDS.controller(
     Drive,
     lambda driving, c, who: driving.drive(c, who),
     needs_router=True,

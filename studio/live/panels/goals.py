@@ -8,7 +8,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.live.panels.operations import Operations, Outcome, RunningTasks
+from studio.live.panels.operations import Operations, Outcome, RunningTasks, outcome_of
 from studio.protocol.calls import Begun
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import CancelGoal, FeedbackView, Goals, GoalState, GoalView, SendGoal
@@ -151,6 +151,11 @@ class ActionGoals:
                 self.operations.changed(goal)
             raise
 
+    async def cancel_all(self) -> None:
+        """Ask for every goal that was sent from here to be canceled; what refuses goes on."""
+        orders = (CancelGoal(operation=one.operation) for one in self.operations.unfinished())
+        await asyncio.gather(*(outcome_of(self.cancel(order)) for order in orders))
+
     def own_ids(self) -> frozenset[str]:
         """Ids of the goals that were sent from here, in hex."""
         return frozenset(one.goal_id for one in self.operations.all() if one.goal_id)
@@ -245,5 +250,5 @@ def _ended(name: str) -> GoalState:
 
 
 COMMANDS: Final = Commands[ActionGoals](Scope.ROS)
-COMMANDS.presenter(SendGoal, lambda one, c, _: one.begin(c), needs_router=True)
-COMMANDS.presenter(CancelGoal, lambda one, c, _: one.cancel(c), needs_router=True)
+COMMANDS.controller(SendGoal, lambda one, c, _: one.begin(c), needs_router=True)
+COMMANDS.controller(CancelGoal, lambda one, c, _: one.cancel(c), needs_router=True)

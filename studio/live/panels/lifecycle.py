@@ -162,4 +162,4 @@ def _change(link: WireLink, command: ChangeState) -> None:
 
 COMMANDS: Final = Commands[LifecycleNodes](Scope.ROS)
 COMMANDS.viewer(GetManaged, lambda one, c, _: one.managed(c))
-COMMANDS.presenter(ChangeState, lambda one, c, _: one.change(c), needs_router=True)
+COMMANDS.controller(ChangeState, lambda one, c, _: one.change(c), needs_router=True)

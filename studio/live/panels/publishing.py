@@ -28,6 +28,8 @@ _CHECK_EVERY_S: Final = 0.5
 _GRACE_S: Final = 3.0
 """A page that is loaded again is back within this time."""
 
+_TWIST: Final = "geometry_msgs/msg/Twist"
+_TWIST_STAMPED: Final = "geometry_msgs/msg/TwistStamped"
 _State: TypeAlias = Literal["running", "done", "stopped", "failed"]
 _STATES: Final[dict[str, _State]] = {"done": "done", "failed": "failed", "cancelled": "stopped"}
 
@@ -44,6 +46,8 @@ class Publication:
     name: str
     message_type: str
     asked: Publish
+    person: str = ""
+    """Who began it."""
     state: _State = "running"
     sent: int = 0
     listeners: int = 0
@@ -81,7 +85,7 @@ class Publishing:
         self._presenters: set[Listener] = set()
         self._leaving: asyncio.TimerHandle | None = None
 
-    async def begin(self, command: Publish) -> Begun:
+    async def begin(self, command: Publish, person: str = "") -> Begun:
         """Publish, and do not wait for it.
 
         Raises:
@@ -92,7 +96,7 @@ class Publishing:
         number = self.operations.next_number()
         link = await self._wire.link()
         sender = await asyncio.to_thread(MessageSender, link, command)
-        publication = Publication(number, sender.name, sender.type_name, command)
+        publication = Publication(number, sender.name, sender.type_name, command, person)
         self.operations.add(publication)
         self._running.start(
             number,
@@ -112,6 +116,19 @@ class Publishing:
             self._running.cancel(command.operation)
         else:
             self._stop_all("")
+
+    def release(self, person: str) -> None:
+        """Stop what a person publishes: they have no control any more."""
+        for one in self.operations.unfinished():
+            if one.person == person:
+                self._running.cancel(one.operation, "Control went to somebody else.")
+
+    def stop_all(self) -> dict[str, bool]:
+        """Stop all; return the topics of velocities that were published, and if it was stamped."""
+        self._stop_all("")
+        kinds = {_TWIST: False, _TWIST_STAMPED: True}
+        every = self.operations.all()
+        return {one.name: kinds[one.message_type] for one in every if one.message_type in kinds}
 
     def attach(self, listener: Listener) -> None:
         """Add a page, which may stop what runs."""
@@ -173,5 +190,5 @@ class Publishing:
 
 
 COMMANDS: Final = Commands[Publishing](Scope.ROS)
-COMMANDS.presenter(Publish, lambda one, c, _: one.begin(c), needs_router=True)
-COMMANDS.presenter(StopPublishing, lambda one, c, _: one.stop(c))
+COMMANDS.controller(Publish, lambda one, c, who: one.begin(c, who.person), needs_router=True)
+COMMANDS.controller(StopPublishing, lambda one, c, _: one.stop(c))

@@ -34,6 +34,10 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Listener
 
 
+_STOP_S: Final = 3.0
+"""So long an answer to a stop is waited for; what was begun goes on."""
+
+
 class RosSystem:
     """One part for each subject of panels; used on the event loop only."""
 
@@ -113,6 +117,18 @@ class RosSystem:
         self.changes.detach(listener)
         self.publishing.detach(listener)
         self.driving.detach(listener)
+
+    def release(self, person: str) -> None:
+        """End what a person drives and publishes; their calls and goals go on."""
+        self.driving.release(person)
+        self.publishing.release(person)
+
+    async def stop(self) -> None:
+        """Stop all that pages make robots do: publish zero, cancel goals, end publications."""
+        published = self.publishing.stop_all()
+        stops = (self.driving.stop(published), self.goals.cancel_all())
+        # A server that does not answer, or a router that is away, keeps nobody waiting.
+        await asyncio.wait([asyncio.create_task(one) for one in stops], timeout=_STOP_S)
 
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""

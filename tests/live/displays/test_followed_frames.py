@@ -82,7 +82,7 @@ def test_viewers_take_no_frame_from_the_presenter():
     followed = FollowedFrames(Scene())
     for viewer in range(10):
         for number in range(100):
-            followed.ask(f"v{viewer}_{number}", NOW, Visitor(Role.VIEWER, str(viewer)))
+            followed.ask(f"v{viewer}_{number}", NOW, Visitor(Role.GUEST, str(viewer)))
     for number in range(FOLLOWED_MAX):
         assert followed.ask(f"f{number}", NOW, PRESENTER) == ""
 
@@ -90,11 +90,11 @@ def test_viewers_take_no_frame_from_the_presenter():
 def test_one_viewer_follows_as_many_as_a_page_needs_and_leaves_room_for_another():
     scene = Scene()
     followed = FollowedFrames(scene)
-    greedy = [Visitor(Role.VIEWER, name) for name in "abcdefgh"]
+    greedy = [Visitor(Role.GUEST, name) for name in "abcdefgh"]
     for viewer in greedy:
         told = [followed.ask(f"{viewer.person}{n}", NOW, viewer) for n in range(100)]
         assert told.count("") <= FOLLOWED_BY_VIEWER_MAX
-    late = Visitor(Role.VIEWER, "late")
+    late = Visitor(Role.GUEST, "late")
     assert [followed.ask(f"late{n}", NOW, late) for n in range(3)] == ["", "", ""]
     followed.step(lookup, NOW)
     ((drawn, poses),) = scene.asked

@@ -1,0 +1,480 @@
+"""The class of a studio: its people, how others join, who has control, and what each is sent."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, Protocol
+
+from studio.classroom.admission import Admission
+from studio.classroom.control import Control
+from studio.classroom.members import MEMBERS_MAX, Members, now_s
+from studio.classroom.qr_code import qr_svg
+from studio.classroom.record import ClassFile, ClassRecord, MemberRecord
+from studio.debounce import Throttle
+from studio.errors import CommandError, DataFolderError, NotJoiningError
+from studio.protocol.classroom import (
+    AskControl,
+    ClassState,
+    EndClass,
+    GiveControl,
+    LowerHand,
+    PauseClass,
+    RaiseHand,
+    ReadmitMember,
+    RemoveMember,
+    RenewCode,
+    ReturnControl,
+    SetClass,
+    SetMemberRole,
+    SetName,
+    StartClass,
+    Stopped,
+    StopRobot,
+    TakeControl,
+    You,
+)
+from studio.protocol.classroom import Control as ControlEvent
+from studio.protocol.commands import Commands, Limits, Scope
+from studio.protocol.listeners import Audience, encode, send
+from studio.protocol.roles import Role
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from studio.classroom.members import Member
+    from studio.protocol.classroom import MemberView
+    from studio.protocol.listeners import Listener
+
+_SOON_S: Final = 0.05
+_PAUSE_S: Final = 0.25
+"""Between two lists of the class: hundreds may join at once."""
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """Where others find the studio.
+
+    Attributes:
+        addresses: Of its page, without any token, the best to show first.
+        only_here: No other machine reaches it.
+        fingerprint: SHA-256 of a certificate that the studio made itself.
+        why_not: Why it may not be shared, in a sentence; empty: it may.
+    """
+
+    addresses: tuple[str, ...] = ()
+    only_here: bool = True
+    fingerprint: str = ""
+    why_not: str = ""
+
+
+class Robot(Protocol):
+    """What a person in control can have set going."""
+
+    def release(self, person: str, /) -> None:
+        """End what a person steers and publishes: control is no longer theirs."""
+        ...
+
+    async def stop(self) -> None:
+        """Stop all that pages make robots do."""
+        ...
+
+
+class Classroom:
+    """Used on the event loop only.
+
+    Args:
+        file: Where it is kept; None: nowhere.
+        reach: Where others find it.
+    """
+
+    def __init__(self, file: Path | None = None, reach: Reach | None = None) -> None:
+        self.reach = reach or Reach()
+        self._file = ClassFile(file)
+        kept = self._file.read()
+        self.control = Control(self._control_changed)
+        self.members = Members(bytes.fromhex(kept.key), self.control)
+        self.members.restore(kept.members)
+        self.admission = Admission(kept)
+        self.robot: Robot | None = None
+        self.end_pages: Callable[[str], object] = lambda person: None
+        """Ends all connections of a person."""
+        self._pages: dict[str, set[Listener]] = {}
+        self._everybody = Audience()
+        self._leaders_later = Throttle(self._send_to_leaders, first_s=_SOON_S, pause_s=_PAUSE_S)
+
+    async def close(self) -> None:
+        """Wait for nobody any more."""
+        self.control.close()
+        await self._leaders_later.close()
+
+    # Joining
+
+    def member_of_cookie(self, given: str) -> Member | None:
+        """Return who comes with this cookie, while the class is open to them."""
+        return self.members.of_cookie(given) if self.admission.open else None
+
+    async def join(self, name: str, code: str, password: str, cookie: str) -> Member:
+        """Add a person.
+
+        Args:
+            name: As typed.
+            code: The six letters as typed, or the code of the link.
+            password: As typed.
+            cookie: What the browser has of before; somebody who was sent out is known by it.
+
+        Raises:
+            NotJoiningError: They may not join.
+        """
+        before = self.members.any_of_cookie(cookie)
+        if before is not None and before.removed:
+            raise NotJoiningError("removed", "You were sent out of this class: ask to be let in.")
+        self.admission.check_code(code)
+        await self.admission.check_password(password)
+        if before is not None:
+            return before
+        try:
+            member = self._add(name)
+        except CommandError as error:
+            raise NotJoiningError("name", str(error)) from error
+        await self._keep_quietly()
+        self._changed()
+        return member
+
+    def _add(self, name: str) -> Member:
+        if len(self.members) >= MEMBERS_MAX:
+            gone = next((one for one in self.members if not self._is_here(one.person)), None)
+            if gone is None:
+                raise NotJoiningError("full", f"The class is full: {MEMBERS_MAX} people are here.")
+            self.members.drop(gone)
+        return self.members.add(name, Role(self.admission.join_as))
+
+    # Pages that come and go
+
+    def attach(self, listener: Listener) -> None:
+        """Send a new page who it is and who has control, and every change from then on."""
+        person = listener.person
+        self._pages.setdefault(person, set()).add(listener)
+        self._everybody.add(listener)
+        self.control.back(person)
+        send(listener, self._control_event())
+        send(listener, self._you(person, listener.role))
+        if listener.role.includes(Role.HELPER):
+            send(listener, self._state())
+        self._changed()
+
+    def detach(self, listener: Listener) -> None:
+        """Remove a page; it need not be there."""
+        self._everybody.remove(listener)
+        person = listener.person
+        pages = self._pages.get(person, set())
+        if listener not in pages:
+            return
+        pages.remove(listener)
+        if not pages:
+            del self._pages[person]
+            self.control.left(person)
+        self._changed()
+
+    def _is_here(self, person: str) -> bool:
+        return person in self._pages
+
+    # The class as a whole
+
+    async def start(self) -> None:
+        """Let others join.
+
+        Raises:
+            CommandError: This studio may not be shared.
+        """
+        if self.reach.why_not:
+            raise CommandError(self.reach.why_not)
+        self.admission.open = True
+        await self._keep()
+        self._all_changed()
+
+    async def pause(self) -> None:
+        """Let nobody in for a while; those who are here are sent away."""
+        self.admission.open = False
+        self.control.give("")
+        await self._keep()
+        self._all_changed()
+        self._end_all_pages()
+
+    async def end(self) -> None:
+        """End the class, and delete all that is kept of it."""
+        self.admission = Admission(ClassRecord())
+        self.control.give("")
+        people = [one.person for one in self.members]
+        self.members.clear()
+        await self._file.delete()
+        self._all_changed()
+        for person in people:
+            self.end_pages(person)
+
+    async def set(self, command: SetClass) -> None:
+        """Change how others join."""
+        admission = self.admission
+        if command.locked is not None:
+            admission.locked = command.locked
+        if command.join_as is not None:
+            admission.join_as = command.join_as
+        if command.password is not None:
+            await admission.set_password(command.password)
+        await self._keep()
+        self._changed()
+
+    async def renew_code(self) -> None:
+        """Make another code and link."""
+        self.admission.renew()
+        await self._keep()
+        self._changed()
+
+    async def log_out(self) -> None:
+        """Make all members' cookies invalid: each has to join again."""
+        self.members.clear()
+        self.control.give("")
+        await self._keep_quietly()
+
+    # People
+
+    async def set_role(self, command: SetMemberRole) -> None:
+        """Make a person something else; who only looks keeps no control."""
+        member = self.members.get(command.person)
+        member.role = Role(command.role)
+        if member.role is Role.GUEST:
+            member.asks_s = member.hand_s = None
+            if self.control.holder == member.person:
+                self.control.give("")
+        await self._keep()
+        self._tell(member.person)
+
+    async def remove(self, person: str) -> None:
+        """Send a person out."""
+        member = self.members.get(person)
+        member.removed = True
+        member.asks_s = member.hand_s = None
+        if self.control.holder == person:
+            self.control.give("")
+        await self._keep()
+        self._changed()
+        self.end_pages(person)
+
+    async def readmit(self, person: str) -> None:
+        """Let a person in again."""
+        self.members.get(person).removed = False
+        await self._keep()
+        self._changed()
+
+    async def rename(self, person: str, name: str) -> None:
+        """Change one's own name."""
+        member = self.members.get(person)
+        member.name = self.members.free_name(name, own=person)
+        await self._keep()
+        self._tell(person)
+        if self.control.holder == person:
+            self._everybody.send(self._control_event())
+
+    def raise_hand(self, person: str, *, raised: bool) -> None:
+        """Raise a hand, or take it down."""
+        member = self.members.get(person)
+        if raised != (member.hand_s is not None):
+            member.hand_s = now_s() if raised else None
+            self._tell(person)
+
+    def lower_hands(self, person: str) -> None:
+        """Take down the hand of a person, or of everybody."""
+        for one in (self.members.get(person),) if person else tuple(self.members):
+            self.raise_hand(one.person, raised=False)
+
+    # Control
+
+    def ask_control(self, person: str, *, asking: bool) -> None:
+        """Ask for control, or no longer; who asked first is first in the list."""
+        member = self.members.get(person)
+        if self.control.holder == person or asking == (member.asks_s is not None):
+            return
+        member.asks_s = now_s() if asking else None
+        self._tell(person)
+
+    def give_control(self, person: str) -> None:
+        """Give control to a person who is here; empty: back to the presenter.
+
+        Raises:
+            CommandError: They are not here, or only look.
+        """
+        if person:
+            member = self.members.get(person)
+            if not self._is_here(person) or member.removed:
+                raise CommandError(f"{member.name} is not here: wait until they are back.")
+            if not member.role.includes(Role.STUDENT):
+                raise CommandError(f"{member.name} only looks: make them a student first.")
+            member.asks_s = None
+        self.control.give(person)
+
+    def take_control(self, asker: Listener) -> None:
+        """Take control: for the presenter, or for a helper."""
+        self.give_control("" if asker.role is Role.PRESENTER else asker.person)
+
+    def return_control(self, person: str) -> None:
+        """Give control back, if one has it."""
+        if self.control.holder == person:
+            self.control.give("")
+
+    async def stop_robot(self, asker: Listener) -> None:
+        """Stop all that pages make robots do, and tell everybody who did."""
+        if self.robot is not None:
+            await self.robot.stop()
+        member = self.members.find(asker.person)
+        self._everybody.send(Stopped(name=member.name if member else ""))
+
+    def _control_changed(self, before: str) -> None:
+        if self.robot is not None:
+            self.robot.release(before)
+        self._everybody.send(self._control_event())
+        for person in (before, self.control.holder):
+            self._tell(person)
+
+    # What is sent
+
+    def _control_event(self) -> ControlEvent:
+        holder = self.members.find(self.control.holder)
+        return ControlEvent(
+            class_open=self.admission.open,
+            holder=self.control.holder,
+            name=holder.name if holder else "",
+        )
+
+    def _you(self, person: str, role: Role) -> You:
+        member = self.members.find(person)
+        has_control = member.controls("") if member else role is Role.PRESENTER
+        return You(
+            person=person,
+            name=member.name if member else "",
+            role=role.value,  # type: ignore[arg-type]
+            has_control=has_control and (member is not None or not self.control.holder),
+            asking=member is not None and member.asks_s is not None,
+            hand=member is not None and member.hand_s is not None,
+        )
+
+    def _tell(self, person: str) -> None:
+        """Send what changed about a person: to their own pages, and to those who lead."""
+        if person:
+            for page in tuple(self._pages.get(person, ())):
+                send(page, self._you(person, page.role))
+                if page.role.includes(Role.HELPER):
+                    send(page, self._state())
+        else:
+            for page in self._leaders():
+                if page.role is Role.PRESENTER:
+                    send(page, self._you(page.person, page.role))
+        self._changed()
+
+    def _all_changed(self) -> None:
+        self._everybody.send(self._control_event())
+        self._changed()
+
+    def _changed(self) -> None:
+        if self._leaders():
+            self._leaders_later.trigger()
+
+    def _leaders(self) -> list[Listener]:
+        pages = (page for pages in tuple(self._pages.values()) for page in pages)
+        return [page for page in pages if page.role.includes(Role.HELPER)]
+
+    async def _send_to_leaders(self) -> None:
+        data = encode(self._state())
+        for page in self._leaders():
+            page.post(data, key="class_state")
+
+    @property
+    def link(self) -> str:
+        """The first address with the longer code in it; empty: nobody is told of any."""
+        addresses = self.reach.addresses
+        return f"{addresses[0]}join?code={self.admission.link}" if addresses else ""
+
+    def _state(self) -> ClassState:
+        admission, reach, link = self.admission, self.reach, self.link
+        return ClassState(
+            open=admission.open,
+            locked=admission.locked,
+            has_password=bool(admission.password),
+            join_as=admission.join_as,
+            code=admission.code,
+            addresses=reach.addresses,
+            link=link,
+            qr=qr_svg(link) if link and admission.open else "",
+            fingerprint=reach.fingerprint,
+            only_here=reach.only_here,
+            viewers=self._viewers(),
+            members=tuple(self._views()),
+        )
+
+    def _viewers(self) -> int:
+        pages = (page for one in self._pages.values() for page in one)
+        return sum(
+            page.role is Role.GUEST and self.members.find(page.person) is None for page in pages
+        )
+
+    def _views(self) -> list[MemberView]:
+        return [one.view(here=self._is_here(one.person)) for one in self.members]
+
+    # Keeping
+
+    def _record(self) -> ClassRecord:
+        admission = self.admission
+        return ClassRecord(
+            open=admission.open,
+            code=admission.code,
+            link=admission.link,
+            locked=admission.locked,
+            password=admission.password,
+            join_as=admission.join_as,
+            key=self.members.key.hex(),
+            members=tuple(
+                MemberRecord.model_validate(one, from_attributes=True) for one in self.members
+            ),
+        )
+
+    async def _keep(self) -> None:
+        await self._file.keep(self._record)
+
+    async def _keep_quietly(self) -> None:
+        """Keep it; a full disk is not the fault of who joins."""
+        try:
+            await self._keep()
+        except DataFolderError as error:
+            _log.warning("%s", error)
+
+    def _end_all_pages(self) -> None:
+        for one in tuple(self.members):
+            self.end_pages(one.person)
+
+
+_OFTEN: Final = Limits(bytes_max=1_000, per_second=5)
+
+COMMANDS: Final = Commands[Classroom](Scope.STUDIO)
+COMMANDS.presenter(StartClass, lambda room, _, __: room.start())
+COMMANDS.presenter(PauseClass, lambda room, _, __: room.pause())
+COMMANDS.presenter(EndClass, lambda room, _, __: room.end())
+COMMANDS.presenter(SetClass, lambda room, c, _: room.set(c))
+COMMANDS.presenter(RenewCode, lambda room, _, __: room.renew_code())
+COMMANDS.presenter(SetMemberRole, lambda room, c, _: room.set_role(c))
+COMMANDS.presenter(RemoveMember, lambda room, c, _: room.remove(c.person))
+COMMANDS.presenter(ReadmitMember, lambda room, c, _: room.readmit(c.person))
+COMMANDS.helper(GiveControl, lambda room, c, _: room.give_control(c.person))
+COMMANDS.helper(TakeControl, lambda room, _, who: room.take_control(who))
+COMMANDS.helper(LowerHand, lambda room, c, _: room.lower_hands(c.person))
+COMMANDS.viewer(SetName, lambda room, c, who: room.rename(who.person, c.name), limits=_OFTEN)
+COMMANDS.student(
+    AskControl,
+    lambda room, c, who: room.ask_control(who.person, asking=c.asking),
+    limits=_OFTEN,
+)
+COMMANDS.student(ReturnControl, lambda room, _, who: room.return_control(who.person), limits=_OFTEN)
+COMMANDS.student(
+    RaiseHand, lambda room, c, who: room.raise_hand(who.person, raised=c.raised), limits=_OFTEN
+)
+COMMANDS.student(StopRobot, lambda room, _, who: room.stop_robot(who), limits=_OFTEN)

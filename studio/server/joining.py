@@ -1,0 +1,173 @@
+"""The form by which others join the class: a code, a name, perhaps a password."""
+
+from __future__ import annotations
+
+import time
+from collections import OrderedDict
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Final, Protocol
+from urllib.parse import parse_qs
+
+from fastapi import APIRouter, Request
+from starlette.responses import RedirectResponse, Response
+
+from studio.errors import NotJoiningError
+from studio.server.crowd import Allowance
+from studio.server.guard import JOIN_PATH
+from studio.server.pages import Form, join_page, no_access_page
+
+if TYPE_CHECKING:
+    from studio.classroom.admission import Admission
+    from studio.classroom.members import Member, Members
+    from studio.server.cookies import Cookies
+    from studio.server.front import Caller, Front
+
+_BODY_LIMIT_BYTES: Final = 4 << 10
+_ADDRESSES_MAX: Final = 4_096
+_TRIES_AT_ONCE: Final = 30.0
+"""Wrong codes and passwords of one address: thirty students may share one."""
+_TRIES_PER_S: Final = 0.5
+_TRIES_AT_ONCE_IN_ALL: Final = 300.0
+_TRIES_PER_S_IN_ALL: Final = 3.0
+"""The code of six letters is guessed within two years, then."""
+
+
+class Joins(Protocol):
+    """The class."""
+
+    @property
+    def admission(self) -> Admission:
+        """What one has to know."""
+        ...
+
+    @property
+    def members(self) -> Members:
+        """Those who have joined."""
+        ...
+
+    async def join(self, name: str, code: str, password: str, cookie: str, /) -> Member:
+        """Add a person.
+
+        Raises:
+            NotJoiningError: They may not join.
+        """
+        ...
+
+
+class Tries:
+    """Limits wrong codes and passwords, by address and in all."""
+
+    def __init__(self) -> None:
+        self._in_all = Allowance(_TRIES_PER_S_IN_ALL, _TRIES_AT_ONCE_IN_ALL)
+        self._by_address: OrderedDict[str, Allowance] = OrderedDict()
+
+    def check(self, address: str) -> None:
+        """Pass if this address may try.
+
+        Raises:
+            NotJoiningError: There were too many wrong tries.
+        """
+        now_s = time.monotonic()
+        own = self._by_address.get(address)
+        pause_s = max(self._in_all.spend(0, now_s), own.spend(0, now_s) if own else 0.0)
+        if pause_s > 0:
+            raise NotJoiningError("tries", "There were too many wrong tries: wait a minute.")
+
+    def failed(self, address: str) -> None:
+        """Count a wrong try."""
+        now_s = time.monotonic()
+        own = self._by_address.pop(address, None) or Allowance(_TRIES_PER_S, _TRIES_AT_ONCE)
+        self._by_address[address] = own
+        if len(self._by_address) > _ADDRESSES_MAX:
+            self._by_address.popitem(last=False)
+        own.spend(1, now_s)
+        self._in_all.spend(1, now_s)
+
+
+class Joining:
+    """The routes and what they need."""
+
+    def __init__(self, classroom: Joins, cookies: Cookies, front: Front) -> None:
+        self._classroom, self._cookies, self._front = classroom, cookies, front
+        self._tries = Tries()
+
+    def router(self) -> APIRouter:
+        """Return the one address, with its form and what becomes of it."""
+        router = APIRouter()
+        for methods, endpoint in ((["GET", "HEAD"], self.form), (["POST"], self.join)):
+            router.add_api_route(
+                JOIN_PATH,
+                endpoint,
+                methods=methods,
+                include_in_schema=False,
+                response_class=Response,
+                response_model=None,
+            )
+        return router
+
+    async def form(self, request: Request) -> Response:
+        """Return the form; the code of a link need not be typed."""
+        if not self._classroom.admission.open:
+            return no_access_page(spent=False)
+        caller: Caller = request.scope["state"]["caller"]
+        return self._page(request, Form(has_code=bool(self._cookies.code(request.headers, caller))))
+
+    async def join(self, request: Request) -> Response:
+        """Make the browser a member, and send it to the robot."""
+        caller: Caller = request.scope["state"]["caller"]
+        given = _fields(await _body(request))
+        code = given.get("code", "") or self._cookies.code(request.headers, caller)
+        try:
+            member = await self._joined(request, caller, given, code)
+        except NotJoiningError as refusal:
+            form = Form(
+                has_code=not given.get("code") and refusal.why != "code" and bool(code),
+                code=given.get("code", ""),
+                name=given.get("name", ""),
+                trouble=refusal.why,
+                sentence=str(refusal),
+            )
+            return self._page(request, form)
+        response = RedirectResponse(f"{self._front.base}/", HTTPStatus.SEE_OTHER)
+        self._cookies.give_member(response, caller, self._classroom.members.cookie_of(member))
+        return response
+
+    async def _joined(
+        self, request: Request, caller: Caller, given: dict[str, str], code: str
+    ) -> Member:
+        admission = self._classroom.admission
+        # Nobody guesses the link: who has it joins though others spend all tries.
+        if admission.password or not admission.knows_link(code):
+            self._tries.check(caller.address)
+        cookie = self._cookies.member_cookie(request.headers, caller)
+        try:
+            return await self._classroom.join(
+                given.get("name", ""), code, given.get("password", ""), cookie
+            )
+        except NotJoiningError as refusal:
+            if refusal.why in {"code", "password"}:
+                self._tries.failed(caller.address)
+            raise
+
+    def _page(self, request: Request, form: Form) -> Response:
+        german = request.headers.get("accept-language", "").lower().startswith("de")
+        needs_password = bool(self._classroom.admission.password)
+        return join_page(form, needs_password=needs_password, language="de" if german else "en")
+
+
+async def _body(request: Request) -> bytes:
+    """Return the body of the form; one that is too long is none."""
+    body = bytearray()
+    async for part in request.stream():
+        body += part
+        if len(body) > _BODY_LIMIT_BYTES:
+            return b""
+    return bytes(body)
+
+
+def _fields(body: bytes) -> dict[str, str]:
+    try:
+        found = parse_qs(body.decode(), max_num_fields=8)
+    except ValueError:
+        return {}
+    return {name: values[0] for name, values in found.items()}
