@@ -9,7 +9,7 @@ import { LongList } from "../lib/long-list.js";
 import { remembered } from "../lib/remembered.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
 import { askedWhenChanged, useTold } from "../model/asking.js";
-import { mayEdit } from "../model/connection.js";
+import { mayEdit, mayManage } from "../model/connection.js";
 import { addDisplay, kinds, needKinds, topicsNow } from "../model/live-displays.js";
 import { ask } from "../model/requests.js";
 import { connectRos, ros } from "../model/ros.js";
@@ -170,12 +170,12 @@ function Connection({ count, onDone }) {
     return html`<p class="add-display-none" role="status">${t("live.add.no_topics", { endpoint })}</p>`;
   return html`<div class="add-display-none" role="status">
     <p>${nearby > 0 ? t("ros.first.nearby", { count: nearby }) : t("live.add.not_connected")}</p>
-    <button type="button" class="button primary" disabled=${busy.value || !mayEdit.value} onClick=${connect}>
+    <button type="button" class="button primary" disabled=${busy.value || !mayManage.value} onClick=${connect}>
       ${busy.value ? html`<span class="spinner"></span>` : html`<${Icon} name="link" />`}${t("ros.connect")}</button>
     ${
       nearby === 0 &&
       html`<p class="form-note">${t("live.add.demo")}</p>
-    <button type="button" class="button" disabled=${busy.value || !mayEdit.value} onClick=${startRover}>
+    <button type="button" class="button" disabled=${busy.value || !mayManage.value} onClick=${startRover}>
       <${Icon} name="animate" />${t("live.add.start_rover")}</button>`
     }
   </div>`;

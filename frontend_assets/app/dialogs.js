@@ -17,6 +17,8 @@ import { Palette } from "./palette.js";
 import { ShareDialog } from "./share.js";
 
 const AddDisplayDialog = later(async () => (await import("./add-display.js")).AddDisplayDialog);
+const ClassDialog = later(async () => (await import("./class-dialog.js")).ClassDialog);
+const NameDialog = later(async () => (await import("./class-dialog.js")).NameDialog);
 const KeysDialog = later(async () => (await import("./keys-dialog.js")).KeysDialog);
 const LaunchDialog = later(async () => (await import("./launch-dialog.js")).LaunchDialog);
 const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).LayoutsDialog);
@@ -54,6 +56,10 @@ function ShownDialog() {
       return html`<${SaveDialog} onClose=${close} />`;
     case "share":
       return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
+    case "class":
+      return html`<${ClassDialog} onClose=${close} />`;
+    case "class_name":
+      return html`<${NameDialog} onClose=${close} />`;
     case "graphics":
       return html`<${GraphicsDialog} onClose=${close} />`;
     case "ros":

@@ -4,11 +4,12 @@
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { html } from "vendor/preact.js";
+import { address } from "../lib/address.js";
 import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { Icon, MenuButton } from "../lib/ui.js";
-import { connection, documentId, mayEdit } from "../model/connection.js";
+import { connection, documentId, mayManage } from "../model/connection.js";
 import { robot, title } from "../model/document.js";
 import { isFree, notify, theme } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
@@ -29,9 +30,9 @@ function keep(data, name) {
 async function download(what) {
   await allSettled();
   notify(t("export.begun"));
-  const address = `/api/documents/${encodeURIComponent(documentId.value)}/export/${what}`;
+  const path = address(`/api/documents/${encodeURIComponent(documentId.value)}/export/${what}`);
   try {
-    const answer = await fetch(address, { cache: "no-store" });
+    const answer = await fetch(path, { cache: "no-store" });
     if (answer.ok) keep(await answer.blob(), nameOf(answer));
     else notify((await answer.json()).reason ?? t("export.failed"), { bad: true });
   } catch {
@@ -57,7 +58,7 @@ async function takePicture(scale, transparent) {
 
 const there = () => documentId.value !== "" && connection.value === "connected" && isFree();
 const withRobot = () => there() && robot.value !== null;
-const byPresenter = () => withRobot() && mayEdit.value;
+const byPresenter = () => withRobot() && mayManage.value;
 const withView = () => withRobot() && viewport.value !== null;
 
 /** Behind the document's address, by the command's name. @type {Record<string, string>} */
@@ -74,7 +75,7 @@ export function exportCommands() {
   const files = Object.entries(FILES).map(([id, what]) => ({
     id: `export_${id}`,
     icon: what.startsWith("urdf") ? "urdf" : "box",
-    enabled: what.startsWith("urdf") ? byPresenter : () => there() && mayEdit.value,
+    enabled: what.startsWith("urdf") ? byPresenter : () => there() && mayManage.value,
     run: () => void download(what),
   }));
   const pictures = SCALES.map((scale) => ({

@@ -121,6 +121,7 @@ const OTHERS = {
     ros: "link",
     live: "radar",
     keys: "keyboard",
+    class: "users",
     layouts: "layout",
     graphics: "system",
   },
@@ -144,6 +145,8 @@ export const OF_DIALOG = {
   keys: "keys",
   layouts: "layouts",
   graphics: "graphics",
+  class: "class",
+  class_name: "class",
   ros: "ros",
   add_display: "live",
 };

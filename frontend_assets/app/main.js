@@ -1,11 +1,11 @@
 /** Begins the page: words, theme, frame, dock, keys, and the lane to the studio. */
 
 import { effect, html, render } from "vendor/preact.js";
+import { documentOf } from "../lib/address.js";
 import { addCommands, matches, onKey, takesText } from "../lib/commands.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { anyUnderWay } from "../lib/latest.js";
-import { documentOf } from "../lib/paths.js";
 import { iconElement } from "../lib/ui.js";
 import { documentId, mayEdit, role } from "../model/connection.js";
 import { history, movable, title, unsaved } from "../model/document.js";

@@ -2,28 +2,32 @@
 
 /** @import { Command } from "../lib/commands.js" */
 
+import { address } from "../lib/address.js";
 import { commandById } from "../lib/commands.js";
 import { LANGUAGES, language, t } from "../lib/i18n.js";
-import { documentId, mayEdit } from "../model/connection.js";
+import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { unsaved } from "../model/document.js";
 import { closeDocument, goTo, reload } from "../model/requests.js";
 import { canCompare, compareSides } from "../model/variants.js";
 import { dialog, isFree, languageChoice, notify, themeChoice } from "../model/view.js";
+import { classCommands } from "./control.js";
 import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
 import { copyLink } from "./share.js";
 
 const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
+const ofOwner = () => mayManage.value && isFree() && documentId.value !== "";
 
 /** @returns {Command[]} */
 export function menuCommands() {
   return [
     ...documentCommands(),
+    ...classCommands(),
     ...exportCommands(),
     ...themeCommands(),
     ...graphicsCommands(),
     { id: "ros", icon: "link", enabled: isFree, run: showRos },
-    { id: "log_out", icon: "lock", enabled: () => mayEdit.value && isFree(), run: askToLogOut },
+    { id: "log_out", icon: "lock", enabled: () => mayManage.value && isFree(), run: askToLogOut },
     ...languageCommands(),
   ];
 }
@@ -32,7 +36,7 @@ export function menuCommands() {
 function documentCommands() {
   return [
     ...openingCommands(),
-    { id: "arguments", icon: "arguments", enabled: onDocument, run: showArguments },
+    { id: "arguments", icon: "arguments", enabled: ofOwner, run: showArguments },
     { id: "copy_link", icon: "link", enabled: onDocument, run: () => void copyLink() },
     {
       id: "show_changes",
@@ -49,13 +53,13 @@ function documentCommands() {
       enabled: () => onDocument() && canCompare.value,
       run: () => compareWith({ kind: "saved", name: "" }),
     },
-    { id: "close_document", icon: "close", enabled: onDocument, run: () => void closeDocument() },
+    { id: "close_document", icon: "close", enabled: ofOwner, run: () => void closeDocument() },
   ];
 }
 
 /** @returns {Command[]} */
 function openingCommands() {
-  const mayOpen = () => mayEdit.value && isFree();
+  const mayOpen = () => mayManage.value && isFree();
   /** @param {import("../model/view.js").OpenTab} tab */
   const show = (tab) => () => {
     dialog.value = { kind: "open", tab };
@@ -69,7 +73,7 @@ function openingCommands() {
     {
       id: "save_as",
       icon: "disk",
-      enabled: onDocument,
+      enabled: ofOwner,
       run: () => {
         dialog.value = { kind: "save_as" };
       },
@@ -128,8 +132,8 @@ function askToLogOut() {
 }
 
 async function logOut() {
-  const answer = await fetch("/api/log-out", { method: "POST" }).catch(() => null);
+  const answer = await fetch(address("/api/log-out"), { method: "POST" }).catch(() => null);
   // Its front page turns this browser away, and says how to come back.
   if (answer?.ok) goTo("");
-  else notify(answer?.status === 409 ? t("log_out.no_token") : t("log_out.failed"), { bad: true });
+  else notify(t("log_out.failed"), { bad: true });
 }

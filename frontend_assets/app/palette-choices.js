@@ -9,7 +9,7 @@ import { commandById, commandLabel, commands, onMac, shortcutText } from "../lib
 import { shownText } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { baseName, placeText, shortPath } from "../lib/paths.js";
-import { mayEdit } from "../model/connection.js";
+import { mayEdit, mayManage } from "../model/connection.js";
 import { allSites, documentState, movable, problems, robot, siteOrder } from "../model/document.js";
 import { applyPose, poses } from "../model/poses.js";
 import { ask, openNamed } from "../model/requests.js";
@@ -80,7 +80,7 @@ function wordsFor(id) {
 
 /** @returns {Choice[]} the robots that come with the studio, once they are told */
 function exampleChoices() {
-  if (!mayEdit.value) return [];
+  if (!mayManage.value) return [];
   return (examples.value ?? []).map(({ name, robot: title }) => ({
     rank: "example",
     key: `example ${name}`,

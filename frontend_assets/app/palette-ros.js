@@ -7,7 +7,7 @@
 import { commandById, commandLabel } from "../lib/commands.js";
 import { language, t } from "../lib/i18n.js";
 import { readLine, ros2LinesFor } from "../lib/ros2-lines.js";
-import { mayEdit } from "../model/connection.js";
+import { mayManage } from "../model/connection.js";
 import {
   askLessons,
   chosenLesson,
@@ -65,7 +65,7 @@ function firstParagraph(demo) {
 
 /** @returns {Choice[]} demos to be started, and those that run to be stopped */
 export function demoChoices() {
-  if (!mayEdit.value || ros.value.state !== "connected") return [];
+  if (!mayManage.value || ros.value.state !== "connected") return [];
   return (lessons.value ?? []).map((lesson) => {
     const { demo, node } = lesson;
     const runs = isUnderWay(demo);

@@ -8,7 +8,7 @@ import { t } from "../lib/i18n.js";
 import { marksOf, ranked } from "../lib/ranking.js";
 import { recall, remember } from "../lib/remembered.js";
 import { Dialog, Icon } from "../lib/ui.js";
-import { mayEdit } from "../model/connection.js";
+import { mayManage } from "../model/connection.js";
 import {
   allChoices,
   askExamples,
@@ -36,7 +36,7 @@ export function Palette({ onClose }) {
       ros.value = part;
       return part.askForLessons();
     });
-    if (mayEdit.value) void askExamples();
+    if (mayManage.value) void askExamples();
   }, []);
   const known = useMemo(allChoices, [examples.value]);
   const all = [

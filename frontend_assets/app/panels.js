@@ -11,6 +11,7 @@ import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { until, untilIdle, untilViewFetched } from "../lib/loading.js";
 import { addIcons, Icon, ProgressBar } from "../lib/ui.js";
+import { asking } from "../model/class.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";
 import { viewportConnected } from "../model/viewport.js";
@@ -36,7 +37,7 @@ export const PANEL_GROUPS = /** @type {const} */ (["robot", "files", "watch", "a
 /** @typedef {Omit<PanelFile, "icon" | "badge"> & {icon: string, badge: () => Badge | null, load: () => Promise<Component>}} PanelEntry */
 /** @typedef {{text: string, tone: string, label: string}} Badge */
 
-const BADGES = { changed: changedBadge, problems: problemsBadge };
+const BADGES = { asking: askingBadge, changed: changedBadge, problems: problemsBadge };
 const noBadge = () => null;
 const LAST = Number.MAX_VALUE;
 /** These come with the page. @type {Record<string, Component>} */
@@ -73,6 +74,13 @@ async function componentOf(id) {
 
 /** @param {string} id */
 export const panelTitle = (id) => t(`panel.${id}`);
+
+function askingBadge() {
+  const count = asking.value.length;
+  return count > 0
+    ? { text: String(count), tone: "amber", label: t("class.asking", { count }) }
+    : null;
+}
 
 function changedBadge() {
   const count = changedCount.value;

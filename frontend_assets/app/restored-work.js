@@ -8,7 +8,7 @@
 import { html } from "vendor/preact.js";
 import { language, t } from "../lib/i18n.js";
 import { Icon, IconButton } from "../lib/ui.js";
-import { mayEdit } from "../model/connection.js";
+import { mayManage } from "../model/connection.js";
 import { leftWork, restored } from "../model/document.js";
 import { ask, openPath } from "../model/requests.js";
 import { dialog } from "../model/view.js";
@@ -29,7 +29,7 @@ function giveUp({ path, title }) {
 /** One file at a time, the newest first. */
 export function LeftWorkBar() {
   const one = leftWork.value[0];
-  if (!one || !mayEdit.value) return null;
+  if (!one || !mayManage.value) return null;
   const hide = () => {
     leftWork.value = leftWork.value.slice(1);
   };
@@ -50,7 +50,7 @@ export function RestoredBar() {
   };
   return html`<div class="bar restored" role="status"><${Icon} name="reset" />
     <span>${t("restored", { time: timeText(work.at) })}</span><span class="push"></span>
-    ${mayEdit.value && html`<button type="button" class="button small" onClick=${discard}>${t("restored.discard")}</button>`}
+    ${mayManage.value && html`<button type="button" class="button small" onClick=${discard}>${t("restored.discard")}</button>`}
     <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${hide} /></div>`;
 }
 

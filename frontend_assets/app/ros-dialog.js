@@ -11,7 +11,7 @@ import { html, useEffect, useSignal } from "vendor/preact.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, Icon, IconButton } from "../lib/ui.js";
-import { mayEdit } from "../model/connection.js";
+import { mayManage } from "../model/connection.js";
 import {
   connectAt,
   DISTROS,
@@ -40,7 +40,7 @@ function useConnecting() {
   const error = useSignal("");
   const report = useSignal(/** @type {WireReport | null} */ (null));
   const look = async () => {
-    if (!mayEdit.value) return;
+    if (!mayManage.value) return;
     busy.value = "look";
     const answer = await examineAt(draft.value);
     busy.value = "";
@@ -97,10 +97,10 @@ function Foot({ connecting: { draft, busy, look, leave } }) {
   const { state } = ros.value;
   const stands = state === "connected" || state === "lost";
   const isElsewhere = !isSamePlace(draft.value, placeNow());
-  const off = !mayEdit.value || busy.value !== "";
+  const off = !mayManage.value || busy.value !== "";
   const isNowhere = !isDomain(draft.value.domain);
   return html`<footer>
-    <span class="form-note">${mayEdit.value ? "" : t("ros.viewer")}</span><span class="push"></span>
+    <span class="form-note">${mayManage.value ? "" : t("ros.viewer")}</span><span class="push"></span>
     <button type="button" class="button" disabled=${off || isNowhere} onClick=${look}>
       ${busy.value === "look" && html`<span class="spinner"></span>`}${t("ros.test")}</button>
     ${stands && html`<button key="leave" type="button" class="button" title=${t("ros.disconnect.note")} disabled=${off} onClick=${leave}>${t("ros.disconnect")}</button>`}
@@ -111,7 +111,7 @@ function Foot({ connecting: { draft, busy, look, leave } }) {
 /** @param {{busy: boolean, off: boolean}} props */
 function ConnectButton({ busy, off }) {
   const isUnderWay = busy || ros.value.state === "connecting";
-  return html`<button key="connect" type="submit" class="button primary" disabled=${!mayEdit.value || off || isUnderWay}>
+  return html`<button key="connect" type="submit" class="button primary" disabled=${!mayManage.value || off || isUnderWay}>
     ${isUnderWay && html`<span class="spinner"></span>`}${t("ros.connect")}</button>`;
 }
 
@@ -142,7 +142,7 @@ const EXAMPLE = "robot.local:7447";
 
 /** @param {{place: Signal<Place>}} props */
 function PlaceFields({ place }) {
-  const off = !mayEdit.value;
+  const off = !mayManage.value;
   const { address, domain, distro } = place.value;
   const change = (/** @type {Partial<Place>} */ news) => {
     place.value = { ...place.value, ...news };
@@ -164,7 +164,7 @@ function PlaceFields({ place }) {
 /** @param {{onChoose: (place: Place) => void}} props */
 function RecentPlaces({ onChoose }) {
   const places = recentPlaces.value;
-  if (places.length === 0 || !mayEdit.value) return null;
+  if (places.length === 0 || !mayManage.value) return null;
   return html`<div class="ros-recent" role="group" aria-label=${t("ros.recent")}>
     <span class="muted">${t("ros.recent")}</span>
     ${places.map(

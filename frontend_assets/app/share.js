@@ -3,6 +3,7 @@
 /** @import { Link } from "../types/wire.d.ts" */
 
 import { html } from "vendor/preact.js";
+import { address } from "../lib/address.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
@@ -30,9 +31,9 @@ export async function copyLink() {
 
 /** @param {{link: Link, onClose: () => void}} props */
 export function ShareDialog({ link, onClose }) {
-  const address = `${location.origin}/${MARK}${link.text}`;
+  const text = `${location.origin}${address("/")}${MARK}${link.text}`;
   const copy = async () => {
-    if (await copyText(address)) notify(t("share.copied"));
+    if (await copyText(text)) notify(t("share.copied"));
     onClose();
   };
   return html`<${Dialog} title=${t("share.title")} closeLabel=${t("close")} class="share" onClose=${onClose}>
@@ -42,8 +43,8 @@ export function ShareDialog({ link, onClose }) {
       <li>${link.edits > 0 ? t("share.edits", { count: link.edits }) : t("share.no_edits")}${link.files.length > 0 ? `: ${link.files.map(baseName).join(", ")}` : ""}</li>
     </ul>
     <label class="field"><span>${t("share.address")}</span>
-      <input type="text" class="box wide" readonly value=${address} onFocus=${(/** @type {any} */ event) => event.currentTarget.select()} /></label>
-    ${address.length > LONG && html`<p class="note">${t("share.long", { count: address.length })}</p>`}
+      <input type="text" class="box wide" readonly value=${text} onFocus=${(/** @type {any} */ event) => event.currentTarget.select()} /></label>
+    ${text.length > LONG && html`<p class="note">${t("share.long", { count: text.length })}</p>`}
     <footer><span class="push"></span>
       <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
       <button type="button" class="button primary" data-first onClick=${copy}>${t("share.copy")}</button></footer>

@@ -9,6 +9,7 @@ import { connection, documentId, role, turnedAway } from "../model/connection.js
 import { documentState, gone } from "../model/document.js";
 import { goTo, openPath } from "../model/requests.js";
 import { activePanel, dialog, size } from "../model/view.js";
+import { ControlBar } from "./control.js";
 import { Dialogs } from "./dialogs.js";
 import { help } from "./help.js";
 import { placedPanels } from "./layouts.js";
@@ -33,6 +34,7 @@ export function Shell({ onDock }) {
   return html`<div class=${`shell ${size.value}`}>
     <${SkipLink} />
     <${TopBar} />
+    <${ControlBar} />
     <${LostBar} />
     <${GoneBar} />
     <${RestoredBar} />

@@ -4,7 +4,7 @@ import { html, useEffect } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
-import { connection, mayEdit, role, version } from "../model/connection.js";
+import { connection, mayManage, role, version } from "../model/connection.js";
 import {
   built,
   documentState,
@@ -123,7 +123,7 @@ const tone = () => (connection.value === "connected" ? TONES[ros.value.state] : 
 
 /** Part of the bar below. */
 function RosStatus() {
-  const isFound = ros.value.nearby_count > 0 && mayEdit.value;
+  const isFound = ros.value.nearby_count > 0 && mayManage.value;
   const show = () => {
     dialog.value = { kind: "ros" };
   };

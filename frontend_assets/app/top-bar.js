@@ -6,14 +6,17 @@
 /** @import { MenuItem } from "../lib/ui.js" */
 
 import { html } from "vendor/preact.js";
+import { address } from "../lib/address.js";
 import { commandById, onMac, shortcutText } from "../lib/commands.js";
 import { LANGUAGES, language, t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
-import { documentId, mayEdit, role } from "../model/connection.js";
+import { control, you } from "../model/class.js";
+import { documentId, mayEdit, mayManage, role } from "../model/connection.js";
 import { documents, history, title, unsaved } from "../model/document.js";
 import { ask, closeDocument, goTo, redo, reload, save, undo } from "../model/requests.js";
 import { dialog, languageChoice, layoutControl, size, theme, themeChoice } from "../model/view.js";
+import { ClassButtons } from "./control.js";
 import { ExportMenu, exportItems } from "./export.js";
 import { graphicsItems } from "./graphics.js";
 import { layoutItems, layoutName } from "./layout-commands.js";
@@ -24,7 +27,7 @@ export function TopBar() {
   const { unsaved_count: count } = history.value;
   return html`<header class="top-bar">
     <div class="bar-left">
-    <h1><a class="brand" href="/" aria-label=${t("brand.home")}><span class="logo"><${Icon} name="robot" size=${17} /></span>
+    <h1><a class="brand" href=${address("/")} aria-label=${t("brand.home")}><span class="logo"><${Icon} name="robot" size=${17} /></span>
       <span class="brand-name">${t("brand")}</span></a></h1>
     <${DocumentMenu} />
     ${
@@ -32,11 +35,11 @@ export function TopBar() {
       html`<span class="unsaved" title=${t("unsaved.count", { count })}><span class="dot"></span>
       <span class="wide-only">${t("unsaved.count", { count })}</span></span>`
     }
-    ${role.value === "viewer" && html`<span class="watching"><${Icon} name="watching" size=${14} /><span>${t("watching")}</span></span>`}
     </div>
     <${PaletteButton} />
     <div class="bar-right">
-    ${role.value === "presenter" && html`<${EditButtons} />`}
+    ${role.value !== "guest" && html`<${EditButtons} />`}
+    <${ClassButtons} />
     ${size.value !== "phone" && html`<${ExportMenu} />`}
     ${size.value !== "phone" && html`<${LayoutSwitch} />`}
     <${PanelsMenu} />
@@ -63,8 +66,9 @@ function documentItems() {
     checked: one.id === documentId.value,
     run: () => one.id !== documentId.value && goTo(one.id),
   }));
-  const locked = !mayEdit.value;
+  const locked = !mayManage.value;
   const none = locked || documentId.value === "";
+  const unedited = !mayEdit.value || documentId.value === "";
   return [
     ...(open.length > 0 ? [{ label: t("documents.open"), heading: true }, ...open] : []),
     { label: t("document"), heading: true },
@@ -96,7 +100,7 @@ function documentItems() {
     {
       label: `${t("command.copy_link")}…`,
       icon: "link",
-      disabled: none,
+      disabled: unedited,
       run: () => commandById("copy_link")?.run(),
     },
     // The bar of a phone has no room for the menu's own button.
@@ -110,7 +114,7 @@ function documentItems() {
           },
         ]
       : []),
-    { label: t("command.reload"), icon: "reload", disabled: none, run: reload },
+    { label: t("command.reload"), icon: "reload", disabled: unedited, run: reload },
     { label: t("document.close"), icon: "close", disabled: none, run: closeDocument },
   ];
 }
@@ -255,7 +259,7 @@ function settingsItems() {
   return [
     // The bar of a phone has no room for the palette's button.
     ...(size.value === "phone" ? [commandItem("palette", "search", t("palette.hint"))] : []),
-    ...(size.value === "phone" ? [commandItem("help_panel", "help")] : []),
+    ...(size.value === "phone" ? [...classItems(), commandItem("help_panel", "help")] : []),
     commandItem("help", "help"),
     { ...commandItem("keys", "keyboard"), hint: "?" },
     { label: t("theme"), heading: true },
@@ -265,6 +269,7 @@ function settingsItems() {
     { label: t("language"), heading: true },
     ...languageItems(),
     ...(role.value === "presenter" ? logOutItems() : []),
+    ...(you.value.name ? nameItems() : []),
   ];
 }
 
@@ -272,8 +277,20 @@ function settingsItems() {
 function logOutItems() {
   return [
     { label: t("access"), heading: true },
-    { ...commandItem("log_out", "lock", `${t("command.log_out")}…`), disabled: !mayEdit.value },
+    { ...commandItem("log_out", "lock", `${t("command.log_out")}…`), disabled: !mayManage.value },
   ];
+}
+
+/** @returns {MenuItem[]} as buttons where the bar has room for them */
+function classItems() {
+  if (role.value !== "presenter") return [];
+  const stop = commandItem("stop_robot", "stopSign");
+  return [commandItem("share_class", "users"), ...(control.value.class_open ? [stop] : [])];
+}
+
+/** @returns {MenuItem[]} */
+function nameItems() {
+  return [{ label: you.value.name, heading: true }, commandItem("class_name", "pencil")];
 }
 
 /** @returns {MenuItem[]} */

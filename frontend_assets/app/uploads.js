@@ -7,12 +7,13 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { effect, html, signal, useRef } from "vendor/preact.js";
+import { address } from "../lib/address.js";
 import { takesText } from "../lib/commands.js";
 import { chosenFiles, droppedFiles, holdsFiles } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
-import { mayEdit } from "../model/connection.js";
+import { mayManage } from "../model/connection.js";
 import { takeDroppedTypes, takePastedType } from "../model/interfaces.js";
 import { ask, goTo } from "../model/requests.js";
 import { dialog, notify } from "../model/view.js";
@@ -45,7 +46,7 @@ function onDrag(event) {
   if (!holdsFiles(event.dataTransfer)) return;
   // Not prevented, the browser would leave the page and show the file itself.
   event.preventDefault();
-  const takes = mayEdit.value && sending.value === null;
+  const takes = mayManage.value && sending.value === null;
   if (event.dataTransfer) event.dataTransfer.dropEffect = takes ? "copy" : "none";
   dropping.value = takes;
 }
@@ -60,7 +61,7 @@ async function onDrop(event) {
   if (!event.dataTransfer || !holdsFiles(event.dataTransfer)) return;
   event.preventDefault();
   dropping.value = false;
-  if (!mayEdit.value) return;
+  if (!mayManage.value) return;
   await takeFiles(await droppedFiles(event.dataTransfer));
 }
 
@@ -72,7 +73,7 @@ async function takeFiles(files) {
 /** @param {ClipboardEvent} event */
 async function onPaste(event) {
   if (event.defaultPrevented || takesText(event.target) || dialog.value !== null) return;
-  if (!mayEdit.value || !event.clipboardData) return;
+  if (!mayManage.value || !event.clipboardData) return;
   const files = [...event.clipboardData.files];
   const text = event.clipboardData.getData("text/plain");
   if (files.length === 0 && text === "") return;
@@ -123,7 +124,7 @@ function Sending() {
 
 /** @param {readonly DroppedFile[]} files */
 async function uploadFiles(files) {
-  if (!mayEdit.value || sending.value) return;
+  if (!mayManage.value || sending.value) return;
   if (files.length === 0) {
     notify(t("upload.nothing"), { bad: true });
     return;
@@ -172,7 +173,7 @@ function send(body, name) {
       if (answer.document) resolve(answer.document);
       else reject(new Error(answer.reason || t("upload.broken")));
     };
-    request.open("POST", "/api/uploads");
+    request.open("POST", address("/api/uploads"));
     request.send(body);
   });
 }

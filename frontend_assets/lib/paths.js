@@ -27,12 +27,6 @@ export function placeText(place) {
   return place.line ? `${baseName(place.file)}:${place.line}` : baseName(place.file);
 }
 
-/** @param {string} pathname @returns {string} id of the document that the page's address names */
-export function documentOf(pathname) {
-  const found = /^\/d\/([^/]+)/.exec(pathname);
-  return found?.[1] ? decodeURIComponent(found[1]) : "";
-}
-
 /** @param {string} text @returns {string} the one path that it is, without quotes and `file://`; empty: it is none */
 export function pastedPath(text) {
   const path = text

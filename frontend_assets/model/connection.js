@@ -6,8 +6,10 @@ import { computed, signal } from "vendor/preact.js";
 
 /** @type {import("vendor/preact.js").Signal<Connection>} */
 export const connection = signal("connecting");
-/** @type {import("vendor/preact.js").Signal<"presenter" | "viewer">} */
-export const role = signal("viewer");
+/** @type {import("vendor/preact.js").Signal<"presenter" | "helper" | "student" | "guest">} */
+export const role = signal("guest");
+/** Whether this person has control of the shared robot and of the ROS system. */
+export const hasControl = signal(false);
 export const version = signal("");
 /** Changes when the studio was started anew. */
 export const session = signal("");
@@ -16,6 +18,9 @@ export const documentId = signal("");
 /** Set when the studio turned us away for good, e.g. without its cookie. */
 export const turnedAway = signal(false);
 
-export const mayEdit = computed(
+/** The robot, its texts and the ROS system are this person's to change. */
+export const mayEdit = computed(() => hasControl.value && connection.value === "connected");
+/** What concerns the whole studio is: opening, connecting, starting demos, sharing. */
+export const mayManage = computed(
   () => role.value === "presenter" && connection.value === "connected",
 );

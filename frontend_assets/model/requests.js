@@ -3,9 +3,10 @@
 /** @import { Command } from "../types/wire.d.ts" */
 /** @import { Answer, Asked } from "./wire.js" */
 
+import { documentAddress } from "../lib/address.js";
 import { t } from "../lib/i18n.js";
 import { allSettled, latestSender } from "../lib/latest.js";
-import { documentId, role } from "./connection.js";
+import { documentId, hasControl, role } from "./connection.js";
 import {
   animating,
   documentState,
@@ -81,7 +82,7 @@ export async function redo(steps = 1) {
 /** Show what saving writes, or write it at once, as was chosen. */
 export async function save() {
   await allSettled();
-  if (role.value !== "presenter" || !unsaved.value) return;
+  if (!hasControl.value || !unsaved.value) return;
   const { unsaved_count: places, unsaved_files: files } = history.value;
   const choice = showBeforeSaving.value;
   if (choice === "always" || (choice === "several" && Math.max(places, files.length) > 1))
@@ -112,7 +113,7 @@ export function reload() {
 
 /** @param {string} id */
 export function goTo(id) {
-  location.assign(id ? `/d/${encodeURIComponent(id)}` : "/");
+  location.assign(documentAddress(id));
 }
 
 export async function closeDocument() {
@@ -138,7 +139,7 @@ async function closeNow(discard) {
 export async function openPath(path, values, { tab = false } = {}) {
   const opened = await ask({ type: "open_path", path, arguments: values });
   if (opened?.type !== "opened") return false;
-  if (tab) window.open(`/d/${encodeURIComponent(opened.document)}`, "_blank", "noopener");
+  if (tab) window.open(documentAddress(opened.document), "_blank", "noopener");
   else goTo(opened.document);
   return true;
 }
@@ -173,7 +174,7 @@ async function openAgain(refusal) {
 /** @param {string} id the same file under its new id */
 async function follow(id) {
   documentId.value = id;
-  window.history.replaceState(null, "", `/d/${encodeURIComponent(id)}`);
+  window.history.replaceState(null, "", documentAddress(id));
   await ask({ type: "watch" });
 }
 

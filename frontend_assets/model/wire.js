@@ -6,7 +6,16 @@
 /** @import { Command, Event, Refused } from "../types/wire.d.ts" */
 
 import { batch } from "vendor/preact.js";
-import { connection, documentId, role, session, turnedAway, version } from "./connection.js";
+import { address } from "../lib/address.js";
+import {
+  connection,
+  documentId,
+  hasControl,
+  role,
+  session,
+  turnedAway,
+  version,
+} from "./connection.js";
 
 /** @typedef {Exclude<Extract<Event, {request: number}>, Refused>} Answer what comes back to one command */
 /**
@@ -124,9 +133,9 @@ function retryNow() {
 }
 
 function open() {
-  const address = new URL("/control", location.href);
-  address.protocol = address.protocol.replace("http", "ws");
-  const opened = new WebSocket(address);
+  const socketAddress = new URL(address("/control"), location.href);
+  socketAddress.protocol = socketAddress.protocol.replace("http", "ws");
+  const opened = new WebSocket(socketAddress);
   socket = opened;
   opened.binaryType = "arraybuffer";
   const impatient = setTimeout(() => opened.close(), GREETING_TIMEOUT_MS);
@@ -142,7 +151,7 @@ function open() {
 
 /** A socket does not say why it was refused; a plain request does. */
 async function askWhy() {
-  const answer = await fetch("/api/documents", { cache: "no-store" }).catch(() => null);
+  const answer = await fetch(address("/api/documents"), { cache: "no-store" }).catch(() => null);
   turnedAway.value = answer?.status === 401 || answer?.status === 403;
 }
 
@@ -179,6 +188,7 @@ function take(data) {
 function greetedBy(event) {
   batch(() => {
     role.value = event.role;
+    hasControl.value = event.role === "presenter"; // until it is said who has it
     version.value = event.version;
     session.value = event.session;
   });

@@ -9,7 +9,7 @@ import { computed, effect, html, signal, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { EmptyState, Icon, MenuButton, ProgressBar } from "../lib/ui.js";
 import { askOrKeepWhy, useLooking } from "../model/asking.js";
-import { mayEdit } from "../model/connection.js";
+import { mayEdit, mayManage } from "../model/connection.js";
 import { calls, followOperations, followServices, plainOf, services } from "../model/operations.js";
 import { followTopics, topics } from "../model/topics.js";
 import { ConnectFirst, isRouterAway, isUnconnected, RouterAway } from "./parts.js";
@@ -166,7 +166,7 @@ function DemoFirst({ icon, title, demo }) {
   };
   return html`<${EmptyState} icon=${icon} title=${title}>
     ${
-      mayEdit.value &&
+      mayManage.value &&
       html`<p><button type="button" class="button primary" disabled=${isBusy.value} onClick=${start}>
         ${isBusy.value ? html`<span class="spinner"></span>` : html`<${Icon} name="animate" />`}${t("demo_first.start", { demo })}</button></p>`
     }

@@ -11,7 +11,7 @@ import { shownNumber } from "../lib/numbers.js";
 import { readLine } from "../lib/ros2-lines.js";
 import { useSeen } from "../lib/seen.js";
 import { Icon, IconButton, SearchBox } from "../lib/ui.js";
-import { mayEdit, role } from "../model/connection.js";
+import { mayEdit } from "../model/connection.js";
 import {
   blank,
   boundsOf,
@@ -73,7 +73,7 @@ export function OperationPanel({ id, icon, kind, follow, onLine, children }) {
   };
   return html`<section ref=${panel} class="panel-body operations" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
     <${RouterAway} />
-    ${role.value === "viewer" && html`<p class="note panel-said">${t("operations.viewer")}</p>`}
+    ${!mayEdit.value && html`<p class="note panel-said">${t("operations.viewer")}</p>`}
     ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
   </section>`;
 }

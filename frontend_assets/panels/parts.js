@@ -9,7 +9,7 @@ import { html, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { placeText } from "../lib/paths.js";
 import { EmptyState, Icon } from "../lib/ui.js";
-import { mayEdit } from "../model/connection.js";
+import { mayManage } from "../model/connection.js";
 import { connectRos, ros } from "../model/ros.js";
 import { showSource } from "../model/source.js";
 import { dialog } from "../model/view.js";
@@ -44,7 +44,7 @@ export function ConnectFirst({ icon }) {
   const { nearby_count: count } = ros.value;
   return html`<${EmptyState} icon=${icon} title=${count > 0 ? t("ros.first.nearby", { count }) : t("ros.first")}>
     ${
-      mayEdit.value
+      mayManage.value
         ? html`<p class="connect-first">
       <button type="button" class="button primary" disabled=${isUnderWay} onClick=${connect}>
         ${isUnderWay ? html`<span class="spinner"></span>` : html`<${Icon} name="link" />`}${t("ros.connect")}</button>

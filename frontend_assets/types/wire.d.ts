@@ -114,6 +114,15 @@ export interface ArrangeDisplay {
   before?: string | null;
 }
 
+/** Ask for control, or no longer. */
+export interface AskControl {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "ask_control";
+  asking?: boolean;
+}
+
 /** What changes about a part. */
 export type Aspect = "size" | "shape" | "color" | "pose" | "collision" | "inertia" | "motion" | "name" | "other" | "presence";
 
@@ -214,6 +223,23 @@ export interface ChoosePackage {
   type: "choose_package";
   name: string;
   folder: string;
+}
+
+/** The class as the presenter and helpers see it; only to them. */
+export interface ClassState {
+  type: "class_state";
+  open: boolean;
+  locked: boolean;
+  has_password: boolean;
+  join_as: "student" | "guest";
+  code: string;
+  addresses: string[];
+  link: string;
+  qr: string;
+  fingerprint: string;
+  only_here: boolean;
+  viewers: number;
+  members: MemberView[];
 }
 
 /** Close a document; refused while it has unsaved edits unless `discard`. */
@@ -326,6 +352,14 @@ export interface ConstantView {
   base: string;
   value: boolean | number | string;
   comment: string;
+}
+
+/** Whether there is a class, and who has control in it. */
+export interface Control {
+  type: "control";
+  class_open: boolean;
+  holder: string;
+  name: string;
 }
 
 /** Forget one's own pose; the joints stay where they are. */
@@ -623,6 +657,14 @@ export interface Effects {
   decisions: number;
   readers: Place[];
   is_cut: boolean;
+}
+
+/** End it for everybody, and delete all that is kept about them. */
+export interface EndClass {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "end_class";
 }
 
 /** A name and its type. */
@@ -1127,6 +1169,15 @@ export interface GetUrdfChanges {
   type: "get_urdf_changes";
 }
 
+/** Give control to a person who is there. */
+export interface GiveControl {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "give_control";
+  person: string;
+}
+
 /** A goal as its server reports it. */
 export interface GoalStatusView {
   goal_id: string;
@@ -1205,7 +1256,7 @@ export interface GraphNodeView {
 /** First on every control lane: who you are here. */
 export interface Hello {
   type: "hello";
-  role: "presenter" | "viewer";
+  role: "presenter" | "helper" | "student" | "guest";
   version: string;
   session: string;
 }
@@ -1466,6 +1517,15 @@ export interface LookUp {
   type: "look_up";
 }
 
+/** Take down the hand of a person; of everybody, if none is named. */
+export interface LowerHand {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "lower_hand";
+  person?: string;
+}
+
 /** One macro call on the way to a place: its name and where it was called. */
 export interface MacroCall {
   macro: string;
@@ -1519,6 +1579,17 @@ export interface MeaningAnswer {
   type: "meaning";
   request: number;
   meaning: Meaning | null;
+}
+
+/** One person of the class. */
+export interface MemberView {
+  person: string;
+  name: string;
+  role: "helper" | "student" | "guest";
+  here: boolean;
+  removed: boolean;
+  asks_s: number | null;
+  hand_s: number | null;
 }
 
 /** One click that may help. */
@@ -1828,6 +1899,14 @@ export interface PartOrigin {
   is_cut: boolean;
 }
 
+/** Let nobody in until it is started again: who takes part is kept. */
+export interface PauseClass {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "pause_class";
+}
+
 /** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
 export interface Place {
   file: string;
@@ -1980,6 +2059,15 @@ export interface PublishRobot {
   running: boolean;
 }
 
+/** Raise a hand, or take it down. */
+export interface RaiseHand {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "raise_hand";
+  raised?: boolean;
+}
+
 /** Move all joints to random positions within their limits. */
 export interface RandomizeJoints {
   request?: number;
@@ -1997,6 +2085,15 @@ export interface ReadValues {
   name: string;
   place?: number;
   text: string;
+}
+
+/** Let a person in again who was sent out. */
+export interface ReadmitMember {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "readmit_member";
+  person: string;
 }
 
 /** Answer to `list_recent` and `forget_recent`: newest first. */
@@ -2079,6 +2176,15 @@ export interface RemoveDisplay {
   display: string;
 }
 
+/** Send a person out; their browser cannot join again until it is let in. */
+export interface RemoveMember {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "remove_member";
+  person: string;
+}
+
 /**
  * Change the name at a place to `name`, wherever it is used, as one undo step.
  *
@@ -2126,6 +2232,14 @@ export interface RenamingAnswer {
   places: FoundText[];
   count: number;
   files: number;
+}
+
+/** Make another code and link; those who have joined stay. */
+export interface RenewCode {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "renew_code";
 }
 
 /**
@@ -2189,6 +2303,14 @@ export interface Restored {
   type: "restored";
   at: string;
   files: string[];
+}
+
+/** Give control back to the presenter. */
+export interface ReturnControl {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "return_control";
 }
 
 /** The robot's tree. `revision` counts structural changes; joint frames carry it. */
@@ -2295,6 +2417,17 @@ export interface SetArguments {
   values: Record<string, string | null>;
 }
 
+/** Change how others join; what is None stays as it is. */
+export interface SetClass {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_class";
+  locked?: boolean | null;
+  password?: string | null;
+  join_as?: "student" | "guest" | null;
+}
+
 /** Change one setting of a shared display, e.g. `robot`, `collision`, True. */
 export interface SetDisplay {
   request?: number;
@@ -2357,6 +2490,25 @@ export interface SetJoints {
   positions: Record<string, number>;
 }
 
+/** Make a person a helper, a student or a guest. */
+export interface SetMemberRole {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_member_role";
+  person: string;
+  role: "helper" | "student" | "guest";
+}
+
+/** Change your own name. */
+export interface SetName {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_name";
+  name: string;
+}
+
 /** Set a parameter of a node; refused with the node's reason when it does not. */
 export interface SetParameter {
   request?: number;
@@ -2412,6 +2564,14 @@ export interface Sites {
   changed: SiteView[];
 }
 
+/** Let others join; a class that was paused goes on. */
+export interface StartClass {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "start_class";
+}
+
 /** Start a demo as a process of its own, in the system that the studio is connected with. */
 export interface StartDemo {
   request?: number;
@@ -2439,6 +2599,24 @@ export interface StopPublishing {
   operation?: number;
 }
 
+/**
+ * Stop all that pages make the robot do: publish zero velocity, cancel goals, end publications.
+ *
+ * Anybody may who takes part, whoever has control.
+ */
+export interface StopRobot {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "stop_robot";
+}
+
+/** Somebody has stopped the robot. */
+export interface Stopped {
+  type: "stopped";
+  name: string;
+}
+
 /** Kind of the thing at a place in a text. */
 export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
 
@@ -2451,6 +2629,14 @@ export interface SwitchDisplays {
   display?: string;
   group?: string;
   enabled: boolean;
+}
+
+/** Take control: the presenter back, a helper for themselves. */
+export interface TakeControl {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "take_control";
 }
 
 /** Answer to `get_text`: the text at a version, as `TextChange` describes texts. */
@@ -2774,6 +2960,17 @@ export interface WireState {
   trouble: string;
 }
 
+/** Who you are in the class, and what you have asked for. */
+export interface You {
+  type: "you";
+  person: string;
+  name: string;
+  role: "presenter" | "helper" | "student" | "guest";
+  has_control: boolean;
+  asking: boolean;
+  hand: boolean;
+}
+
 /** Move all joints to zero, or to the nearest position within their limits. */
 export interface ZeroJoints {
   request?: number;
@@ -2790,6 +2987,7 @@ export type Command =
   | ApplyPose
   | ApplyVariant
   | ArrangeDisplay
+  | AskControl
   | CallService
   | CancelCall
   | CancelGoal
@@ -2808,6 +3006,7 @@ export type Command =
   | DuplicateDisplay
   | EditSite
   | EditText
+  | EndClass
   | ExamineWire
   | FindTexts
   | FindWireRobots
@@ -2851,6 +3050,7 @@ export type Command =
   | GetTopics
   | GetUrdf
   | GetUrdfChanges
+  | GiveControl
   | ListExamples
   | ListFolder
   | ListInterfaces
@@ -2859,6 +3059,7 @@ export type Command =
   | ListTopics
   | LoadParameters
   | LookUp
+  | LowerHand
   | MendAll
   | NewRobot
   | NewUntitled
@@ -2867,21 +3068,27 @@ export type Command =
   | OpenLink
   | OpenPath
   | OpenRecent
+  | PauseClass
   | PressKey
   | Publish
   | PublishJoints
   | PublishRobot
+  | RaiseHand
   | RandomizeJoints
   | ReadValues
+  | ReadmitMember
   | Redo
   | Reload
   | RemoveDisplay
+  | RemoveMember
   | Rename
   | RenamePose
   | RenameVariant
+  | RenewCode
   | ReplaceTexts
   | ResetSite
   | ResolveCollisions
+  | ReturnControl
   | Save
   | SaveAs
   | SaveCopy
@@ -2890,17 +3097,23 @@ export type Command =
   | SendGoal
   | SetArgument
   | SetArguments
+  | SetClass
   | SetDisplay
   | SetDisplayProperty
   | SetDisplayTopic
   | SetFixedFrame
   | SetJointSource
   | SetJoints
+  | SetMemberRole
+  | SetName
   | SetParameter
+  | StartClass
   | StartDemo
   | StopDemo
   | StopPublishing
+  | StopRobot
   | SwitchDisplays
+  | TakeControl
   | Undo
   | UndoTo
   | UpdateVariant
@@ -2915,9 +3128,11 @@ export type Event =
   | Calls
   | Changed
   | Changes
+  | ClassState
   | Collisions
   | Comparison
   | CompletionsAnswer
+  | Control
   | DemoCode
   | DemoOutput
   | Demos
@@ -2976,6 +3191,7 @@ export type Event =
   | Saved
   | Services
   | Sites
+  | Stopped
   | Text
   | TextsChanged
   | TextsFound
@@ -2993,4 +3209,5 @@ export type Event =
   | WireFeed
   | WireReport
   | WireRobots
-  | WireState;
+  | WireState
+  | You;

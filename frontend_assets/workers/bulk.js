@@ -6,6 +6,7 @@
 
 /** @import { Came } from "./frames.js" */
 
+import { address } from "../lib/address.js";
 import { FrameError } from "./frames.js";
 
 /** Tabs of a browser that have one at the same time. */
@@ -157,8 +158,8 @@ export class Bulk {
 
   /** @param {string} key @param {AbortSignal} signal */
   async read(key, signal) {
-    const address = `/bulk?key=${encodeURIComponent(key)}`;
-    const asked = this.surroundings.fetch(address, { signal, cache: "no-store" });
+    const path = address(`/bulk?key=${encodeURIComponent(key)}`);
+    const asked = this.surroundings.fetch(path, { signal, cache: "no-store" });
     const answer = await asked.catch(none);
     if (!answer?.ok || !answer.body) return;
     const joiner = new FrameJoiner(this.surroundings.take, this.spares);

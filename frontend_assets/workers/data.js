@@ -8,6 +8,7 @@
 /** @import { Came } from "./frames.js" */
 /** @import { SubscriptionView, ToPage, SubscribeCommand } from "./subscriptions.js" */
 
+import { address } from "../lib/address.js";
 import { Bulk } from "./bulk.js";
 import { readFrame } from "./frames.js";
 import { Easel, Pictures } from "./pictures.js";
@@ -69,9 +70,9 @@ function say(message) {
 function open() {
   clearTimeout(retry);
   if (socket || subscriptions.size === 0) return;
-  const address = new URL("/data", self.location.href);
-  address.protocol = address.protocol.replace("http", "ws");
-  const opened = new WebSocket(address);
+  const place = new URL(address("/data"), self.location.href);
+  place.protocol = place.protocol.replace("http", "ws");
+  const opened = new WebSocket(place);
   socket = opened;
   opened.binaryType = "arraybuffer";
   opened.onopen = () => {

@@ -11,8 +11,10 @@ def qr_svg(address: str) -> str:
     """Return the code as an SVG picture, dark on white with the quiet zone that readers need."""
     import segno  # noqa: PLC0415 - only who shares needs it
 
+    drawn = io.BytesIO()
     code = segno.make(address, error="m", micro=False)
-    return code.svg_inline(border=4, dark="#000", light="#fff", omitsize=True)
+    code.save(drawn, kind="svg", border=4, dark="#000", light="#fff", omitsize=True, xmldecl=False)
+    return drawn.getvalue().decode().strip()
 
 
 def qr_lines(address: str) -> str:

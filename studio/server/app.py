@@ -64,7 +64,7 @@ def make_app(
     app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
     app.include_router(LogOut(credentials, classroom).router())
-    app.include_router(Joining(classroom, cookies, front).router())
+    app.include_router(Joining(classroom, cookies, front, assets.words).router())
     document = openapi(app.routes)
 
     async def openapi_document() -> dict[str, Any]:

@@ -150,6 +150,11 @@ class Assets:
             self._tree, self._stamp = _read(self._folder, stamp, self._more), stamp
         return self._tree
 
+    def words(self, language: str) -> dict[str, str]:
+        """Return the page's texts in a language; none if there are none."""
+        asset = self.current().files.get(f"i18n/{language}.json")
+        return {} if asset is None else json.loads(asset.content)
+
     def find(self, digest: str, path: str) -> tuple[Asset, bool] | None:
         """Return the file, and whether it is of that very tree (then it never changes)."""
         if self._stamp is None:  # the first to ask may be a tab from before a restart

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections import OrderedDict
 from http import HTTPStatus
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 from urllib.parse import parse_qs
 
 from fastapi import APIRouter, Request
@@ -17,11 +17,14 @@ from studio.server.guard import JOIN_PATH
 from studio.server.pages import Form, join_page, no_access_page
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from studio.classroom.admission import Admission
     from studio.classroom.members import Member, Members
     from studio.server.cookies import Cookies
     from studio.server.front import Caller, Front
 
+Words: TypeAlias = "Mapping[str, str]"
 _BODY_LIMIT_BYTES: Final = 4 << 10
 _ADDRESSES_MAX: Final = 4_096
 _TRIES_AT_ONCE: Final = 30.0
@@ -87,8 +90,12 @@ class Tries:
 class Joining:
     """The routes and what they need."""
 
-    def __init__(self, classroom: Joins, cookies: Cookies, front: Front) -> None:
+    def __init__(
+        self, classroom: Joins, cookies: Cookies, front: Front, words: Callable[[str], Words]
+    ) -> None:
+        """Take the class and its surroundings; `words` gives the page's texts in a language."""
         self._classroom, self._cookies, self._front = classroom, cookies, front
+        self._words = words
         self._tries = Tries()
 
     def router(self) -> APIRouter:
@@ -125,7 +132,6 @@ class Joining:
                 code=given.get("code", ""),
                 name=given.get("name", ""),
                 trouble=refusal.why,
-                sentence=str(refusal),
             )
             return self._page(request, form)
         response = RedirectResponse(f"{self._front.base}/", HTTPStatus.SEE_OTHER)
@@ -150,9 +156,10 @@ class Joining:
             raise
 
     def _page(self, request: Request, form: Form) -> Response:
-        german = request.headers.get("accept-language", "").lower().startswith("de")
+        is_german = request.headers.get("accept-language", "").lower().startswith("de")
+        language = "de" if is_german else "en"
         needs_password = bool(self._classroom.admission.password)
-        return join_page(form, needs_password=needs_password, language="de" if german else "en")
+        return join_page(form, self._words(language), language, needs_password=needs_password)
 
 
 async def _body(request: Request) -> bytes:

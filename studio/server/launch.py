@@ -47,7 +47,6 @@ from studio.server.ports import (
 from studio.server.progress_bar import ProgressBar
 from studio.server.server import Server
 from studio.settings import DEFAULT_PORT, LOOPBACK_HOSTS, Settings, repository_or_wheel
-
 from studio.system import raise_descriptor_limit
 
 if TYPE_CHECKING:

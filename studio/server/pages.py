@@ -6,13 +6,16 @@ import secrets
 from dataclasses import dataclass
 from html import escape
 from string import Template
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from starlette.responses import HTMLResponse
 
+from studio.protocol.classroom import NAME_MAX, PASSWORD_MAX
 from studio.server.policy import PLAIN_PAGE_POLICY, page_policy
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from studio.server.assets import Tree
 
 _PLAIN = Template("""<!doctype html>
@@ -84,40 +87,6 @@ def not_found_page() -> HTMLResponse:
     return _plain_page("Nothing is open under this address", body, 404)
 
 
-_JOIN: Final = {
-    "en": {
-        "title": "Join the class",
-        "code": "Code",
-        "code.hint": "six letters, from the projector",
-        "name": "Your name",
-        "name.hint": "the class sees it; no account is made",
-        "password": "Password",
-        "join": "Join",
-        "kept": "Your name is kept on the teacher's computer until the class is ended, and a "
-        "cookie in this browser finds you again.",
-    },
-    "de": {
-        "title": "An der Klasse teilnehmen",
-        "code": "Code",
-        "code.hint": "sechs Buchstaben, vom Beamer",
-        "name": "Dein Name",
-        "name.hint": "die Klasse sieht ihn; es entsteht kein Konto",
-        "password": "Passwort",
-        "join": "Teilnehmen",
-        "kept": "Dein Name bleibt auf dem Rechner der Lehrkraft, bis die Klasse beendet wird, und "
-        "ein Cookie in diesem Browser erkennt dich wieder.",
-        "trouble.code": "Das ist nicht der Code dieser Klasse: gib ihn noch einmal ein.",
-        "trouble.locked": "Die Klasse ist geschlossen: bitte darum, sie zu öffnen.",
-        "trouble.password": "Das ist nicht das Passwort: gib es noch einmal ein.",
-        "trouble.name": "Ein Name braucht Buchstaben: gib einen anderen ein.",
-        "trouble.tries": "Zu viele falsche Versuche: warte eine Minute.",
-        "trouble.full": "Die Klasse ist voll.",
-        "trouble.removed": "Du bist aus dieser Klasse entfernt worden: bitte um Einlass.",
-        "trouble.closed": "Gerade kann niemand teilnehmen: frage, wer die Klasse leitet.",
-    },
-}
-
-
 @dataclass(frozen=True, slots=True)
 class Form:
     """What is in the form to join.
@@ -127,49 +96,57 @@ class Form:
         code: As it was typed.
         name: As it was typed.
         trouble: Why it was refused, as `NotJoiningError.why`; empty: it was not.
-        sentence: The same for people, in English.
     """
 
     has_code: bool = False
     code: str = ""
     name: str = ""
     trouble: str = ""
-    sentence: str = ""
 
 
-_JOIN_STATUS: Final = {"": 200, "tries": 429}
+def join_page(
+    form: Form, words: Mapping[str, str], language: str, *, needs_password: bool
+) -> HTMLResponse:
+    """Return the form by which others join; what was typed is in it again.
 
+    Args:
+        form: What is in it.
+        words: The texts of the page, those of the form as `join.<name>`.
+        language: Which language they are in.
+        needs_password: Whether a password is asked for.
+    """
 
-def join_page(form: Form, *, needs_password: bool, language: str) -> HTMLResponse:
-    """Return the form by which others join; what was typed is in it again."""
-    words = _JOIN[language]
+    def word(name: str) -> str:
+        return escape(words.get(f"join.{name}", name), quote=True)
+
     fields: list[str] = []
     if form.trouble:
-        said = words.get(f"trouble.{form.trouble}", form.sentence)
-        fields.append(f'<p class="trouble" role="alert">{escape(said)}</p>')
+        said = word(f"trouble.{form.trouble}")
+        fields.append(f'<p class="trouble" role="alert">{said}</p>')
     if not form.has_code:
         fields.append(
-            f"<label>{words['code']} <small>{words['code.hint']}</small>"
-            f'<input name="code" required maxlength="32" autocomplete="off" autocapitalize='
-            f'"characters" spellcheck="false" value="{escape(form.code, quote=True)}"></label>'
+            f"<label>{word('code')} <small>{word('code.hint')}</small>"
+            '<input name="code" required maxlength="32" autocomplete="off" '
+            f'autocapitalize="characters" spellcheck="false" value="{escape(form.code)}"></label>'
         )
     fields.append(
-        f"<label>{words['name']} <small>{words['name.hint']}</small>"
-        f'<input name="name" required maxlength="40" autocomplete="nickname" '
-        f'value="{escape(form.name, quote=True)}"></label>'
+        f"<label>{word('name')} <small>{word('name.hint')}</small>"
+        f'<input name="name" required maxlength="{NAME_MAX}" autocomplete="nickname" '
+        f'value="{escape(form.name)}"></label>'
     )
     if needs_password:
         fields.append(
-            f"<label>{words['password']}"
-            '<input name="password" type="password" required maxlength="200" '
-            'autocomplete="off"></label>'
+            f'<label>{word("password")}<input name="password" type="password" required '
+            f'maxlength="{PASSWORD_MAX}" autocomplete="off"></label>'
         )
     body = (
-        f'<form method="post">{"".join(fields)}<button>{words["join"]}</button></form>'
-        f"<p><small>{words['kept']}</small></p>"
+        f'<form method="post">{"".join(fields)}<button>{word("join")}</button></form>'
+        f"<p><small>{word('kept')}</small></p>"
     )
-    status = _JOIN_STATUS.get(form.trouble, 403)
-    response = _plain_page(words["title"], body, status, language=language)
+    # A form that was filled in wrongly is an answer like another: a browser reports no error.
+    status = 429 if form.trouble == "tries" else 200
+    title = words.get("join.title", "")
+    response = _plain_page(title, body, status, language=language)
     response.headers["content-security-policy"] = f"{PLAIN_PAGE_POLICY}; form-action 'self'"
     return response
 

@@ -47,7 +47,9 @@ def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder:
     app.include_router(Exports(engine).router())
     app.include_router(Uploads(engine).router())
     app.include_router(LogOut(credentials, classroom).router())
-    app.include_router(Joining(classroom, Cookies(credentials, classroom, front), front).router())
+    app.include_router(
+        Joining(classroom, Cookies(credentials, classroom, front), front, lambda _: {}).router()
+    )
     found = {path for route in app.routes for path in _paths(route)}
     assert found | {"/api/openapi.json"} == ROUTES.keys() | PUBLIC_ROUTES
 

@@ -10,12 +10,14 @@ import io
 import json
 import sys
 import tempfile
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PIL import Image
 
 from tests.support.browser import open_browser
+from tests.support.classmates import classmate
 from tests.support.managed_arm import managed_arm
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
@@ -39,18 +41,24 @@ GROUP_OF: dict[str, str] = {
 PANELS_WINDOW = (1060, 940)
 """So narrow that a panel, cut to it, is nearly as wide as the help that shows it."""
 DIALOGS_WINDOW = (720, 640)
+CLASS_WINDOW = (800, 760)
+_CLASS_ADDRESS = "http://robots.example:8765/"
+_NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
+OF_CLASSES = ("people", "class")
+"""The panel and the window about a class, of which the demo has none."""
 OF_OPERATIONS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
 """Panels whose pictures `operation_pictures` and `field_pictures` take."""
 ON_THE_WIRE = sorted(
     (
         panel
         for panel, group in GROUP_OF.items()
-        if group in {"watch", "act", "learn"} and panel not in OF_OPERATIONS
+        if group in {"watch", "act", "learn"} and panel not in (*OF_OPERATIONS, *OF_CLASSES)
     ),
     key=lambda panel: panel != "lessons",
 )
 """Panels that show something only while a ROS 2 system is there. The node that the lesson starts
 runs in the pictures after it, of both themes."""
+NOT_OF_THE_DEMO = {"problems", "displays", *ON_THE_WIRE, *OF_OPERATIONS, *OF_CLASSES}
 _HIGHEST_PX = 380
 DRAWN_WHOLE = ("graph", "plot")
 """Panels whose drawing fills them: cut off, it would show nothing."""
@@ -140,7 +148,7 @@ def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in GROUP_OF:
-        if wanted(panel) and panel not in {"problems", "displays", *ON_THE_WIRE, *OF_OPERATIONS}:
+        if wanted(panel) and panel not in NOT_OF_THE_DEMO:
             camera.page.evaluate(SHOW_PANEL, panel)
             camera.take(panel, camera.page.evaluate(_DOCK_OF, panel))
 
@@ -302,16 +310,49 @@ def take_broken(browser: Browser, data: Path) -> None:
                 take_problems(tab.page, Camera(tab, theme))
 
 
+def take_class(browser: Browser, data: Path) -> None:
+    """Who is in a class, and how others join it; its address is one of documentation."""
+    arguments = ["demo", "--share", "--host", "127.0.0.1", "--public-url", _CLASS_ADDRESS]
+    with running_studio(arguments, data) as studio, ExitStack() as held:
+        code = studio.class_code
+        here = [held.enter_context(classmate(studio.origin, name, code)) for name in _NAMES]
+        lanes = [held.enter_context(one.lane()) for one in here[:-1]]
+        for lane, kind in zip(lanes, ("raise_hand", "ask_control"), strict=False):
+            lane.ask(kind)
+        for theme in THEMES:
+            with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
+                camera = Camera(tab, theme)
+                tab.page.evaluate(SHOW_PANEL, "people")
+                tab.page.evaluate(_RUN, "maximize")
+                if theme == THEMES[0]:
+                    tab.page.get_by_role("button", name=f"Give control to {_NAMES[3]}").click()
+                camera.take("people", tab.page.evaluate(_DOCK_OF, "people"))
+            with tab_of(browser, studio, theme, CLASS_WINDOW) as tab:
+                tab.page.evaluate(_SHOW_DIALOG, "class")
+                tab.page.locator(".class-qr").wait_for()
+                Camera(tab, theme).take("class", box_of(tab.page.locator("dialog")), 500)
+
+
+def box_of(part: Locator) -> FloatRect:
+    """Where it is."""
+    box = part.bounding_box()
+    assert box is not None
+    return box
+
+
 def main() -> None:
     """Take them all anew."""
     wired = (*ON_THE_WIRE, "live", "displays", "ros")
     for browser in open_browser():
-        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, ("problems",)):
+        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, OF_CLASSES, ("problems",)):
             with tempfile.TemporaryDirectory() as data:
                 take_demo(browser, Path(data))
         if any(map(wanted, wired)):
             with tempfile.TemporaryDirectory() as data:
                 take_wired(browser, Path(data))
+        if any(map(wanted, OF_CLASSES)):
+            with tempfile.TemporaryDirectory() as data:
+                take_class(browser, Path(data) / "data")
         if wanted("problems"):
             with tempfile.TemporaryDirectory() as data:
                 take_broken(browser, Path(data))

@@ -65,6 +65,15 @@ class RunningStudio:
         assert line.startswith("Viewer: "), line
         return line.removeprefix("Viewer: ").strip()
 
+    @cached_property
+    def class_code(self) -> str:
+        """The code of the class, which it prints once it is shared."""
+        assert self.process.stdout is not None
+        for line in iter(self.process.stdout.readline, ""):
+            if line.startswith("Class: "):
+                return line.split()[-1]
+        raise StudioDidNotStartError(self.stderr)
+
     @property
     def stderr(self) -> str:
         """What it wrote there so far."""

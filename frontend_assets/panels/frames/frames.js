@@ -27,7 +27,7 @@ import { LinkPicker } from "../../lib/pick-box.js";
 import { useSeen } from "../../lib/seen.js";
 import { shortTime } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, MenuButton, SearchBox } from "../../lib/ui.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayManage } from "../../model/connection.js";
 import { robot } from "../../model/document.js";
 import { askFrames, followFrames, framesRefused } from "../../model/frames.js";
 import { ros } from "../../model/ros.js";
@@ -126,7 +126,7 @@ function Notes() {
 }
 
 function ConnectButton() {
-  if (ros.value.state === "connected" || !mayEdit.value) return null;
+  if (ros.value.state === "connected" || !mayManage.value) return null;
   const show = () => {
     dialog.value = { kind: "ros" };
   };

@@ -6,7 +6,7 @@ import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
 import { t } from "../../lib/i18n.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
-import { connection, mayEdit } from "../../model/connection.js";
+import { connection, mayManage } from "../../model/connection.js";
 import {
   addTypes,
   askInterfaces,
@@ -44,7 +44,7 @@ export function InterfacesPanel() {
       ) => {
         words.value = text;
       }} />
-      <button type="button" class="button" disabled=${!mayEdit.value} title=${t("interfaces.add.hint")} onClick=${startDraft}><${Icon} name="plus" size=${14} />${t("interfaces.add")}</button>
+      <button type="button" class="button" disabled=${!mayManage.value} title=${t("interfaces.add.hint")} onClick=${startDraft}><${Icon} name="plus" size=${14} />${t("interfaces.add")}</button>
     </div>
     <div class="interfaces-parts"><${Names} words=${words.value} />
       ${draft.value ? html`<${InterfaceForm} key=${draft.value.name} />` : html`<${InterfaceDetails} />`}</div>
@@ -234,6 +234,6 @@ function InterfaceForm() {
     ${isOdd && html`<p class="note graph-warning">${t("interfaces.kind.hint", { kind })}</p>`}
     ${error.value && html`<p class="note bad" role="alert">${error.value}</p>`}
     <footer><span class="push"></span><button type="button" class="button" onClick=${close}>${t("cancel")}</button>
-      <button type="submit" class="button primary" disabled=${!mayEdit.value || busy.value || parts === null || text.value.trim() === ""}>${t("interfaces.take")}</button></footer>
+      <button type="submit" class="button primary" disabled=${!mayManage.value || busy.value || parts === null || text.value.trim() === ""}>${t("interfaces.take")}</button></footer>
   </form>`;
 }

@@ -9,7 +9,7 @@ import { language, t } from "../../lib/i18n.js";
 import { secondsSince, shortTime, useNow } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayEdit, mayManage } from "../../model/connection.js";
 import {
   askLessons,
   chosenLesson,
@@ -100,7 +100,7 @@ function RunningNow() {
   const count = underWay.value.length;
   if (count === 0) return null;
   return html`<div class="lessons-now" role="status"><span class="lessons-dot"></span><span>${t("lessons.now", { count })}</span>
-    ${mayEdit.value && html`<button type="button" class="button small" onClick=${stopAllDemos}><${Icon} name="stop" size=${12} />${t("lessons.stop_all")}</button>`}</div>`;
+    ${mayManage.value && html`<button type="button" class="button small" onClick=${stopAllDemos}><${Icon} name="stop" size=${12} />${t("lessons.stop_all")}</button>`}</div>`;
 }
 
 /** @param {{demo: string}} props */
@@ -207,12 +207,12 @@ function Output({ own, parts }) {
  */
 function LessonRuns({ parts }) {
   const waiting = parts.map(({ demo }) => demo).filter((demo) => !isThere(demo));
-  const canStart = mayEdit.value && !isUnconnected();
+  const canStart = mayManage.value && !isUnconnected();
   return html`<section class="lesson-runs" aria-label=${t("lessons.demos")}>
     ${isUnconnected() && html`<${Connect} />`}
     <ul>${parts.map((one) => html`<${Run} key=${one.demo} lesson=${one} />`)}</ul>
     ${canStart && parts.length > 1 && waiting.length > 1 && html`<${StartAll} waiting=${waiting} />`}
-    ${!mayEdit.value && html`<p class="note">${t("lessons.viewer")}</p>`}
+    ${!mayManage.value && html`<p class="note">${t("lessons.viewer")}</p>`}
   </section>`;
 }
 
@@ -230,7 +230,7 @@ function Connect() {
   const isOnTheWay = busy.value || ros.value.state === "connecting";
   return html`<p class="lesson-connect"><span>${t("ros.first")}</span>
     ${
-      mayEdit.value &&
+      mayManage.value &&
       html`<button type="button" class="button primary small" disabled=${isOnTheWay} onClick=${connect}>
       ${isOnTheWay ? html`<span class="spinner"></span>` : html`<${Icon} name="link" size=${13} />`}${t("ros.connect")}</button>`
     }</p>`;
@@ -257,7 +257,7 @@ function Run({ lesson }) {
 /** @param {{demo: string}} props */
 function Buttons({ demo }) {
   const busy = useSignal(false);
-  if (!mayEdit.value) return null;
+  if (!mayManage.value) return null;
   const during = (/** @type {() => Promise<unknown>} */ run) => async () => {
     busy.value = true;
     await run();

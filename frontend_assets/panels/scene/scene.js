@@ -5,13 +5,14 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { GraphicsNotice } from "../../app/graphics.js";
+import { documentAddress } from "../../lib/address.js";
 import { commandById } from "../../lib/commands.js";
 import { inFrameOrder } from "../../lib/frame-tree.js";
 import { t } from "../../lib/i18n.js";
 import { PickBox } from "../../lib/pick-box.js";
 import { remember } from "../../lib/remembered.js";
 import { Icon, IconButton, MenuButton, openMenu, ProgressBar } from "../../lib/ui.js";
-import { documentId, mayEdit, role } from "../../model/connection.js";
+import { documentId, mayEdit, mayManage, role } from "../../model/connection.js";
 import {
   displays,
   documentState,
@@ -49,7 +50,7 @@ export function ScenePanel() {
   }, []);
   return html`<section class="scene" aria-label=${t("panel.scene")}>
     <iframe ref=${frame} title=${t("panel.scene")} class=${theme.value}
-      src=${id ? `/d/${encodeURIComponent(id)}/viser/` : "about:blank"}></iframe>
+      src=${id ? `${documentAddress(id)}/viser/` : "about:blank"}></iframe>
     <${Tools} />
     <${MeasureCard} />
     <${Cover} />
@@ -148,7 +149,7 @@ function Failed() {
       <p>${problem?.sentence ?? t("failed.unknown")}</p>
       ${problem?.place && html`<p><${PlaceLink} place=${problem.place} /></p>`}
       ${
-        mayEdit.value &&
+        mayManage.value &&
         html`<div class="buttons">
         ${
           problem?.fix &&

@@ -7,7 +7,7 @@ import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { shortPath } from "../../lib/paths.js";
 import { EmptyState, Icon, MenuButton } from "../../lib/ui.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayEdit, mayManage } from "../../model/connection.js";
 import { documentState, robot } from "../../model/document.js";
 import { ask } from "../../model/requests.js";
 import {
@@ -36,7 +36,7 @@ export function VariantsPanel() {
   };
   if (!documentState.value || !robot.value)
     return html`<section class="panel-body" aria-label=${t("panel.variants")}><${EmptyState} icon="variants" title=${t("urdf.none")}>
-      <button type="button" class="button primary" disabled=${!mayEdit.value} onClick=${openRobot}><${Icon} name="open" />${t("command.open")}…</button><//></section>`;
+      <button type="button" class="button primary" disabled=${!mayManage.value} onClick=${openRobot}><${Icon} name="open" />${t("command.open")}…</button><//></section>`;
   return html`<section class="panel-body variants" aria-label=${t("panel.variants")}>
     <div class="scroll">
       <div class="variants-side">

@@ -1,0 +1,119 @@
+/** Who is in the class: who asks for control, whose hand is raised, and what each may do here. */
+
+/** @import { MemberView } from "../../types/wire.d.ts" */
+/** @import { MenuItem } from "../../lib/ui.js" */
+
+import { html, useSignal } from "vendor/preact.js";
+import { t } from "../../lib/i18n.js";
+import { EmptyState, Icon, IconButton, MenuButton, SearchBox } from "../../lib/ui.js";
+import {
+  classState,
+  control,
+  giveControl,
+  leads,
+  lowerHand,
+  readmitMember,
+  removeMember,
+  setMemberRole,
+  takeControl,
+} from "../../model/class.js";
+import { role } from "../../model/connection.js";
+import { dialog } from "../../model/view.js";
+import { listed } from "./listing.js";
+
+const ROLES = /** @type {const} */ (["helper", "student", "guest"]);
+/** Beyond so many the list has a box to search it by name. */
+const MANY = 12;
+
+export function PeoplePanel() {
+  const state = classState.value;
+  const wanted = useSignal("");
+  if (!leads.value || !state) return html`<${NotLeading} />`;
+  if (!state.open && state.members.length === 0) return html`<${NobodyYet} />`;
+  const rows = listed(state.members, wanted.value);
+  return html`<div class="people">
+    ${
+      state.members.length > MANY &&
+      html`<${SearchBox} label=${t("people.search")} value=${wanted.value} onInput=${(
+        /** @type {string} */ text,
+      ) => {
+        wanted.value = text;
+      }} />`
+    }
+    <p class="people-count" role="status">${t("people.count", { here: state.members.filter(({ here }) => here).length, all: state.members.length })}${state.viewers > 0 ? ` ${t("people.viewers", { count: state.viewers })}` : ""}</p>
+    ${state.members.some(({ hand_s: raised }) => raised != null) && html`<button type="button" class="button small" onClick=${() => lowerHand()}>${t("people.lower_all")}</button>`}
+    ${rows.length === 0 && html`<p class="note">${t(state.members.length > 0 ? "people.none_found" : "people.none")}</p>`}
+    <ul class="people-list">${rows.map((member) => html`<${Person} key=${member.person} member=${member} />`)}</ul></div>`;
+}
+
+function NotLeading() {
+  return html`<${EmptyState} icon="users" title=${t("people.not_leading")} />`;
+}
+
+function NobodyYet() {
+  const share = () => {
+    dialog.value = { kind: "class" };
+  };
+  return html`<${EmptyState} icon="users" title=${t("people.closed")}>
+    ${role.value === "presenter" && html`<button type="button" class="button primary" onClick=${share}><${Icon} name="users" />${t("class.share")}…</button>`}<//>`;
+}
+
+/** @param {{member: MemberView}} props */
+function Person({ member }) {
+  const { name, here, removed } = member;
+  const holds = control.value.holder === member.person;
+  const state = removed ? "removed" : here ? "here" : "away";
+  return html`<li class=${`person ${state} ${holds ? "holds" : ""}`}>
+    <span class="person-dot" role="img" aria-label=${t(`people.${state}`)} title=${t(`people.${state}`)}></span>
+    <span class="person-name" title=${name}>${name}</span>
+    ${member.role !== "student" && html`<span class="person-role">${t(`class.role.${member.role}`)}</span>`}
+    ${member.hand_s != null && html`<${IconButton} icon="hand" size=${14} class="person-hand" label=${t("people.lower", { name })} onClick=${() => lowerHand(member.person)} />`}
+    <span class="push"></span>
+    ${removed ? html`<${Removed} member=${member} />` : html`<${Control} member=${member} holds=${holds} />`}
+    ${role.value === "presenter" && !removed && html`<${MenuButton} label=${t("people.menu", { name })} items=${() => itemsOf(member)}><${Icon} name="dots" size=${14} /><//>`}</li>`;
+}
+
+/** @param {{member: MemberView}} props */
+function Removed({ member }) {
+  if (role.value !== "presenter") return null;
+  return html`<button type="button" class="button small" onClick=${() => readmitMember(member.person)}>${t("people.readmit")}</button>`;
+}
+
+/** @param {{member: MemberView, holds: boolean}} props */
+function Control({ member, holds }) {
+  if (holds) {
+    return html`<span class="person-holds">${t("people.holds")}</span>
+      <button type="button" class="button small" onClick=${role.value === "presenter" ? takeControl : () => giveControl("")}>${t("class.control.take_back")}</button>`;
+  }
+  if (!member.here || member.role === "guest") return null;
+  const asks = member.asks_s != null;
+  return html`<button type="button" class=${`button small ${asks ? "primary" : "person-give"}`} title=${asks ? t("people.asks") : t("people.give.hint")}
+    aria-label=${t("people.give.to", { name: member.name })} onClick=${() => giveControl(member.person)}>
+    <${Icon} name="control" size=${13} /><span class="person-give-words">${t("people.give")}</span></button>`;
+}
+
+/** @param {MemberView} member @returns {MenuItem[]} */
+function itemsOf(member) {
+  return [
+    { label: t("people.role"), heading: true },
+    ...ROLES.map((one) => ({
+      label: t(`class.role.${one}`),
+      checked: member.role === one,
+      run: () => void setMemberRole(member.person, one),
+    })),
+    { label: member.name, heading: true },
+    { label: `${t("people.remove")}…`, icon: "close", run: () => askToRemove(member) },
+  ];
+}
+
+/** @param {MemberView} member */
+function askToRemove({ person, name }) {
+  dialog.value = {
+    kind: "confirm",
+    title: t("people.remove.title", { name }),
+    text: t("people.remove.text"),
+    action: t("people.remove"),
+    danger: true,
+    run: () => void removeMember(person),
+  };
+}
