@@ -46,6 +46,8 @@ DIALOGS: Final[dict[str, dict[str, Any]]] = {
     "ros": {"kind": "ros"},
     "add_display": {"kind": "add_display"},
     "layouts": {"kind": "layouts"},
+    "class": {"kind": "class"},
+    "class_name": {"kind": "class_name"},
     "keys": {"kind": "keys"},
     "palette": {"kind": "palette"},
     "confirm": {

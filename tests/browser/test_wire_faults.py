@@ -170,14 +170,14 @@ def finds_all_operations_shut(viewer: StudioPage) -> None:
         if choice:
             shown.get_by_role("button", name=choice).first.click()
         assert shown.get_by_role("button", name=button).first.is_disabled()
-        shown.get_by_text(re.compile("[Oo]nly the presenter")).wait_for()
+        shown.get_by_text(re.compile("You are looking: ask for control")).wait_for()
 
 
 def test_v7_a_viewer_sees_everything_and_does_nothing(viewer: StudioPage):
     sees_everything(viewer)
     finds_all_operations_shut(viewer)
     refused = {command: do(viewer, command) for command in DOING}
-    words = {one: f"A viewer may not {one.replace('_', ' ')}: ask the presenter." for one in DOING}
+    words = {one: f"A guest may not {one.replace('_', ' ')}: ask the presenter." for one in DOING}
     assert refused == words
 
 

@@ -26,6 +26,10 @@ const ROLES = /** @type {const} */ (["helper", "student", "guest"]);
 const MANY = 12;
 
 export function PeoplePanel() {
+  return html`<section class="panel-body" aria-label=${t("panel.people")}><${Content} /></section>`;
+}
+
+function Content() {
   const state = classState.value;
   const wanted = useSignal("");
   if (!leads.value || !state) return html`<${NotLeading} />`;
