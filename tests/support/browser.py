@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING
 
 from playwright.sync_api import Browser, Error, sync_playwright
 
+from tests.support.apt import install_by_apt
+
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
 
@@ -164,21 +166,8 @@ def _answers(path: Path) -> bool:
 
 
 def _install_by_apt() -> None:
-    """Install Debian's Chromium, the shell if it has one; needs root and apt, else does nothing."""
-    if not hasattr(os, "geteuid") or os.geteuid() != 0 or not shutil.which("apt-get"):
-        return
-    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-
-    def apt(*command: str) -> bool:
-        done = subprocess.run(
-            ["apt-get", "-q", *command], env=quiet, stdout=sys.stderr, timeout=600, check=False
-        )
-        return done.returncode == 0
-
-    apt("update")
-    install = ("install", "-y", "--no-install-recommends")
-    if not apt(*install, "chromium-headless-shell"):
-        apt(*install, "chromium")
+    """Install Debian's Chromium, the shell if it has one."""
+    install_by_apt("chromium-headless-shell", "chromium")
 
 
 def _install_by_playwright() -> None:
