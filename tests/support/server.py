@@ -68,10 +68,14 @@ class RunningStudio:
     @cached_property
     def class_code(self) -> str:
         """The code of the class, which it prints once it is shared."""
+        return self.next_line("Class: ").split()[-1]
+
+    def next_line(self, words: str) -> str:
+        """The next line that it prints with these words in it."""
         assert self.process.stdout is not None
         for line in iter(self.process.stdout.readline, ""):
-            if line.startswith("Class: "):
-                return line.split()[-1]
+            if words in line:
+                return line
         raise StudioDidNotStartError(self.stderr)
 
     @property

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import httpx2
 from websockets.sync.client import connect
@@ -23,7 +24,7 @@ from tests.support.small_engine import SmallEngine
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Generator, Mapping
+    from collections.abc import Coroutine, Generator, Mapping
     from pathlib import Path
 
     from websockets.sync.connection import Connection
@@ -39,17 +40,26 @@ class RunningWeb:
     """Where it runs and how to reach it."""
 
     def __init__(
-        self, engine: SmallEngine, credentials: Credentials, port: int, server: Server
+        self,
+        engine: SmallEngine,
+        credentials: Credentials,
+        port: int,
+        server: Server,
+        loop: asyncio.AbstractEventLoop,
     ) -> None:
         self.engine, self.credentials, self.port = engine, credentials, port
         self.origin = f"http://127.0.0.1:{port}"
-        self._server = server
+        self._server, self._loop = server, loop
         self._members: dict[Role, Member] = {}
 
     def pending_bytes(self) -> list[int]:
         """What the system has not yet taken, of every websocket that is open."""
         found = tuple(self._server.server_state.connections)
         return [one.pending_bytes() for one in found if isinstance(one, StudioSocket)]
+
+    def run(self, work: Coroutine[Any, Any, None]) -> None:
+        """Do something on the loop of the server, and wait for it."""
+        asyncio.run_coroutine_threadsafe(work, self._loop).result(60)
 
     def member(self, role: Role) -> Member:
         """A person of the class, always the same of one role; the class is open then."""
@@ -122,6 +132,7 @@ class _Life:
         """Nothing to begin."""
 
     async def answering(self) -> None:
+        self.loop = asyncio.get_running_loop()
         self.answers.set()
 
     async def end(self) -> None:
@@ -158,7 +169,7 @@ def running_web(  # noqa: PLR0913 - each test gives one or two
     thread.start()
     assert life.answers.wait(60)
     try:
-        yield RunningWeb(engine, credentials, port, server)
+        yield RunningWeb(engine, credentials, port, server, life.loop)
     finally:
         server.should_exit = True
         thread.join(60)
