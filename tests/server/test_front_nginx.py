@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import ssl
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
@@ -10,6 +11,7 @@ import httpx2
 import pytest
 from websockets.exceptions import InvalidStatus
 
+from studio.scene import SUBPROTOCOL
 from tests.support.certificates import make_certificates
 from tests.support.classmates import Classmate
 from tests.support.nginx import Nginx, free_port, running_nginx
@@ -82,6 +84,21 @@ def test_a_student_joins_by_the_code_and_all_lanes_are_below_the_path(behind: Be
         with ada.lane() as lane:
             assert lane.until("you", name="Ada")["role"] == "student"
             assert lane.ask("zero_joints", document="rover")["kind"] == "NotInControlError"
+
+
+def test_the_3d_view_and_streams_come_through(behind: Behind):
+    with behind.browser() as ada:
+        ada.join("Ada", behind.studio.class_code)
+        with ada.websocket("/d/rover/viser", SUBPROTOCOL) as scene:
+            assert len(scene.recv(timeout=60)) > 100
+        with ada.websocket("/data") as data:
+            data.send(json.dumps({"type": "ask_bulk"}))
+            key = json.loads(data.recv(timeout=60))["key"]
+            # The answer begins though nothing is streamed yet, and ends with the data lane.
+            with ada.client.stream("GET", f"/bulk?key={key}") as bulk:
+                assert bulk.status_code == 200
+                data.close()
+                assert bulk.read() == b""
 
 
 def test_its_cookie_is_for_tls_scripts_do_not_see_it_and_a_link_from_a_chat_carries_it(

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 import httpx2
 from websockets.sync.client import connect
-from websockets.typing import Origin
+from websockets.typing import Origin, Subprotocol
 
 if TYPE_CHECKING:
     import ssl
@@ -85,17 +85,21 @@ class Classmate:
     @contextmanager
     def lane(self, origin: str = "") -> Generator[Lane]:
         """The control lane, as its page opens it."""
-        address = f"{self.origin.replace('http', 'ws', 1)}{self.base}/control"
-        with connect(
-            address,
+        with self.websocket("/control", origin=origin) as connection:
+            yield Lane(connection)
+
+    def websocket(self, path: str, *subprotocols: str, origin: str = "") -> Connection:
+        """A websocket, as its page opens it, or one of another origin."""
+        return connect(
+            f"{self.origin.replace('http', 'ws', 1)}{self.base}{path}",
             origin=Origin(origin or self.origin),
+            subprotocols=[Subprotocol(one) for one in subprotocols] or None,
             additional_headers={"Cookie": self.cookie},
             ssl=self._context,
             proxy=None,
             open_timeout=_PATIENCE_S,
             max_size=None,
-        ) as connection:
-            yield Lane(connection)
+        )
 
     def close(self) -> None:
         self.client.close()

@@ -1,0 +1,164 @@
+"""A presenter and three students in browsers of their own, directly and behind nginx with TLS."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack, contextmanager
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+
+from tests.support.certificates import make_certificates
+from tests.support.nginx import free_port, running_nginx
+from tests.support.server import RunningStudio, running_studio
+from tests.support.studio_page import StudioPage, studio_context, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator, Iterator
+
+    from playwright.sync_api import Browser, Locator
+
+pytestmark = [pytest.mark.browser, pytest.mark.network]
+PATH = "/class/robots"
+
+
+class Served(NamedTuple):
+    """A studio, and the addresses of its page: its own, and the one behind nginx."""
+
+    studio: RunningStudio
+    addresses: dict[str, str]
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    folder, tls_port = tmp_path_factory.mktemp("class"), free_port()
+    certificates = make_certificates(folder, "front")
+    words = ["demo", "--share", "--host", "127.0.0.1", "--base-path", PATH]
+    with (
+        running_studio([*words, "--trusted-proxy", "127.0.0.1"], folder / "data") as studio,
+        running_nginx(folder / "nginx", studio.port, tls_port, certificates, f"{PATH}/"),
+    ):
+        behind = f"https://localhost:{tls_port}{PATH}/"
+        yield Served(studio, {"directly": f"{studio.origin}{PATH}/", "nginx": behind})
+
+
+@contextmanager
+def tab(browser: Browser) -> Generator[StudioPage]:
+    """A browser of somebody's own; the certificate is that of the test."""
+    context = studio_context(browser, ignore_https_errors=True)
+    try:
+        yield StudioPage(context.new_page())
+    finally:
+        context.close()
+
+
+def join(tab: StudioPage, address: str, name: str, code: str) -> StudioPage:
+    """Come to the bare address, type the code and a name."""
+    url = address[: address.index("/", 8)]
+    tab.page.context.add_cookies([{"name": "without_view", "value": "1", "url": url}])
+    tab.page.goto(address)
+    tab.page.get_by_label("Code").fill(code)
+    tab.page.get_by_label("Your name").fill(name)
+    tab.page.get_by_role("button", name="Join").click()
+    tab.page.get_by_role("treeitem").first.wait_for()
+    return tab
+
+
+def bar(tab: StudioPage) -> Locator:
+    """The bar that says who has control."""
+    return tab.page.locator(".control-bar")
+
+
+def press(tab: StudioPage, name: str) -> None:
+    tab.page.get_by_role("button", name=name, exact=True).click()
+
+
+def value_of(tab: StudioPage, name: str) -> float:
+    tab.seek(name)
+    return float(tab.box(name).input_value())
+
+
+def shows(tab: StudioPage, name: str, value: float) -> None:
+    wait_until(f"{name} to be {value:g}", lambda: abs(value_of(tab, name) - value) < 1e-9)
+
+
+@pytest.mark.parametrize("way", ["directly", "nginx"])
+def test_students_join_ask_for_control_drag_what_all_see_and_hand_it_back(
+    browser: Browser, served: Served, way: str
+):
+    address, code = served.addresses[way], served.studio.class_code
+    with ExitStack() as held:
+        presenter, ada, bob, eve = (held.enter_context(tab(browser)) for _ in range(4))
+        presenter.open(f"{address}?token={served.studio.token}", view=False)
+        for student, name in ((ada, "Ada"), (bob, "Bob"), (eve, "Eve")):
+            join(student, address, f"{name} {way}", code)
+        assert "token" not in presenter.page.url
+        assert "code" not in ada.page.url
+        looks_only(ada)
+        press(bob, "Ask for control")
+        press(ada, "Ask for control")
+        give_control(presenter, f"Ada {way}")
+        bar(ada).get_by_text("You have control").wait_for()
+        for other in (presenter, bob, eve):
+            bar(other).get_by_text(f"Ada {way} has control").wait_for()
+        dragged = float(ada.drag_slider("wheel_radius", 0.7))
+        for other in (presenter, bob, eve):
+            shows(other, "wheel_radius", dragged)
+            assert other.slider("wheel_radius").is_disabled()
+        press(ada, "Give back")
+        bar(presenter).wait_for(state="detached")
+        shows(presenter, "wheel_radius", dragged)
+        a_drag_that_is_cut_off_is_one_step(presenter, bob, f"Bob {way}")
+        presenter.undo_all()
+        for one in (presenter, ada, bob, eve):
+            assert one.errors == []
+
+
+def looks_only(student: StudioPage) -> None:
+    """Everything is seen, nothing can be changed, and the way to it is said."""
+    bar(student).get_by_text("You are looking · the presenter has control").wait_for()
+    student.seek("wheel_radius")
+    assert student.slider("wheel_radius").is_disabled()
+    press(student, "Raise hand")
+    pressed = student.page.get_by_role("button", name="Raise hand", exact=True)
+    wait_until("the hand to be up", lambda: pressed.get_attribute("aria-pressed") == "true")
+
+
+def give_control(presenter: StudioPage, name: str) -> None:
+    """By the list of people, to which the window of sharing leads."""
+    presenter.page.get_by_role("button", name="Share").click()
+    presenter.page.locator(".class-code").wait_for()
+    presenter.page.locator(".class-dialog footer .primary").click()
+    presenter.page.get_by_role("button", name=f"Give control to {name}").click()
+
+
+def a_drag_that_is_cut_off_is_one_step(
+    presenter: StudioPage, student: StudioPage, name: str
+) -> None:
+    """Control is taken back while the student holds a slider: it keeps the value it had by then."""
+    before = value_of(presenter, "base_length")
+    presenter.page.get_by_role("button", name=f"Give control to {name}").click()
+    bar(student).get_by_text("You have control").wait_for()
+    student.seek("base_length")
+    slider = student.slider("base_length")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    assert box is not None
+    begin = float(slider.evaluate("one => (one.value - one.min) / (one.max - one.min)"))
+    y = box["y"] + box["height"] / 2
+    student.page.mouse.move(box["x"] + box["width"] * begin, y)
+    student.page.mouse.down()
+    student.page.mouse.move(box["x"] + box["width"] * 0.8, y, steps=4)
+    wait_until("all to see it", lambda: value_of(presenter, "base_length") != before)
+    press_in_bar(presenter, "Take back")
+    bar(student).get_by_text("You are looking").wait_for()
+    student.page.mouse.move(box["x"] + box["width"] * 0.2, y, steps=4)
+    student.page.mouse.up()
+    cut_off = value_of(presenter, "base_length")
+    shows(student, "base_length", cut_off)
+    presenter.page.get_by_role("button", name="Undo", exact=True).first.click()
+    shows(presenter, "base_length", before)
+    shows(student, "base_length", before)
+
+
+def press_in_bar(tab: StudioPage, name: str) -> None:
+    bar(tab).get_by_role("button", name=name).click()
