@@ -19,6 +19,7 @@ import {
   you,
 } from "../model/class.js";
 import { connection, hasControl, role } from "../model/connection.js";
+import { canFollow, comeBack, explore, gatherAll, isFollowing } from "../model/following.js";
 import { dialog, isFree } from "../model/view.js";
 
 /** Below the bar above: what one may do here, and who has control where that is somebody else. */
@@ -28,6 +29,7 @@ export function ControlBar() {
     <${Icon} name=${hasControl.value ? "check" : role.value === "presenter" ? "hand" : "watching"} />
     <span class="control-words">${stateWords()}</span>
     <${ControlButton} /><span class="push"></span>
+    <${FollowButton} />
     ${takesPart.value && !leads.value && html`<${HandButton} />`}
     ${takesPart.value && role.value !== "presenter" && html`<${StopButton} />`}</div>`;
 }
@@ -59,6 +61,14 @@ function ControlButton() {
   const waits = you.value.asking;
   return html`<button type="button" class=${`button small ${waits ? "" : "primary"}`} aria-pressed=${waits} onClick=${() => askControl(!waits)}>
     ${t(waits ? "class.control.asked" : "class.control.ask")}</button>`;
+}
+
+/** Looking at what the presenter looks at, or around for oneself. */
+function FollowButton() {
+  if (!canFollow.value) return null;
+  const is = isFollowing.value;
+  return html`<span class="follow-words">${t(is ? "class.following" : "class.exploring")}</span>
+    <button type="button" class=${`button small ${is ? "" : "primary"}`} onClick=${is ? explore : comeBack}>${t(is ? "class.explore" : "class.follow")}</button>`;
 }
 
 /** @param {{id: string, run: () => void}} props */
@@ -130,6 +140,12 @@ export function classCommands() {
       icon: "hand",
       enabled: () => inClass() && !leads.value,
       run: () => void raiseHand(!you.value.hand),
+    },
+    {
+      id: "gather_all",
+      icon: "users",
+      enabled: () => inClass() && role.value === "presenter",
+      run: () => void gatherAll(),
     },
     {
       id: "class_name",

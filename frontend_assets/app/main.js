@@ -9,6 +9,7 @@ import { anyUnderWay } from "../lib/latest.js";
 import { iconElement } from "../lib/ui.js";
 import { documentId, mayEdit, role } from "../model/connection.js";
 import { history, movable, title, unsaved } from "../model/document.js";
+import { followPresenter } from "../model/following.js";
 import { addMeasuring } from "../model/measuring.js";
 import {
   clearSelection,
@@ -183,6 +184,7 @@ if (root) render(html`<${Shell} onDock=${startDock} />`, root);
 followMissing();
 followDisk();
 followGraphics();
+followPresenter();
 listenToDrops();
 connect(async () => {
   await watch();

@@ -95,7 +95,7 @@ async function askShaping(link, joint) {
 export const effects = signal(null);
 
 /** @type {Signal<string | null>} */
-const pointedSite = signal(null);
+export const pointedSite = signal(null);
 /** The run before which it was pointed at. @type {Signal<unknown>} */
 const pointedRun = signal(null);
 /** Answers that are true of the run `knownOf`. @type {Map<string, Effects>} */

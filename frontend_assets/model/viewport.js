@@ -76,12 +76,16 @@ function askFor(frame) {
 /**
  * @typedef {object} Studio3d what the script in the frame offers
  * @property {Promise<unknown>} ready
- * @property {EventTarget} events `hover`, `select`, `drag`, `connection`, `key`
+ * @property {EventTarget} events `hover`, `select`, `drag`, `connection`, `key`, `touch` (a hand is on the camera)
  * @property {(robot: RobotState) => void} setRobot
  * @property {(positions: Record<string, number>) => void} setPositions
  * @property {() => void} fit
  * @property {(name: string) => void} view
  * @property {(link: string) => void} focus
+ * @property {() => {position: [number, number, number], target: [number, number, number]} | null} getCamera in the root frame
+ * @property {(pose: {position: readonly [number, number, number], target: readonly [number, number, number]}, animate?: boolean) => void} setCamera
+ * @property {() => [number, number, number] | null} pointedPlace where the mouse points on the robot, in the root frame
+ * @property {(place: readonly [number, number, number] | null) => void} setGuide a mark at what somebody else points at
  * @property {(frame: string) => void} setTarget the camera goes with a frame; empty: with none
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
  * @property {(theme: "dark" | "light") => void} setTheme

@@ -59,6 +59,8 @@ const subscribers = new Map();
 const unclaimed = new Map();
 /** @type {(frame: {revision: number, positions: Float64Array}) => void} */
 let takeJointFrame = () => {};
+/** @type {(view: View) => void} */
+let takeView = () => {};
 
 /**
  * Be told of a type of events; the newest that came before is told at once. Each type has one subscriber:
@@ -78,6 +80,11 @@ export function subscribe(type, take) {
 /** @param {typeof takeJointFrame} take is given the positions of moving joints */
 export function onJointFrame(take) {
   takeJointFrame = take;
+}
+
+/** @param {typeof takeView} take is given what the presenter looks at */
+export function onView(take) {
+  takeView = take;
 }
 
 /** @param {Event} event */
@@ -171,6 +178,8 @@ function take(data) {
   if (typeof data !== "string") {
     const frame = readJointFrame(data);
     if (frame) takeJointFrame(frame);
+    const view = frame ? null : readView(data);
+    if (view) takeView(view);
     return;
   }
   const event = /** @type {Event} */ (JSON.parse(data));
@@ -200,6 +209,27 @@ function answer(event) {
   waiting.delete(event.request);
   if (event.type === "refused") asker?.reject(new RefusedError(event));
   else asker?.resolve(event);
+}
+
+/** @typedef {readonly [number, number, number]} Point m, in the root frame */
+/** @typedef {{eye: Point, target: Point, pointer: Point | null}} View camera and pointer of the presenter */
+
+const VIEW = 2;
+const VIEW_BYTES = 44;
+
+/**
+ * @param {ArrayBuffer} data as `show_view` says
+ * @returns {View | null} null for a frame of another kind
+ */
+export function readView(data) {
+  if (data.byteLength !== VIEW_BYTES) return null;
+  const view = new DataView(data);
+  if (view.getUint8(0) !== VIEW) return null;
+  const number = (/** @type {number} */ at) => view.getFloat32(HEADER_BYTES + 4 * at, true);
+  /** @param {number} at @returns {Point} */
+  const point = (at) => [number(at), number(at + 1), number(at + 2)];
+  const pointer = point(6);
+  return { eye: point(0), target: point(3), pointer: Number.isNaN(pointer[0]) ? null : pointer };
 }
 
 const JOINTS = 1;

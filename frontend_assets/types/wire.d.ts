@@ -759,6 +759,15 @@ export interface Fix {
   edits: Replacement[];
 }
 
+/** What the presenter has selected, points at and has open; see `show_focus`. */
+export interface Focus {
+  type: "focus";
+  document: string;
+  part: string;
+  site: string;
+  panel: string;
+}
+
 /** Answer to `list_folder`. */
 export interface Folder {
   type: "folder";
@@ -775,6 +784,15 @@ export interface FolderEntry {
   kind: "folder" | "package" | "robot" | "zip" | "file";
   openable: boolean;
   reason: string;
+}
+
+/** See what the presenter looks at from now on, or no longer. */
+export interface Follow {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "follow";
+  following: boolean;
 }
 
 /** Receive `changed` for a subject from now on; or no more. */
@@ -869,6 +887,19 @@ export interface Frames {
   request: number;
   revision: number;
   origins: Record<string, [number, number, number, number, number, number]>;
+}
+
+/** Follow the presenter, whatever you did before. */
+export interface Gather {
+  type: "gather";
+}
+
+/** Bring everybody to what the presenter looks at, also those who explore. */
+export interface GatherAll {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "gather_all";
 }
 
 /** Ask for the actions that have a server. */
@@ -1342,6 +1373,21 @@ export interface JointView {
   line: number;
 }
 
+/** Show others what the presenter looks at, or no longer. */
+export interface Lead {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "lead";
+  leading: boolean;
+}
+
+/** Whether others are shown what the presenter looks at. */
+export interface Leading {
+  type: "leading";
+  leading: boolean;
+}
+
 /** Files below the served folders that are not open, and have unsaved work of an earlier run. */
 export interface LeftWork {
   type: "left_work";
@@ -1587,6 +1633,7 @@ export interface MemberView {
   name: string;
   role: "helper" | "student" | "guest";
   here: boolean;
+  follows: boolean;
   removed: boolean;
   asks_s: number | null;
   hand_s: number | null;
@@ -2529,6 +2576,33 @@ export interface SetParameter {
  */
 export type Severity = "error" | "warning" | "info";
 
+/** What the presenter has selected, points at and has open. */
+export interface ShowFocus {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "show_focus";
+  part?: string;
+  site?: string;
+  panel?: string;
+}
+
+/**
+ * Where the presenter's camera and pointer are; they go to who follows as a binary frame.
+ *
+ * The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the camera's
+ * eye, what it looks at, and the pointer, which is NaN where there is none.
+ */
+export interface ShowView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "show_view";
+  eye: [number, number, number];
+  target: [number, number, number];
+  pointer?: [number, number, number] | null;
+}
+
 /** A state to compare: the present robot, the one on disk, or a variant. */
 export interface Side {
   kind: "present" | "saved" | "variant";
@@ -3010,12 +3084,14 @@ export type Command =
   | ExamineWire
   | FindTexts
   | FindWireRobots
+  | Follow
   | FollowChanges
   | FollowFrame
   | FollowOperations
   | FollowParameters
   | ForgetRecent
   | ForgetWork
+  | GatherAll
   | GetActions
   | GetArguments
   | GetChanges
@@ -3051,6 +3127,7 @@ export type Command =
   | GetUrdf
   | GetUrdfChanges
   | GiveControl
+  | Lead
   | ListExamples
   | ListFolder
   | ListInterfaces
@@ -3107,6 +3184,8 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | ShowFocus
+  | ShowView
   | StartClass
   | StartDemo
   | StopDemo
@@ -3146,9 +3225,11 @@ export type Event =
   | Done
   | Effects
   | Examples
+  | Focus
   | Folder
   | FrameFollowed
   | Frames
+  | Gather
   | GoalStatuses
   | Goals
   | Gone
@@ -3159,6 +3240,7 @@ export type Event =
   | InterfacesAnswer
   | InterfacesAdded
   | JointPositions
+  | Leading
   | LeftWork
   | Lessons
   | Link

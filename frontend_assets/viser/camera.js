@@ -127,6 +127,18 @@ export class CameraView {
     };
   }
 
+  /** A place of the scene in the root frame. @param {Vector3} place @returns {[number, number, number] | null} */
+  inRoot(place) {
+    const root = this.#rootMatrix();
+    return root && toTriple(place.clone().applyMatrix4(root.clone().invert()));
+  }
+
+  /** A place in the root frame, in the scene. @param {readonly [number, number, number]} place @returns {Vector3 | null} */
+  fromRoot(place) {
+    const root = this.#rootMatrix();
+    return root && this.#vector(...place).applyMatrix4(root);
+  }
+
   /** @param {CameraPose} pose @param {boolean} [animate] */
   set(pose, animate = false) {
     const root = this.#rootMatrix();

@@ -183,3 +183,35 @@ export class ChainLine {
     return place && [place];
   }
 }
+
+/** What the presenter points at, over the picture of this browser only. */
+export class Guide {
+  /** In the root frame. @type {readonly [number, number, number] | null} */
+  #place = null;
+  #lines = new DrawnLines();
+  #door;
+  #camera;
+
+  /** @param {Door} door @param {import("./camera.js").CameraView} camera */
+  constructor(door, camera) {
+    this.#door = door;
+    this.#camera = camera;
+    door.onPicture(
+      () => {},
+      () => this.#draw(),
+    );
+  }
+
+  /** @param {readonly [number, number, number] | null} place null: at nothing */
+  set(place) {
+    if (place === null && this.#place === null) return;
+    this.#place = place;
+    this.#door.redraw();
+  }
+
+  #draw() {
+    const point = this.#place && this.#camera.fromRoot(this.#place);
+    const seen = point && placeOf(this.#door, point);
+    this.#lines.draw({ lines: [], dots: seen ? [{ place: seen, kind: "guide" }] : [], labels: [] });
+  }
+}

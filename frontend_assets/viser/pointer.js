@@ -26,6 +26,8 @@ export class Pointer {
   #drag = null;
   /** `free`: nothing is snapped to. @type {{ x: number, y: number, free: boolean } | null} */
   #newest = null;
+  /** What the mouse points at; null: nothing of the robot. @type {import("./picking.js").Pick | null} */
+  #at = null;
   #door;
   #robot;
   #looks;
@@ -69,11 +71,9 @@ export class Pointer {
     window.addEventListener("pointerup", (event) => this.#up(event), options);
     window.addEventListener("pointercancel", () => this.cancel(), options);
     window.addEventListener("blur", () => this.cancel());
-    window.addEventListener("wheel", () => this.#camera.touched(), {
-      capture: true,
-      passive: true,
-    });
+    window.addEventListener("wheel", () => this.#touch(), { capture: true, passive: true });
     document.addEventListener("pointerleave", () => {
+      this.#at = null;
       this.#hover(null);
       this.#measuring.hover(null);
     });
@@ -87,7 +87,7 @@ export class Pointer {
     if (event.target !== this.#door.mutable?.canvas) return;
     window.focus();
     if (event.button !== 0 || event.shiftKey || event.ctrlKey || event.metaKey) {
-      this.#camera.touched();
+      this.#touch();
       return;
     }
     const found = pick(this.#door, this.#robot, event.clientX, event.clientY);
@@ -100,8 +100,19 @@ export class Pointer {
       event.preventDefault();
       this.#door.mutable?.canvas?.setPointerCapture(id);
     } else {
-      this.#camera.touched();
+      this.#touch();
     }
+  }
+
+  /** A hand is on the camera. */
+  #touch() {
+    this.#camera.touched();
+    this.#tell("touch", {});
+  }
+
+  /** Where the mouse points on the robot, in the scene. @returns {Vector3 | null} */
+  get point() {
+    return this.#at?.point ?? null;
   }
 
   /** @param {PointerEvent} event */
@@ -171,7 +182,8 @@ export class Pointer {
     } else if (this.#measuring.on) {
       this.#aimAt(place);
     } else if (!this.#pressed) {
-      this.#hover(pick(this.#door, this.#robot, place.x, place.y)?.link ?? null);
+      this.#at = pick(this.#door, this.#robot, place.x, place.y);
+      this.#hover(this.#at?.link ?? null);
     }
   }
 

@@ -37,9 +37,11 @@ export function pixelsToLine(place, begin, end) {
 const CHARACTER_PX = 8;
 const LINE_PX = 24;
 const SVG = "http://www.w3.org/2000/svg";
+/** Dots of measures; others are larger. */
+const SMALL = new Set(["point", "frame", "axis"]);
 
 /** @typedef {{ places: Place[], kind: "line" | "axis" | "aim" | "chain" }} Line */
-/** @typedef {{ place: Place, kind: "point" | "frame" | "axis" | "aim" | "centre" }} Dot */
+/** @typedef {{ place: Place, kind: "point" | "frame" | "axis" | "aim" | "centre" | "guide" }} Dot */
 /** @typedef {{ place: Place, text: string, kind: "measure" | "aim" | "centre" }} Label */
 
 /** Lines, dots and words over the picture; they are in nobody's way. */
@@ -81,7 +83,7 @@ function dotOf({ place, kind }) {
   const element = document.createElementNS(SVG, "circle");
   element.setAttribute("cx", String(round(place[0])));
   element.setAttribute("cy", String(round(place[1])));
-  element.setAttribute("r", kind === "aim" || kind === "centre" ? "7" : "4");
+  element.setAttribute("r", SMALL.has(kind) ? "4" : "7");
   element.setAttribute("class", kind);
   return element;
 }

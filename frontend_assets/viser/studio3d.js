@@ -2,7 +2,7 @@
 
 import { Aim, Measuring } from "./measuring.js";
 import { CameraView, Follow } from "./camera.js";
-import { ChainLine, Marks } from "./marks.js";
+import { ChainLine, Guide, Marks } from "./marks.js";
 import { CloudDetail } from "./cloud-detail.js";
 import { Door, Removed } from "./door.js";
 import { LiveExtent } from "./extent.js";
@@ -19,7 +19,7 @@ import { RobotView } from "./robot.js";
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * `touch {}` (a hand is on the camera), `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
  * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
  */
 class Studio3d {
@@ -36,6 +36,7 @@ class Studio3d {
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #marks = new Marks(this.#door, this.#robot);
   #chain = new ChainLine(this.#door, this.#robot);
+  #guide = new Guide(this.#door, this.#camera);
   #measuring = new Measuring(
     this.#door,
     this.#robot,
@@ -118,6 +119,17 @@ class Studio3d {
   /** @param {CameraPose} pose @param {boolean} [animate] */
   setCamera(pose, animate) {
     this.#camera.set(pose, animate);
+  }
+
+  /** Where the mouse points on the robot, in the root frame; null: at nothing. */
+  pointedPlace() {
+    const { point } = this.#pointer;
+    return point && this.#camera.inRoot(point);
+  }
+
+  /** A mark at what somebody else points at. @param {readonly [number, number, number] | null} place in the root frame */
+  setGuide(place) {
+    this.#guide.set(place);
   }
 
   /** A PNG of the view. @param {number} scale @param {boolean} transparent */

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.classroom.admission import Admission
 from studio.classroom.control import Control
+from studio.classroom.following import Following
 from studio.classroom.members import MEMBERS_MAX, Members, now_s
 from studio.classroom.qr_code import qr_svg
 from studio.classroom.record import ClassFile, ClassRecord, MemberRecord
@@ -17,7 +18,10 @@ from studio.protocol.classroom import (
     AskControl,
     ClassState,
     EndClass,
+    Follow,
+    GatherAll,
     GiveControl,
+    Lead,
     LowerHand,
     PauseClass,
     RaiseHand,
@@ -28,6 +32,8 @@ from studio.protocol.classroom import (
     SetClass,
     SetMemberRole,
     SetName,
+    ShowFocus,
+    ShowView,
     StartClass,
     Stopped,
     StopRobot,
@@ -103,6 +109,7 @@ class Classroom:
         """Ends all connections of a person."""
         self._pages: dict[str, set[Listener]] = {}
         self._everybody = Audience()
+        self.following = Following()
         self._leaders_later = Throttle(self._send_to_leaders, first_s=_SOON_S, pause_s=_PAUSE_S)
 
     async def close(self) -> None:
@@ -161,6 +168,7 @@ class Classroom:
         self.control.back(person)
         send(listener, self._control_event())
         send(listener, self._you(person, listener.role))
+        self.following.attach(listener)
         if listener.role.includes(Role.HELPER):
             send(listener, self._state())
         self._changed()
@@ -168,6 +176,7 @@ class Classroom:
     def detach(self, listener: Listener) -> None:
         """Remove a page; it need not be there."""
         self._everybody.remove(listener)
+        self.following.detach(listener)
         person = listener.person
         pages = self._pages.get(person, set())
         if listener not in pages:
@@ -288,6 +297,11 @@ class Classroom:
         """Take down the hand of a person, or of everybody."""
         for one in (self.members.get(person),) if person else tuple(self.members):
             self.raise_hand(one.person, raised=False)
+
+    def follow(self, listener: Listener, *, following: bool) -> None:
+        """See what the presenter looks at, or no longer."""
+        if self.following.follow(listener, following=following):
+            self._changed()
 
     # Control
 
@@ -419,7 +433,13 @@ class Classroom:
         )
 
     def _views(self) -> list[MemberView]:
-        return [one.view(here=self._is_here(one.person)) for one in self.members]
+        return [
+            one.view(here=self._is_here(one.person), follows=self._follows(one.person))
+            for one in self.members
+        ]
+
+    def _follows(self, person: str) -> bool:
+        return any(map(self.following.is_following, self._pages.get(person, ())))
 
     # Keeping
 
@@ -455,7 +475,17 @@ class Classroom:
 
 _OFTEN: Final = Limits(bytes_max=1_000, per_second=5)
 
+_VIEWS: Final = Limits(bytes_max=1_000, per_second=60)
+_FOCUSES: Final = Limits(bytes_max=4_000, per_second=30)
+
 COMMANDS: Final = Commands[Classroom](Scope.STUDIO)
+COMMANDS.presenter(Lead, lambda room, c, _: room.following.lead(leading=c.leading))
+COMMANDS.presenter(GatherAll, lambda room, _, __: room.following.gather())
+COMMANDS.presenter(ShowView, lambda room, c, who: room.following.show_view(who, c), limits=_VIEWS)
+COMMANDS.presenter(
+    ShowFocus, lambda room, c, who: room.following.show_focus(who, c), limits=_FOCUSES
+)
+COMMANDS.viewer(Follow, lambda room, c, who: room.follow(who, following=c.following), limits=_OFTEN)
 COMMANDS.presenter(StartClass, lambda room, _, __: room.start())
 COMMANDS.presenter(PauseClass, lambda room, _, __: room.pause())
 COMMANDS.presenter(EndClass, lambda room, _, __: room.end())

@@ -37,13 +37,14 @@ class Member:
         del document
         return not self.removed and self._control.holder == self.person
 
-    def view(self, *, here: bool) -> MemberView:
+    def view(self, *, here: bool, follows: bool) -> MemberView:
         """Return the member as presenters see them."""
         return MemberView(
             person=self.person,
             name=self.name,
             role=self.role.value,  # type: ignore[arg-type]
             here=here,
+            follows=follows,
             removed=self.removed,
             asks_s=self.asks_s,
             hand_s=self.hand_s,

@@ -130,6 +130,78 @@ class StopRobot(Command):
     type: Literal["stop_robot"] = "stop_robot"
 
 
+Point: TypeAlias = tuple[float, float, float]
+"""m, in the root frame of the robot."""
+
+
+class Lead(Command):
+    """Show others what the presenter looks at, or no longer."""
+
+    type: Literal["lead"] = "lead"
+    leading: bool
+
+
+class GatherAll(Command):
+    """Bring everybody to what the presenter looks at, also those who explore."""
+
+    type: Literal["gather_all"] = "gather_all"
+
+
+class Follow(Command):
+    """See what the presenter looks at from now on, or no longer."""
+
+    type: Literal["follow"] = "follow"
+    following: bool
+
+
+class ShowView(Command):
+    """Where the presenter's camera and pointer are; they go to who follows as a binary frame.
+
+    The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the
+    camera's eye, what it looks at, and the pointer, which is NaN where there is none.
+    """
+
+    type: Literal["show_view"] = "show_view"
+    eye: Point
+    target: Point
+    pointer: Point | None = None
+
+
+class ShowFocus(Command):
+    """What the presenter has selected, points at and has open."""
+
+    type: Literal["show_focus"] = "show_focus"
+    part: Annotated[str, StringConstraints(max_length=1000)] = ""
+    """Key of the selected part, as `link:base_link`; empty: none."""
+    site: Annotated[str, StringConstraints(max_length=1000)] = ""
+    """Of the property that is pointed at; empty: none."""
+    panel: Annotated[str, StringConstraints(max_length=64)] = ""
+    """The panel that was shown or clicked last."""
+
+
+class Leading(Event):
+    """Whether others are shown what the presenter looks at."""
+
+    type: Literal["leading"] = "leading"
+    leading: bool
+
+
+class Gather(Event):
+    """Follow the presenter, whatever you did before."""
+
+    type: Literal["gather"] = "gather"
+
+
+class Focus(Event):
+    """What the presenter has selected, points at and has open; see `show_focus`."""
+
+    type: Literal["focus"] = "focus"
+    document: str
+    part: str
+    site: str
+    panel: str
+
+
 class You(Event):
     """Who you are in the class, and what you have asked for."""
 
@@ -169,6 +241,8 @@ class MemberView(Message):
     role: Literal["helper", "student", "guest"]
     here: bool
     """Whether their page is open."""
+    follows: bool = False
+    """Whether a page of theirs shows what the presenter looks at."""
     removed: bool = False
     asks_s: float | None = None
     """Since when they ask for control, in seconds since the epoch."""

@@ -51,10 +51,11 @@ def tab(browser: Browser) -> Generator[StudioPage]:
         context.close()
 
 
-def join(tab: StudioPage, address: str, name: str, code: str) -> StudioPage:
+def join(tab: StudioPage, address: str, name: str, code: str, *, view: bool = False) -> StudioPage:
     """Come to the bare address, type the code and a name."""
     url = address[: address.index("/", 8)]
-    tab.page.context.add_cookies([{"name": "without_view", "value": "1", "url": url}])
+    if not view:
+        tab.page.context.add_cookies([{"name": "without_view", "value": "1", "url": url}])
     tab.page.goto(address)
     tab.page.get_by_label("Code").fill(code)
     tab.page.get_by_label("Your name").fill(name)
@@ -162,3 +163,59 @@ def a_drag_that_is_cut_off_is_one_step(
 
 def press_in_bar(tab: StudioPage, name: str) -> None:
     bar(tab).get_by_role("button", name=name).click()
+
+
+_CAMERA = "frame => frame.contentWindow.studio3d?.getCamera()"
+
+
+def camera(tab: StudioPage) -> list[float]:
+    """Its eye and what it looks at, in the root frame."""
+    pose = tab.page.locator("iframe").evaluate(_CAMERA)
+    return [*pose["position"], *pose["target"]]
+
+
+def same_camera(one: StudioPage, other: StudioPage) -> bool:
+    return all(abs(a - b) < 1e-4 for a, b in zip(camera(one), camera(other), strict=True))
+
+
+def orbit(tab: StudioPage, x_px: float) -> None:
+    """Drag the ground of the 3D view."""
+    box = tab.page.locator("iframe").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] * 0.85, box["y"] + box["height"] * 0.3
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x + x_px, y + 30, steps=5)
+    tab.page.mouse.up()
+
+
+def test_a_student_follows_camera_selection_and_panel_explores_and_is_brought_back(
+    browser: Browser, served: Served
+):
+    address = served.addresses["directly"]
+    with tab(browser) as presenter, tab(browser) as ada:
+        presenter.open(f"{address}?token={served.studio.token}")
+        join(ada, address, "Follower", served.studio.class_code, view=True)
+        wait_until("the robot to be drawn", ada.has_drawn_robot)
+        orbit(presenter, 120)
+        wait_until("the same camera", lambda: same_camera(presenter, ada))
+        presenter.page.get_by_role("treeitem", name="mast", exact=True).click()
+        row = ada.page.get_by_role("treeitem", name="mast", exact=True)
+        wait_until("the selection", lambda: row.get_attribute("aria-selected") == "true")
+        presenter.page.get_by_role("tab", name="Joints").click()
+        joints = ada.page.get_by_role("tab", name="Joints")
+        wait_until("the panel", lambda: joints.get_attribute("aria-selected") == "true")
+        bar(ada).get_by_text("Following the presenter").wait_for()
+        orbit(ada, -80)
+        bar(ada).get_by_text("You are exploring").wait_for()
+        orbit(presenter, 60)
+        assert not same_camera(presenter, ada)
+        press_in_bar(ada, "Follow the presenter")
+        wait_until("the same camera again", lambda: same_camera(presenter, ada))
+        orbit(ada, -80)
+        bar(ada).get_by_text("You are exploring").wait_for()
+        presenter.page.keyboard.press("Control+K")
+        presenter.page.keyboard.type("Bring everybody here")
+        presenter.page.keyboard.press("Enter")
+        wait_until("everybody here", lambda: same_camera(presenter, ada))
+        assert presenter.errors == ada.errors == []

@@ -38,7 +38,7 @@ VIEWER_COMMANDS = {
         "get_node",
     ),
     *("list_topics", "get_topic_ends"),
-    "set_name",
+    *("set_name", "follow"),
 }
 """What everybody may who sees the page."""
 STUDENT_COMMANDS = {"ask_control", "return_control", "raise_hand", "stop_robot"}
@@ -46,6 +46,7 @@ HELPER_COMMANDS = {"give_control", "take_control", "lower_hand"}
 PRESENTER_COMMANDS = {
     *("start_class", "pause_class", "end_class", "set_class", "renew_code"),
     *("set_member_role", "remove_member", "readmit_member"),
+    *("lead", "gather_all", "show_view", "show_focus"),
     *("open_path", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),
     *("list_recent", "forget_recent", "list_examples", "list_places", "open_recent"),
     *("open_example", "new_robot", "new_untitled", "save_as", "save_copy", "choose_package"),

@@ -92,6 +92,8 @@ FIELDS: dict[str, object] = {
     "replacement": "x",
     "changes": [{"start": 0, "end": 0, "text": "x"}],
     "positions": {},
+    "eye": [0, 0, 0],
+    "target": [0, 0, 0],
     "running": True,
     "display": "grid",
     "template": "rover",
@@ -111,6 +113,7 @@ FIELDS: dict[str, object] = {
     "subject": "graph",
     "pressed": "up",
     "person": "x",
+    **dict.fromkeys(("leading", "following"), True),
     "role": "student",
 }
 """A value for each field that a command needs."""

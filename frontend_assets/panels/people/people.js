@@ -5,7 +5,7 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
-import { EmptyState, Icon, IconButton, MenuButton, SearchBox } from "../../lib/ui.js";
+import { EmptyState, Icon, IconButton, MenuButton, SearchBox, Switch } from "../../lib/ui.js";
 import {
   classState,
   control,
@@ -18,6 +18,7 @@ import {
   takeControl,
 } from "../../model/class.js";
 import { role } from "../../model/connection.js";
+import { gatherAll, lead, leading } from "../../model/following.js";
 import { dialog } from "../../model/view.js";
 import { listed } from "./listing.js";
 
@@ -46,8 +47,16 @@ function Content() {
     }
     <p class="people-count" role="status">${t("people.count", { here: state.members.filter(({ here }) => here).length, all: state.members.length })}${state.viewers > 0 ? ` ${t("people.viewers", { count: state.viewers })}` : ""}</p>
     ${state.members.some(({ hand_s: raised }) => raised != null) && html`<button type="button" class="button small" onClick=${() => lowerHand()}>${t("people.lower_all")}</button>`}
+    ${role.value === "presenter" && html`<${Guiding} />`}
     ${rows.length === 0 && html`<p class="note">${t(state.members.length > 0 ? "people.none_found" : "people.none")}</p>`}
     <ul class="people-list">${rows.map((member) => html`<${Person} key=${member.person} member=${member} />`)}</ul></div>`;
+}
+
+/** Whether the others see what the presenter looks at. */
+function Guiding() {
+  return html`<div class="people-guiding"><span>${t("people.leading")}<small>${t("people.leading.hint")}</small></span>
+    <${Switch} label=${t("people.leading")} checked=${leading.value} onChange=${lead} /></div>
+    <button type="button" class="button small" onClick=${gatherAll}><${Icon} name="users" size=${14} />${t("command.gather_all")}</button>`;
 }
 
 function NotLeading() {
@@ -67,11 +76,13 @@ function Person({ member }) {
   const { name, here, removed } = member;
   const holds = control.value.holder === member.person;
   const state = removed ? "removed" : here ? "here" : "away";
+  const looks = t(member.follows ? "people.follows" : "people.explores");
   return html`<li class=${`person ${state} ${holds ? "holds" : ""}`}>
     <span class="person-dot" role="img" aria-label=${t(`people.${state}`)} title=${t(`people.${state}`)}></span>
     <span class="person-name" title=${name}>${name}</span>
     ${member.role !== "student" && html`<span class="person-role">${t(`class.role.${member.role}`)}</span>`}
     ${member.hand_s != null && html`<${IconButton} icon="hand" size=${14} class="person-hand" label=${t("people.lower", { name })} onClick=${() => lowerHand(member.person)} />`}
+    ${here && leading.value && html`<span class="person-looks" role="img" aria-label=${looks} title=${looks}><${Icon} name=${member.follows ? "watching" : "compass"} size=${14} /></span>`}
     <span class="push"></span>
     ${removed ? html`<${Removed} member=${member} />` : html`<${Control} member=${member} holds=${holds} />`}
     ${role.value === "presenter" && !removed && html`<${MenuButton} label=${t("people.menu", { name })} items=${() => itemsOf(member)}><${Icon} name="dots" size=${14} /><//>`}</li>`;

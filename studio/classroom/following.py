@@ -1,0 +1,99 @@
+"""What the presenter looks at, for all who follow: camera and pointer, selection and panel."""
+
+from __future__ import annotations
+
+import math
+import struct
+from typing import TYPE_CHECKING, Final
+
+from studio.protocol.classroom import Focus, Gather, Leading
+from studio.protocol.listeners import Audience, encode, send
+
+if TYPE_CHECKING:
+    from studio.protocol.classroom import ShowFocus, ShowView
+    from studio.protocol.listeners import Listener
+
+VIEW: Final = 2
+"""First byte of the frame; 1 are joints."""
+_FRAME: Final = struct.Struct("<B7x9f")
+_NOWHERE: Final = (math.nan,) * 3
+_KEY: Final = "view"
+
+
+class Following:
+    """Used on the event loop only."""
+
+    def __init__(self) -> None:
+        self.leading = True
+        self._followers: dict[Listener, None] = {}
+        self._everybody = Audience()
+        self._leader: Listener | None = None
+        """Whose view was shown last."""
+        self._view = b""
+        self._focus: Focus | None = None
+
+    def attach(self, listener: Listener) -> None:
+        """Tell a new page whether the presenter leads."""
+        self._everybody.add(listener)
+        send(listener, Leading(leading=self.leading))
+
+    def detach(self, listener: Listener) -> None:
+        """Forget a page."""
+        self._everybody.remove(listener)
+        self._followers.pop(listener, None)
+        if self._leader is listener:
+            self._leader = None
+
+    def lead(self, *, leading: bool) -> None:
+        """Show others what the presenter looks at, or no longer."""
+        self.leading = leading
+        if not leading:
+            self._view, self._focus, self._leader = b"", None, None
+        self._everybody.send(Leading(leading=leading))
+
+    def gather(self) -> None:
+        """Bring everybody to what the presenter looks at."""
+        self.lead(leading=True)
+        self._everybody.send(Gather())
+
+    def follow(self, listener: Listener, *, following: bool) -> bool:
+        """Show a page what the presenter looks at, or no longer; return whether that is new."""
+        is_new = following != (listener in self._followers)
+        if not following:
+            self._followers.pop(listener, None)
+            return is_new
+        self._followers[listener] = None
+        if self._focus is not None:
+            send(listener, self._focus)
+        if self._view:
+            listener.post(self._view, binary=True, key=_KEY)
+        return is_new
+
+    def is_following(self, listener: Listener) -> bool:
+        """Whether a page follows."""
+        return listener in self._followers
+
+    def show_view(self, leader: Listener, command: ShowView) -> None:
+        """Show camera and pointer to all who follow."""
+        if not self.leading:
+            return
+        self._leader = leader
+        numbers = (*command.eye, *command.target, *(command.pointer or _NOWHERE))
+        self._view = _FRAME.pack(VIEW, *numbers)
+        for page in self._others(leader):
+            page.post(self._view, binary=True, key=_KEY)
+
+    def show_focus(self, leader: Listener, command: ShowFocus) -> None:
+        """Show what is selected, pointed at and open to all who follow."""
+        if not self.leading:
+            return
+        self._leader = leader
+        self._focus = Focus.model_validate(
+            {name: getattr(command, name) for name in Focus.model_fields if name != "type"}
+        )
+        data = encode(self._focus)
+        for page in self._others(leader):
+            page.post(data, key="focus")
+
+    def _others(self, leader: Listener) -> list[Listener]:
+        return [page for page in self._followers if page is not leader]

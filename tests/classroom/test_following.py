@@ -1,0 +1,85 @@
+from __future__ import annotations
+
+import math
+import struct
+
+from studio.classroom.following import Following
+from studio.protocol.classroom import ShowFocus, ShowView
+from studio.protocol.roles import Role
+from tests.support.open_documents import Ear
+
+VIEW = ShowView(eye=(1, 2, 3), target=(4, 5, 6), pointer=(7, 8, 9))
+
+
+def floats(frame: bytes) -> tuple[float, ...]:
+    assert (frame[0], len(frame)) == (2, 44)
+    return struct.unpack_from("<9f", frame, 8)
+
+
+def pair() -> tuple[Following, Ear, Ear]:
+    """A presenter's page and a student's, which follows."""
+    made, presenter, student = Following(), Ear(), Ear(Role.STUDENT)
+    for page in (presenter, student):
+        made.attach(page)
+    assert made.follow(student, following=True)
+    return made, presenter, student
+
+
+def test_who_follows_sees_camera_and_pointer_and_nobody_else_does():
+    made, presenter, student = pair()
+    other = Ear(Role.STUDENT)
+    made.attach(other)
+    made.show_view(presenter, VIEW)
+    made.show_view(presenter, VIEW.model_copy(update={"pointer": None}))
+    first, second = map(floats, student.frames)
+    assert first == (1, 2, 3, 4, 5, 6, 7, 8, 9)
+    assert all(map(math.isnan, second[6:]))
+    assert other.frames == presenter.frames == []
+
+
+def test_who_comes_later_sees_at_once_where_the_presenter_is():
+    made, presenter, _ = pair()
+    made.show_view(presenter, VIEW)
+    made.show_focus(presenter, ShowFocus(document="rover", part="link:mast", panel="joints"))
+    late = Ear(Role.GUEST)
+    made.attach(late)
+    made.follow(late, following=True)
+    assert floats(late.frames[0])[:3] == (1, 2, 3)
+    assert late.last("focus") == {
+        "type": "focus",
+        "document": "rover",
+        "part": "link:mast",
+        "site": "",
+        "panel": "joints",
+    }
+
+
+def test_who_explores_sees_nothing_until_they_come_back():
+    made, presenter, student = pair()
+    assert made.follow(student, following=False)
+    assert not made.follow(student, following=False)
+    made.show_view(presenter, VIEW)
+    assert student.frames == []
+    made.follow(student, following=True)
+    assert len(student.frames) == 1
+
+
+def test_nobody_is_led_while_the_presenter_does_not_lead_and_all_are_gathered_at_once():
+    made, presenter, student = pair()
+    made.show_view(presenter, VIEW)
+    made.lead(leading=False)
+    made.show_view(presenter, VIEW)
+    made.show_focus(presenter, ShowFocus(part="link:mast"))
+    assert len(student.frames) == 1
+    assert student.last("leading")["leading"] is False
+    made.gather()
+    assert student.last("gather") == {"type": "gather"}
+    assert student.last("leading")["leading"] is True
+
+
+def test_a_page_that_is_gone_is_sent_nothing():
+    made, presenter, student = pair()
+    made.detach(student)
+    made.detach(presenter)
+    made.show_view(presenter, VIEW)
+    assert student.frames == []
