@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
+    classroom,
     data_images,
     data_lane,
     displays,
@@ -39,6 +40,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "pixels": edit_to_pixels.run,
     "drag": drag.run,
     "fanout": fan_out.run,
+    "classroom": classroom.run,
     "live": live_scene.run,
     "clouds": live_clouds.run,
     "meshes": meshes_to_websocket.run,
