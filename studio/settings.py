@@ -14,6 +14,8 @@ DEFAULT_PORT = 8765
 LOOPBACK_HOSTS = frozenset({"127.0.0.1", "localhost", "::1"})
 
 XACRO_MEMORY_BYTES = 1 << 30
+SHARED_MEMORY_BYTES = 256 << 20
+"""Of each evaluator that the copies of a class share."""
 ROBOT_MEMORY_BYTES = 4 << 30
 EXPANSION_TIMEOUT_S = 2.8
 """The parent's time for a run of short files; the evaluator's own of 2 s ends sooner."""

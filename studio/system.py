@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 _WATCH_INTERVAL_S = 0.2
 _DESCRIPTORS = 16_384
+_NICE = 15
 
 
 def limit_memory(limit_bytes: int) -> None:
@@ -52,6 +53,12 @@ def is_running(pid: int) -> bool:
     except PermissionError:  # it is another user's
         return True
     return True
+
+
+def let_others_go_first() -> None:
+    """Take the processor only where nobody else wants it."""
+    if hasattr(os, "nice"):
+        os.nice(_NICE)
 
 
 def raise_descriptor_limit() -> None:

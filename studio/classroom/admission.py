@@ -6,6 +6,7 @@ import asyncio
 import hashlib
 import hmac
 import secrets
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Final
 
 from studio.classroom.record import new_code, new_link
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from studio.protocol.classroom import JoinRole
 
 _SALT_BYTES: Final = 16
+_hashing: Final = ThreadPoolExecutor(max_workers=1, thread_name_prefix="passwords")
 _SCRYPT: Final = {"n": 1 << 14, "r": 8, "p": 1}
 """Some 50 ms of a processor and 16 MiB: OWASP's least for scrypt."""
 
@@ -79,7 +81,9 @@ def _same(given: str, wanted: str) -> bool:
 
 
 async def _hashed(password: str, salt: bytes) -> str:
+    """Hash in a thread of its own: that of others shall not wait for a crowd that guesses."""
+
     def work() -> str:
         return hashlib.scrypt(password.encode(), salt=salt, **_SCRYPT).hex()
 
-    return await asyncio.to_thread(work)
+    return await asyncio.get_running_loop().run_in_executor(_hashing, work)

@@ -46,7 +46,7 @@ from studio.protocol.listeners import Audience, encode, send
 from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Awaitable, Callable
     from pathlib import Path
 
     from studio.classroom.members import Member
@@ -79,8 +79,8 @@ class Reach:
 class Robot(Protocol):
     """What a person in control can have set going."""
 
-    def release(self, person: str, /) -> None:
-        """End what a person steers and publishes: control is no longer theirs."""
+    def release(self, may_go_on: Callable[[str], bool], /) -> None:
+        """End what persons steer and publish, but those who have control now."""
         ...
 
     async def stop(self) -> None:
@@ -99,12 +99,19 @@ class Classroom:
     def __init__(self, file: Path | None = None, reach: Reach | None = None) -> None:
         self.reach = reach or Reach()
         self._file = ClassFile(file)
+        self.folder = None if file is None else file.with_suffix("")
+        """Where others may keep what is deleted with the class."""
         kept = self._file.read()
         self.control = Control(self._control_changed)
         self.members = Members(bytes.fromhex(kept.key), self.control)
         self.members.restore(kept.members)
         self.admission = Admission(kept)
+        self.admission.open = kept.open and not self.reach.why_not
         self.robot: Robot | None = None
+        self.on_control: Callable[[str], object] | None = None
+        """Called with the document that a member has control of now."""
+        self.on_end: Callable[[], Awaitable[None]] | None = None
+        """Deletes what others keep of the class."""
         self.end_pages: Callable[[str], object] = lambda person: None
         """Ends all connections of a person."""
         self._pages: dict[str, set[Listener]] = {}
@@ -123,6 +130,11 @@ class Classroom:
         """Return who comes with this cookie, while the class is open to them."""
         return self.members.of_cookie(given) if self.admission.open else None
 
+    def is_sent_out(self, given: str) -> bool:
+        """Whether this is the cookie of somebody who was sent out."""
+        member = self.members.any_of_cookie(given)
+        return member is not None and member.removed
+
     async def join(self, name: str, code: str, password: str, cookie: str) -> Member:
         """Add a person.
 
@@ -138,8 +150,10 @@ class Classroom:
         before = self.members.any_of_cookie(cookie)
         if before is not None and before.removed:
             raise NotJoiningError("removed", "You were sent out of this class: ask to be let in.")
-        self.admission.check_code(code)
-        await self.admission.check_password(password)
+        admission = self.admission
+        admission.check_code(code)
+        await admission.check_password(password)
+        self.admission.check_code(code)  # the class may have ended meanwhile
         if before is not None:
             return before
         try:
@@ -152,11 +166,16 @@ class Classroom:
 
     def _add(self, name: str) -> Member:
         if len(self.members) >= MEMBERS_MAX:
-            gone = next((one for one in self.members if not self._is_here(one.person)), None)
+            gone = next(filter(self._may_be_dropped, self.members), None)
             if gone is None:
                 raise NotJoiningError("full", f"The class is full: {MEMBERS_MAX} people are here.")
             self.members.drop(gone)
+            self.end_pages(gone.person)
         return self.members.add(name, Role(self.admission.join_as))
+
+    def _may_be_dropped(self, one: Member) -> bool:
+        """Whether a place may be taken: who was sent out, or helps, is always known again."""
+        return not (one.removed or one.role is Role.HELPER or self._is_here(one.person))
 
     # Pages that come and go
 
@@ -208,9 +227,9 @@ class Classroom:
         """Let nobody in for a while; those who are here are sent away."""
         self.admission.open = False
         self.control.give("")
-        await self._keep()
         self._all_changed()
         self._end_all_pages()
+        await self._keep()
 
     async def end(self) -> None:
         """End the class, and delete all that is kept of it."""
@@ -218,10 +237,12 @@ class Classroom:
         self.control.give("")
         people = [one.person for one in self.members]
         self.members.clear()
-        await self._file.delete()
         self._all_changed()
         for person in people:
             self.end_pages(person)
+        await self._file.delete()
+        if self.on_end is not None:
+            await self.on_end()
 
     async def set(self, command: SetClass) -> None:
         """Change how others join."""
@@ -267,9 +288,9 @@ class Classroom:
         member.asks_s = member.hand_s = None
         if self.control.holder == person:
             self.control.give("")
-        await self._keep()
         self._changed()
         self.end_pages(person)
+        await self._keep()
 
     async def readmit(self, person: str) -> None:
         """Let a person in again."""
@@ -313,8 +334,8 @@ class Classroom:
         member.asks_s = now_s() if asking else None
         self._tell(person)
 
-    def give_control(self, person: str) -> None:
-        """Give control to a person who is here; empty: back to the presenter.
+    def give_control(self, person: str, document: str = "") -> None:
+        """Give control of a document and of ROS to a person; empty: back to the presenter.
 
         Raises:
             CommandError: They are not here, or only look.
@@ -326,11 +347,11 @@ class Classroom:
             if not member.role.includes(Role.STUDENT):
                 raise CommandError(f"{member.name} only looks: make them a student first.")
             member.asks_s = None
-        self.control.give(person)
+        self.control.give(person, document)
 
-    def take_control(self, asker: Listener) -> None:
+    def take_control(self, asker: Listener, document: str = "") -> None:
         """Take control: for the presenter, or for a helper."""
-        self.give_control("" if asker.role is Role.PRESENTER else asker.person)
+        self.give_control("" if asker.role is Role.PRESENTER else asker.person, document)
 
     def return_control(self, person: str) -> None:
         """Give control back, if one has it."""
@@ -345,8 +366,12 @@ class Classroom:
         self._everybody.send(Stopped(name=member.name if member else ""))
 
     def _control_changed(self, before: str) -> None:
+        holder = self.control.holder
         if self.robot is not None:
-            self.robot.release(before)
+            # All presenters are one; of a member who had it, only theirs ends.
+            self.robot.release(lambda one: one == holder if holder else one != before)
+        if self.on_control is not None and holder:
+            self.on_control(self.control.document)
         self._everybody.send(self._control_event())
         for person in (before, self.control.holder):
             self._tell(person)
@@ -378,8 +403,6 @@ class Classroom:
         if person:
             for page in tuple(self._pages.get(person, ())):
                 send(page, self._you(person, page.role))
-                if page.role.includes(Role.HELPER):
-                    send(page, self._state())
         else:
             for page in self._leaders():
                 if page.role is Role.PRESENTER:
@@ -494,9 +517,11 @@ COMMANDS.presenter(RenewCode, lambda room, _, __: room.renew_code())
 COMMANDS.presenter(SetMemberRole, lambda room, c, _: room.set_role(c))
 COMMANDS.presenter(RemoveMember, lambda room, c, _: room.remove(c.person))
 COMMANDS.presenter(ReadmitMember, lambda room, c, _: room.readmit(c.person))
-COMMANDS.helper(GiveControl, lambda room, c, _: room.give_control(c.person))
-COMMANDS.helper(TakeControl, lambda room, _, who: room.take_control(who))
-COMMANDS.helper(LowerHand, lambda room, c, _: room.lower_hands(c.person))
+COMMANDS.helper(
+    GiveControl, lambda room, c, _: room.give_control(c.person, c.document), limits=_OFTEN
+)
+COMMANDS.helper(TakeControl, lambda room, c, who: room.take_control(who, c.document), limits=_OFTEN)
+COMMANDS.helper(LowerHand, lambda room, c, _: room.lower_hands(c.person), limits=_OFTEN)
 COMMANDS.viewer(SetName, lambda room, c, who: room.rename(who.person, c.name), limits=_OFTEN)
 COMMANDS.student(
     AskControl,

@@ -22,6 +22,10 @@ class Control:
     def __init__(self, on_change: Callable[[str], object]) -> None:
         self._on_change = on_change
         self._holder = ""
+        self.document = ""
+        """The shared document that the holder has control of."""
+        self.shown = ""
+        """The copy that everybody may see; empty: none."""
         self._absence: asyncio.TimerHandle | None = None
 
     @property
@@ -29,11 +33,12 @@ class Control:
         """The person who has it; empty: the presenter."""
         return self._holder
 
-    def give(self, person: str) -> None:
-        """Give it to a person; empty: back to the presenter."""
+    def give(self, person: str, document: str = "") -> None:
+        """Give it to a person, of one document; empty: back to the presenter."""
         self.back(self._holder)
         if person != self._holder:
             before, self._holder = self._holder, person
+            self.document = document
             self._on_change(before)
 
     def left(self, person: str) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError
 from studio.protocol.classroom import NAME_MAX, MemberView
-from studio.protocol.roles import Role
+from studio.protocol.roles import Role, owner_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -33,9 +33,20 @@ class Member:
         self._control = control
 
     def controls(self, document: str) -> bool:
-        """Whether they have control of the shared robot and of ROS."""
-        del document
-        return not self.removed and self._control.holder == self.person
+        """Whether they have control: of a copy of their own, or of all that is shared."""
+        if self.removed:
+            return False
+        if owner := owner_of(document):
+            return owner == self.person
+        holds = self._control.holder == self.person
+        return holds and document in {"", self._control.document}
+
+    def sees(self, document: str) -> bool:
+        """Whether they may look at a document."""
+        owner = owner_of(document)
+        if owner in {"", self.person} or self.role.includes(Role.HELPER):
+            return True
+        return self._control.shown == document
 
     def view(self, *, here: bool, follows: bool) -> MemberView:
         """Return the member as presenters see them."""

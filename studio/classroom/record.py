@@ -50,13 +50,13 @@ class ClassRecord(_Kept):
     """What is kept of a class."""
 
     open: bool = False
-    code: str = Field(default_factory=new_code)
-    link: str = Field(default_factory=new_link)
+    code: str = Field(default_factory=new_code, pattern=r"^[A-Z]{6}$")
+    link: str = Field(default_factory=new_link, min_length=16)
     locked: bool = False
-    password: str = ""
+    password: str = Field(default="", pattern=r"^([0-9a-f]{32}\.[0-9a-f]{128})?$")
     """Salt and hash (scrypt), in hex; empty: none is asked for."""
     join_as: JoinRole = "student"
-    key: str = Field(default_factory=lambda: secrets.token_hex(32))
+    key: str = Field(default_factory=lambda: secrets.token_hex(32), pattern=r"^[0-9a-f]{64}$")
     """Signs the members' cookies, in hex."""
     members: tuple[MemberRecord, ...] = ()
 

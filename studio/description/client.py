@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.description.expressions.bounds import reading_time_s
-from studio.description.requests import CODEC, REPLIES
+from studio.description.requests import CODEC, REPLIES, SHARED
 from studio.description.values import (
     ArgumentsRequest,
     EditRequest,
@@ -36,8 +36,10 @@ class DescriptionWorker:
     unsaved ones before anything else.
     """
 
-    def __init__(self, timeout_s: float = EXPANSION_TIMEOUT_S) -> None:
-        self._worker = Worker("xacro", "studio.description.worker", CODEC)
+    def __init__(self, timeout_s: float = EXPANSION_TIMEOUT_S, *, is_shared: bool = False) -> None:
+        """Make one with this limit of time; a shared one has less memory, and others go first."""
+        more = (SHARED,) if is_shared else ()
+        self._worker = Worker("xacro", "studio.description.worker", CODEC, *more)
         self._timeout_s = timeout_s
         self._entry = ""
         self._files: tuple[str, ...] = ()

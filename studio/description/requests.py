@@ -39,6 +39,8 @@ Query: TypeAlias = PartOriginQuery | SiteEffectsQuery | CheckQuery | LanguageQue
 Reply: TypeAlias = PartOrigin | SiteEffects | Checked | NoReply | LanguageReply
 QUERIES: Final = (PartOriginQuery, SiteEffectsQuery, CheckQuery, *LANGUAGE_QUERIES)
 REPLIES: Final = (PartOrigin, SiteEffects, Checked, NoReply, *LANGUAGE_REPLIES)
+SHARED: Final = "shared"
+"""Argument of a worker that many documents share."""
 CODEC = Codec(
     OpenRequest,
     EditRequest,

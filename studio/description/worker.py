@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from studio.description.requests import CODEC
+import sys
+
+from studio.description.requests import CODEC, SHARED
 from studio.description.session import OpenSession
-from studio.settings import XACRO_MEMORY_BYTES
+from studio.settings import SHARED_MEMORY_BYTES, XACRO_MEMORY_BYTES
+from studio.system import let_others_go_first
 from studio.worker_process import serve
 
 
 def main() -> None:
     """Serve until the pipe closes."""
-    serve(CODEC, OpenSession().answer, XACRO_MEMORY_BYTES)
+    limit_bytes = XACRO_MEMORY_BYTES
+    if SHARED in sys.argv[1:]:
+        limit_bytes = SHARED_MEMORY_BYTES
+        let_others_go_first()
+    serve(CODEC, OpenSession().answer, limit_bytes)
 
 
 if __name__ == "__main__":

@@ -53,6 +53,7 @@ from studio.documents.variants.second_robot import Ghost, SecondRobots
 from studio.documents.variants.variants import COMMANDS as VARIANT_COMMANDS
 from studio.documents.variants.variants import NamedVariants
 from studio.documents.workspace import Workspace
+from studio.errors import CommandError
 from studio.live.connection.feed import COMMANDS as FEED_COMMANDS
 from studio.live.connection.feed import RobotFeed
 from studio.live.connection.opened_types import take_types
@@ -177,6 +178,15 @@ class Document:
         """Whether any text differs from the disk."""
         return bool(self.sources.unsaved_files)
 
+    @property
+    def mesh_files(self) -> tuple[Path, ...]:
+        """The files of all meshes in use."""
+        return tuple(map(Path, self._meshes.files))
+
+    def put_joints(self, positions: Mapping[str, float]) -> None:
+        """Have the joints stand so once the robot is there."""
+        self._spawn("joints", self._put_joints(positions))
+
     def packages_used(self) -> dict[str, str]:
         """Return each package that the last run or a mesh used, and its folder."""
         return self.workspace.packages_of((*self.last_run.files, *self._meshes.files))
@@ -264,6 +274,11 @@ class Document:
 
     async def _take_types(self) -> None:
         self.findings.replace("types", await asyncio.to_thread(take_types, self.location))
+
+    async def _put_joints(self, positions: Mapping[str, float]) -> None:
+        await self.opened()
+        with contextlib.suppress(CommandError):  # something moves them already
+            self.motion.set(positions)
 
     async def _sweep(self) -> None:
         await self.opened()  # then it is known which files it reads

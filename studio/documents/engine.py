@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Final
 from studio.classroom.classroom import COMMANDS as CLASS_COMMANDS
 from studio.classroom.classroom import Classroom
 from studio.documents.arguments import form_at, form_of
+from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
+from studio.documents.copies.copies import Copies
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
 from studio.documents.left_work import LeftDrafts
@@ -31,6 +33,7 @@ from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
 from studio.protocol.commands import Answer, AtMostOnce, CommandRates, Commands, Scope
+from studio.protocol.displays import AddDisplay, DuplicateDisplay, RemoveDisplay
 from studio.protocol.documents import (
     Arguments,
     CloseDocument,
@@ -50,8 +53,11 @@ from studio.protocol.documents import (
     OpenPath,
     Watch,
 )
+from studio.protocol.edits import EditSite
 from studio.protocol.listeners import Audience, send
-from studio.protocol.saving import ForgetWork
+from studio.protocol.roles import owner_of
+from studio.protocol.saving import ForgetWork, Reload, ResolveCollisions, Save
+from studio.protocol.texts import EditText, Rename, ReplaceTexts
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -62,6 +68,10 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
+_NOT_FOR_COPIES: Final = frozenset(
+    (Save, Reload, ResolveCollisions, AddDisplay, RemoveDisplay, DuplicateDisplay)
+)
+"""What writes files of the original, or adds to what the class sees."""
 
 
 class Engine:
@@ -82,6 +92,7 @@ class Engine:
         self.ros = RosSystem(wire)
         self.classroom = classroom or Classroom()
         self.classroom.robot = self.ros
+        self.copies = Copies(self.classroom.folder, self, self._services, self.classroom)
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
@@ -101,6 +112,7 @@ class Engine:
         await self._rejoining.close()
         await self.classroom.close()
         await asyncio.gather(self.left_work.close(), self.ros.close())
+        await self.copies.close()
         documents, self.documents = tuple(self.documents.values()), {}
         await asyncio.gather(*(document.close() for document in documents), self._services.close())
 
@@ -112,6 +124,7 @@ class Engine:
         self._services.wire.attach(listener)
         self.ros.attach(listener)
         self.classroom.attach(listener)
+        self.copies.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""
@@ -120,6 +133,7 @@ class Engine:
         self._services.wire.detach(listener)
         self.ros.detach(listener)
         self.classroom.detach(listener)
+        self.copies.detach(listener)
         if document := self._watching.pop(listener, None):
             document.audience.remove(listener)
 
@@ -129,10 +143,31 @@ class Engine:
         Raises:
             UnknownDocumentError: There is none.
         """
+        if owner_of(name):
+            return self.copies.document(name)
         try:
             return self.documents[name]
         except KeyError:
             raise UnknownDocumentError(name) from None
+
+    def check(self, name: str) -> None:
+        """Pass if a document of that id is open, or a copy that rests.
+
+        Raises:
+            UnknownDocumentError: There is none.
+        """
+        if owner_of(name):
+            self.copies.check(name)
+        else:
+            self.document(name)
+
+    async def ready(self, name: str) -> Document:
+        """Return the document of that id; a copy that rests is opened.
+
+        Raises:
+            StudioError: There is none, or its files are gone.
+        """
+        return await self.copies.ready(name) if owner_of(name) else self.document(name)
 
     async def execute(self, command: Command, asker: Listener) -> None:
         """Carry out one command and answer it; whether the asker may was decided at the door.
@@ -149,7 +184,20 @@ class Engine:
         self._rates.spend(asker.person, entry)
         if entry.needs_router:
             self.ros.check_router()
+        if owner_of(command.document) and entry.permission.needs_control:
+            self._check_copy(command)
         return await COMMANDS.carry_out(self, command, asker)
+
+    def _check_copy(self, command: Command) -> None:
+        """Pass if a copy can have this done.
+
+        Raises:
+            CommandError: Only a shared document can, or the copy is full.
+        """
+        if type(command) in _NOT_FOR_COPIES:
+            raise CommandError("A copy is not saved and has the displays of the class: hand it in.")
+        if isinstance(command, EditText | EditSite | ReplaceTexts | Rename):
+            self.copies.check_room(command.document)
 
     async def open_path(
         self, path: Path, arguments: dict[str, str], progress: Progress | None = None
@@ -250,8 +298,9 @@ class Engine:
         names = [base, *(f"{base}-{number}" for number in range(2, _DOCUMENT_LIMIT + 2))]
         return next(name for name in names if name not in self.documents)
 
-    def watch(self, document: Document, listener: Listener) -> None:
+    async def watch(self, name: str, listener: Listener) -> None:
         """Send a listener the events of one document, and of no other."""
+        document = await self.ready(name)
         if before := self._watching.pop(listener, None):
             before.audience.remove(listener)
         self._watching[listener] = document
@@ -308,7 +357,7 @@ def _link_to(engine: Engine, command: GetLink) -> Link:
 
 COMMANDS: Final = Commands[Engine](Scope.STUDIO)
 """Every command of the studio."""
-COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(engine.document(c.document), who))
+COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(c.document, who))
 COMMANDS.presenter(OpenPath, lambda engine, c, _: engine.open_served(c))
 COMMANDS.presenter(
     CloseDocument,
@@ -320,6 +369,7 @@ COMMANDS.presenter(GetArguments, lambda engine, c, _: engine.launch_form(c))
 COMMANDS.controller(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
 COMMANDS.presenter(OpenLink, lambda engine, c, _: engine.open_link(c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
+COMMANDS.include(COPY_COMMANDS, lambda engine, _: engine.copies)
 COMMANDS.include(CLASS_COMMANDS, lambda engine, _: engine.classroom)
 COMMANDS.include(LIBRARY_COMMANDS, lambda engine, _: engine.library)
 COMMANDS.include(ROBOT_COMMANDS, lambda engine, _: engine.wire_robots)

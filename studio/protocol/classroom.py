@@ -130,7 +130,8 @@ class StopRobot(Command):
     type: Literal["stop_robot"] = "stop_robot"
 
 
-Point: TypeAlias = tuple[float, float, float]
+_Metres: TypeAlias = Annotated[float, Field(ge=-1e9, le=1e9)]
+Point: TypeAlias = tuple[_Metres, _Metres, _Metres]
 """m, in the root frame of the robot."""
 
 

@@ -20,7 +20,7 @@ from enum import StrEnum
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
 
-from studio.errors import CommandError, NotAllowedError, NotInControlError
+from studio.errors import CommandError, NotAllowedError, NotInControlError, UnknownDocumentError
 from studio.protocol.message import Command, Event, type_of
 from studio.protocol.roles import Role
 
@@ -79,7 +79,10 @@ def may(person: Person | None, permission: Permission | None, document: str = ""
     """
     if person is None or permission is None or not person.role.includes(permission.role):
         return False
-    return not permission.needs_control or person.controls(document)
+    if not person.sees(document):
+        return False
+    concerned = document if permission.scope is Scope.DOCUMENT else ""
+    return not permission.needs_control or person.controls(concerned)
 
 
 def demand(person: Person | None, permission: Permission | None, document: str = "") -> None:
@@ -88,10 +91,13 @@ def demand(person: Person | None, permission: Permission | None, document: str =
     Raises:
         NotAllowedError: No person of that role may.
         NotInControlError: Somebody else has control.
+        UnknownDocumentError: It is a copy of somebody else's.
     """
     if may(person, permission, document):
         return
     name = permission.name if permission else "do this"
+    if person and not person.sees(document):
+        raise UnknownDocumentError(document)  # not even that there is one
     if person and permission and person.role.includes(permission.role):
         raise NotInControlError(person.role, name)
     raise NotAllowedError(person.role if person else "stranger", name)
@@ -182,9 +188,15 @@ class Commands(Generic[_Target]):
             limits=limits,
         )
 
-    def helper(self, message: type[_Command], work: Work[_Target, _Command]) -> None:
+    def helper(
+        self,
+        message: type[_Command],
+        work: Work[_Target, _Command],
+        *,
+        limits: Limits | None = None,
+    ) -> None:
         """Add a command for the presenter and those who help."""
-        self._add(message, work, Role.HELPER)
+        self._add(message, work, Role.HELPER, limits=limits)
 
     def presenter(
         self,

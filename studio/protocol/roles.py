@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
+from typing import Final, Protocol
 
 
 class Role(StrEnum):
@@ -28,6 +28,15 @@ class Role(StrEnum):
 _ORDER = tuple(Role)
 
 
+OWNER: Final = "~"
+"""In the id of a copy, between that of the document and the person whose it is."""
+
+
+def owner_of(document: str) -> str:
+    """Return the person whose copy a document is; empty: it is everybody's."""
+    return document.partition(OWNER)[2]
+
+
 class Person(Protocol):
     """A person with a role; `person` is the same for all of one browser, or of one token."""
 
@@ -42,7 +51,11 @@ class Person(Protocol):
         ...
 
     def controls(self, document: str) -> bool:
-        """Whether the person has control of a document; empty: of the shared robot and ROS."""
+        """Whether the person has control of a document; empty: of the ROS system."""
+        ...
+
+    def sees(self, document: str) -> bool:
+        """Whether the person may look at a document: a copy is private until it is shown."""
         ...
 
 
@@ -52,6 +65,16 @@ class HasControl(Protocol):
     @property
     def holder(self) -> str:
         """The person who has it; empty: the presenter."""
+        ...
+
+    @property
+    def document(self) -> str:
+        """The shared document that the holder has control of."""
+        ...
+
+    @property
+    def shown(self) -> str:
+        """The copy that everybody may see; empty: none."""
         ...
 
 
@@ -67,6 +90,19 @@ class Visitor:
     control: HasControl | None = field(default=None, compare=False)
 
     def controls(self, document: str) -> bool:
-        """Whether the person has control: that of the presenter is every presenter's."""
-        del document
-        return self.role is Role.PRESENTER and (self.control is None or not self.control.holder)
+        """Whether the person has control: that of the presenter is every presenter's.
+
+        Of documents that were lent to nobody they have it all the time.
+        """
+        if self.role is not Role.PRESENTER:
+            return False
+        control = self.control
+        if control is None or not control.holder:
+            return True
+        return document not in {"", control.document}
+
+    def sees(self, document: str) -> bool:
+        """Whether the person may look at a document."""
+        if not owner_of(document) or self.role is Role.PRESENTER:
+            return True
+        return self.control is not None and self.control.shown == document

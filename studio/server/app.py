@@ -55,6 +55,7 @@ def make_app(
         redirect_slashes=False,
         dependencies=[Depends(check_role)],
     )
+    app.state.root = front.base
     app.add_exception_handler(StudioError, _answer_error)
     app.add_exception_handler(HTTPException, _answer_http_error)
     classroom = engine.classroom
@@ -93,7 +94,8 @@ async def _answer_error(connection: Request | WebSocket, error: Exception) -> Re
         return _plain(error, status)
     if _wants_page(connection):
         missing = status is HTTPStatus.NOT_FOUND
-        return not_found_page() if missing else trouble_page(str(error), status)
+        root = connection.app.state.root
+        return not_found_page(root) if missing else trouble_page(str(error), status, root)
     return _plain(error, status)
 
 
@@ -101,7 +103,7 @@ async def _answer_http_error(request: Request | WebSocket, error: Exception) -> 
     """Answer for the router's own errors: no such address, no such method."""
     assert isinstance(error, HTTPException)
     if _wants_page(request) and error.status_code == HTTPStatus.NOT_FOUND:
-        return not_found_page()
+        return not_found_page(request.app.state.root)
     return JSONResponse({"kind": "HttpError", "reason": error.detail}, error.status_code)
 
 

@@ -15,6 +15,7 @@ import os
 import posixpath
 import re
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
@@ -152,8 +153,9 @@ class Assets:
 
     def words(self, language: str) -> dict[str, str]:
         """Return the page's texts in a language; none if there are none."""
-        asset = self.current().files.get(f"i18n/{language}.json")
-        return {} if asset is None else json.loads(asset.content)
+        if self._stamp is None:
+            self.current()
+        return _words(self._tree, language)
 
     def find(self, digest: str, path: str) -> tuple[Asset, bool] | None:
         """Return the file, and whether it is of that very tree (then it never changes)."""
@@ -163,6 +165,12 @@ class Assets:
         if asset is None:
             return None
         return asset, digest == self._tree.digest
+
+
+@lru_cache(maxsize=8)
+def _words(tree: Tree, language: str) -> dict[str, str]:
+    asset = tree.files.get(f"i18n/{language}.json")
+    return {} if asset is None else json.loads(asset.content)
 
 
 def _stamp(folder: Path) -> Stamp:

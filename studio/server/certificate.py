@@ -32,7 +32,7 @@ def own_certificate(folder: Path, names: Sequence[str]) -> tuple[Path, Path]:
         DataFolderError: They cannot be written.
     """
     certificate, key = folder / "tls.crt", folder / "tls.key"
-    if not (key.is_file() and _is_good(certificate, names)):
+    if not (_is_good(certificate, names) and _is_pair(certificate, key)):
         made, secret = _make(names)
         try:
             write_whole(key, secret, mode=0o600)
@@ -70,6 +70,14 @@ def check_pair(certificate: Path, key: Path) -> None:
             f"The studio cannot use the certificate {certificate} with the key {key} ({reason}): "
             "check --tls-cert and --tls-key."
         ) from error
+
+
+def _is_pair(certificate: Path, key: Path) -> bool:
+    try:
+        check_pair(certificate, key)
+    except SettingsError:
+        return False
+    return True
 
 
 def _is_good(certificate: Path, names: Sequence[str]) -> bool:

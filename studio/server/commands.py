@@ -121,6 +121,10 @@ class Answers:
         """Whether who asks has control."""
         return self._visitor.controls(document)
 
+    def sees(self, document: str) -> bool:
+        """Whether who asks may look at a document."""
+        return self._visitor.sees(document)
+
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Keep one event."""
         del key
@@ -160,6 +164,10 @@ class ControlLane:
     def controls(self, document: str) -> bool:
         """Whether its person has control."""
         return self._visitor.controls(document)
+
+    def sees(self, document: str) -> bool:
+        """Whether its person may look at a document."""
+        return self._visitor.sees(document)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Queue one message without waiting; of one `key` only the newest need arrive."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from http.cookies import CookieError, SimpleCookie
+from string import ascii_letters, digits
 from typing import TYPE_CHECKING, Final, Literal, Protocol
 
 from studio.protocol.roles import Role, Visitor
@@ -21,6 +21,9 @@ _MEMBER_LIFE_S: Final = 180 * 24 * 3600
 """A browser may be closed meanwhile; `End class` makes it worthless at once."""
 _JOINING_LIFE_S: Final = 600
 _JOINING_MAX: Final = 64
+_CODE_LETTERS: Final = frozenset(ascii_letters + digits + "-_")
+_HEADER_MAX: Final = 8 << 10
+"""Browsers send less to one host; of more nothing is read."""
 
 
 class KnowsMembers(Protocol):
@@ -33,6 +36,10 @@ class KnowsMembers(Protocol):
 
     def member_of_cookie(self, given: str, /) -> Person | None:
         """Return who comes with this cookie, while the class is open to them."""
+        ...
+
+    def is_sent_out(self, given: str, /) -> bool:
+        """Whether this is the cookie of somebody who was sent out."""
         ...
 
 
@@ -49,18 +56,27 @@ class Cookies:
         self._credentials, self._classroom, self._front = credentials, classroom, front
 
     def visitor(self, headers: Headers, caller: Caller) -> Person | None:
-        """Return who comes with these cookies: of several roles, the one that may most."""
+        """Return who comes with these cookies: of several roles, the one that may most.
+
+        Who was sent out of the class is nobody, and no guest either.
+        """
         jar = cookies(headers)
         if presenter := self._visitor(jar.get(self._name(caller, Role.PRESENTER.value))):
             return presenter
-        given = jar.get(self._name(caller, _MEMBER))
+        given = jar.get(self._name(caller, _MEMBER), "")
         if given and (member := self._classroom.member_of_cookie(given)):
             return member
+        if given and self._classroom.is_sent_out(given):
+            return None
         return self._visitor(jar.get(self._name(caller, Role.GUEST.value)))
 
     def of_role(self, role: Role) -> Visitor:
-        """Return the visitor who proved this role by a token."""
-        return Visitor(role, control=self._classroom.control)
+        """Return the visitor who proved this role by a token: one person for all with the same."""
+        return Visitor(role, f"token-{role.value}", self._classroom.control)
+
+    def is_sent_out(self, headers: Headers, caller: Caller) -> bool:
+        """Whether this browser is somebody's who was sent out of the class."""
+        return self._classroom.is_sent_out(self.member_cookie(headers, caller))
 
     def _visitor(self, given: str | None) -> Visitor | None:
         found = self._credentials.visitor_of_cookie(given) if given else None
@@ -81,7 +97,7 @@ class Cookies:
 
     def keep_code(self, response: Response, caller: Caller, code: str) -> None:
         """Keep the code of a link for the form, so that the address need not show it."""
-        kept = "".join(one for one in code[:_JOINING_MAX] if one.isalnum() or one in "-_")
+        kept = "".join(one for one in code[:_JOINING_MAX] if one in _CODE_LETTERS)
         self._set(response, caller, _JOINING, kept, site="lax", life_s=_JOINING_LIFE_S)
 
     def code(self, headers: Headers, caller: Caller) -> str:
@@ -122,13 +138,9 @@ class Cookies:
 
 
 def cookies(headers: Headers) -> dict[str, str]:
-    """Return all cookies; those of other programs on this host may be of any form."""
-    found: dict[str, str] = {}
-    for part in headers.get("cookie", "").split(";"):
-        jar: SimpleCookie = SimpleCookie()
-        try:
-            jar.load(part.strip())
-        except CookieError:
-            continue
-        found |= {name: morsel.value for name, morsel in jar.items()}
-    return found
+    """Return all cookies, of which ours are plain; those of other programs may be of any form."""
+    header = headers.get("cookie", "")
+    if len(header) > _HEADER_MAX:
+        return {}
+    pairs = (part.strip().partition("=") for part in header.split(";"))
+    return {name: value.strip('"') for name, _, value in pairs}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ipaddress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.errors import SettingsError
 from studio.server.origin import parse_authority
@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from starlette.types import Scope
 
     from studio.server.origin import Authority, KnownHosts
+
+
+_MAPPED: Final = "::ffff:"
+"""Before an IPv4 address that came to a socket of IPv6."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,16 +52,17 @@ class Front:
     def caller(self, scope: Scope, headers: Headers) -> Caller | None:
         """Return who asks; None if it is not us who is asked."""
         client = scope.get("client")
-        address = client[0] if client else ""
+        address = client[0].removeprefix(_MAPPED) if client else ""
         is_secure = scope["scheme"] in {"https", "wss"}
         is_passed_on = address in self._proxies and "x-forwarded-for" in headers
-        if not is_passed_on:
-            host = self._host(headers.getlist("host"))
-            return Caller(host, address, is_secure) if host else None
-        named = _last(headers, "x-forwarded-host")
-        host = parse_authority(named) if named else _only(headers.getlist("host"))
-        is_secure = _last(headers, "x-forwarded-proto") == "https" or is_secure
-        return Caller(host, self._farthest(headers, address), is_secure) if host else None
+        given = headers.getlist("host")
+        if is_passed_on:
+            named = _values(headers, "x-forwarded-host")[-1:]
+            given = named or given
+            is_secure = _values(headers, "x-forwarded-proto")[-1:] == ["https"] or is_secure
+            address = self._farthest(headers, address)
+        host = self._host(given)
+        return Caller(host, address, is_secure) if host else None
 
     def enter(self, scope: Scope) -> bool:
         """Take the sub-path off the address; False for the sub-path itself without its slash."""
@@ -76,8 +81,7 @@ class Front:
 
     def _farthest(self, headers: Headers, address: str) -> str:
         """Return the last address before our proxies; what comes before it may be made up."""
-        passed = [one.strip() for one in headers["x-forwarded-for"].split(",")]
-        for one in reversed(passed):
+        for one in reversed(_values(headers, "x-forwarded-for")):
             if one not in self._proxies:
                 return one[:64]
         return address
@@ -87,9 +91,11 @@ def _only(given: list[str]) -> Authority | None:
     return parse_authority(given[0]) if len(given) == 1 else None
 
 
-def _last(headers: Headers, name: str) -> str:
-    """Return the last of a header's values: the one that the nearest proxy wrote."""
-    return headers.get(name, "").split(",")[-1].strip()
+def _values(headers: Headers, name: str) -> list[str]:
+    """Return all values of a header, of all its lines: the nearest proxy wrote the last."""
+    return [
+        one for line in headers.getlist(name) for part in line.split(",") if (one := part.strip())
+    ]
 
 
 def base_path(text: str) -> str:

@@ -80,7 +80,7 @@ class Guard:
             sentence = "This studio does not go by that name: use the address it printed."
             return _forbidden(sentence), None
         if not self._front.enter(scope):
-            return RedirectResponse(f"{self._front.base}/", HTTPStatus.PERMANENT_REDIRECT), None
+            return self._go_to("/", headers, scope["query_string"].decode("latin-1")), None
         bearer = self._visitor_of_bearer(headers)
         visitor = bearer or self._cookies.visitor(headers, caller)
         if not _recognise(scope, visitor):
@@ -141,11 +141,11 @@ class Guard:
         """Take the code of a link into a cookie; who has a place here goes there."""
         if visitor is not None and visitor.role is not Role.GUEST:
             return self._go_to("/", headers)
-        code = dict(query).get(CODE)
-        if code is None:
+        if not query:
             return None
-        response = self._go_to(JOIN_PATH, headers)
-        self._cookies.keep_code(response, caller, code)
+        response = self._go_to(JOIN_PATH, headers)  # without a token that was sent here, too
+        if code := dict(query).get(CODE):
+            self._cookies.keep_code(response, caller, code)
         return response
 
     def _earned(
@@ -173,7 +173,7 @@ class Guard:
             return _forbidden("Open the address that the studio printed: it carries the key.")
         if _comes_from_elsewhere(headers):
             return self._go_to(scope["path"], headers, scope["query_string"].decode("latin-1"))
-        if self._credentials.guests:
+        if self._credentials.guests and not self._cookies.is_sent_out(headers, caller):
             response = self._go_to(scope["path"], headers)
             self._cookies.give(response, caller, Role.GUEST)
             return response

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import OrderedDict
+from dataclasses import dataclass
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 from urllib.parse import parse_qs
@@ -27,12 +28,6 @@ if TYPE_CHECKING:
 Words: TypeAlias = "Mapping[str, str]"
 _BODY_LIMIT_BYTES: Final = 4 << 10
 _ADDRESSES_MAX: Final = 4_096
-_TRIES_AT_ONCE: Final = 30.0
-"""Wrong codes and passwords of one address: thirty students may share one."""
-_TRIES_PER_S: Final = 0.5
-_TRIES_AT_ONCE_IN_ALL: Final = 300.0
-_TRIES_PER_S_IN_ALL: Final = 3.0
-"""The code of six letters is guessed within two years, then."""
 
 
 class Joins(Protocol):
@@ -57,34 +52,61 @@ class Joins(Protocol):
         ...
 
 
-class Tries:
-    """Limits wrong codes and passwords, by address and in all."""
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """So many at once after a rest, and so many per second."""
 
-    def __init__(self) -> None:
-        self._in_all = Allowance(_TRIES_PER_S_IN_ALL, _TRIES_AT_ONCE_IN_ALL)
+    at_once: float
+    per_s: float
+
+    def allowance(self) -> Allowance:
+        """Return one of which nothing is spent."""
+        return Allowance(self.per_s, self.at_once)
+
+
+class Tries:
+    """Limits how often something is tried, by address and in all.
+
+    A try is counted before it is known how it ends, for many may be made at once.
+    """
+
+    def __init__(self, of_address: Rate, in_all: Rate) -> None:
+        self._rate, self._in_all = of_address, in_all.allowance()
         self._by_address: OrderedDict[str, Allowance] = OrderedDict()
 
-    def check(self, address: str) -> None:
-        """Pass if this address may try.
+    def begin(self, address: str) -> None:
+        """Count a try.
 
         Raises:
-            NotJoiningError: There were too many wrong tries.
+            NotJoiningError: There were too many.
         """
-        now_s = time.monotonic()
-        own = self._by_address.get(address)
-        pause_s = max(self._in_all.spend(0, now_s), own.spend(0, now_s) if own else 0.0)
-        if pause_s > 0:
-            raise NotJoiningError("tries", "There were too many wrong tries: wait a minute.")
+        own = self._of(address)
+        if self._spend(own, 1) > 0:
+            self._spend(own, -1)
+            raise NotJoiningError("tries", "There were too many tries: wait a minute.")
 
-    def failed(self, address: str) -> None:
-        """Count a wrong try."""
-        now_s = time.monotonic()
-        own = self._by_address.pop(address, None) or Allowance(_TRIES_PER_S, _TRIES_AT_ONCE)
+    def give_back(self, address: str) -> None:
+        """Count one less: it was none."""
+        self._spend(self._of(address), -1)
+
+    def _of(self, address: str) -> Allowance:
+        own = self._by_address.pop(address, None) or self._rate.allowance()
         self._by_address[address] = own
         if len(self._by_address) > _ADDRESSES_MAX:
             self._by_address.popitem(last=False)
-        own.spend(1, now_s)
-        self._in_all.spend(1, now_s)
+        return own
+
+    def _spend(self, own: Allowance, count: float) -> float:
+        """Count tries; answers for how many seconds there are none left."""
+        now_s = time.monotonic()
+        return max(own.spend(count, now_s), self._in_all.spend(count, now_s))
+
+
+_GUESSES: Final = Rate(30.0, 0.5), Rate(300.0, 3.0)
+"""Wrong codes and passwords of an address, which thirty students may share, and of all together:
+the code of six letters is guessed within a year, then."""
+_JOINS: Final = Rate(400.0, 1.0), Rate(1_000.0, 5.0)
+"""People who join: those of a school come from one address."""
 
 
 class Joining:
@@ -96,7 +118,7 @@ class Joining:
         """Take the class and its surroundings; `words` gives the page's texts in a language."""
         self._classroom, self._cookies, self._front = classroom, cookies, front
         self._words = words
-        self._tries = Tries()
+        self._tries, self._joins = Tries(*_GUESSES), Tries(*_JOINS)
 
     def router(self) -> APIRouter:
         """Return the one address, with its form and what becomes of it."""
@@ -143,17 +165,23 @@ class Joining:
     ) -> Member:
         admission = self._classroom.admission
         # Nobody guesses the link: who has it joins though others spend all tries.
-        if admission.password or not admission.knows_link(code):
-            self._tries.check(caller.address)
+        is_guess = bool(admission.password) or not admission.knows_link(code)
+        if is_guess:
+            self._tries.begin(caller.address)
+        self._joins.begin(caller.address)
         cookie = self._cookies.member_cookie(request.headers, caller)
         try:
-            return await self._classroom.join(
+            member = await self._classroom.join(
                 given.get("name", ""), code, given.get("password", ""), cookie
             )
         except NotJoiningError as refusal:
-            if refusal.why in {"code", "password"}:
-                self._tries.failed(caller.address)
+            self._joins.give_back(caller.address)
+            if is_guess and refusal.why not in {"code", "password"}:
+                self._tries.give_back(caller.address)
             raise
+        if is_guess:
+            self._tries.give_back(caller.address)
+        return member
 
     def _page(self, request: Request, form: Form) -> Response:
         is_german = request.headers.get("accept-language", "").lower().startswith("de")

@@ -25,7 +25,7 @@ from studio.classroom.classroom import Classroom, Reach
 from studio.classroom.qr_code import qr_lines
 from studio.description import checks as text_checks
 from studio.documents.engine import Engine
-from studio.errors import SettingsError
+from studio.errors import SettingsError, StudioError
 from studio.files import write_whole
 from studio.problems import whys
 from studio.protocol.roles import Role
@@ -256,6 +256,11 @@ def remarks(settings: Settings, port: int, *, is_root: bool = False) -> list[str
             "whoever has the address with its token can change and save files. Encrypt it with "
             "--tls self."
         )
+    if settings.public_url.startswith("https://") and not (settings.proxies or settings.tls):
+        sentences.append(
+            "--public-url is of https, and no proxy is trusted: name its address by "
+            "--trusted-proxy, or cookies are sent without encryption as well."
+        )
     return sentences
 
 
@@ -339,7 +344,10 @@ class _Visit:
 
     async def _share(self) -> None:
         """Begin the class, or go on with it, and print how others join."""
-        await self._classroom.start()
+        try:
+            await self._classroom.start()
+        except StudioError as error:
+            _warn(str(error))
         for line in invitation(self._classroom):
             _print(line)
 

@@ -78,11 +78,11 @@ def no_access_page(*, spent: bool) -> HTMLResponse:
     return _plain_page("This studio needs its key", body, 403)
 
 
-def not_found_page() -> HTMLResponse:
+def not_found_page(root: str = "") -> HTMLResponse:
     """Return the page for an unknown address, which is not repeated on it."""
     body = (
         "<p>This robot is not open here. It may have been closed, or the studio was started anew "
-        'since.</p><p><a href="/">Go to the open robot</a></p>'
+        f'since.</p><p><a href="{root}/">Go to the open robot</a></p>'
     )
     return _plain_page("Nothing is open under this address", body, 404)
 
@@ -151,9 +151,9 @@ def join_page(
     return response
 
 
-def trouble_page(sentence: str, status: int) -> HTMLResponse:
+def trouble_page(sentence: str, status: int, root: str = "") -> HTMLResponse:
     """Return the page for any other error."""
-    body = f'<p>{escape(sentence)}</p><p><a href="/">Go to the open robot</a></p>'
+    body = f'<p>{escape(sentence)}</p><p><a href="{root}/">Go to the open robot</a></p>'
     return _plain_page("This did not work", body, status)
 
 

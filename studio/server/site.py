@@ -90,12 +90,12 @@ class Site:
 
     async def page(self, document: str) -> Response:
         """Return the studio's page for one document."""
-        self._engine.document(document)
+        self._engine.check(document)
         return studio_page(self._assets.current(), self._base)
 
     async def scene_page(self, document: str, request: Request) -> Response:
         """Return viser's page, to be shown inside ours; another version would be refused."""
-        self._engine.document(document)
+        self._engine.check(document)
         answer = _send(_scene_page(self._assets.current(), self._base), request, "no-store")
         answer.headers["content-security-policy"] = SCENE_POLICY
         return answer
@@ -136,7 +136,7 @@ class Site:
 
     async def scene(self, document: str, websocket: WebSocket) -> None:
         """The 3D lane of one document."""
-        scene = self._engine.document(document).scene
+        scene = (await self._engine.ready(document)).scene
         await serve_scene(websocket, scene, websocket.scope["state"]["visitor"], document)
 
 

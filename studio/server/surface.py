@@ -120,6 +120,18 @@ class OpenDocuments(Protocol):
         """
         ...
 
+    def check(self, id: str, /) -> None:  # noqa: A002 - as above
+        """Pass if there is a document of that id, open or resting.
+
+        Raises:
+            UnknownDocumentError: There is none.
+        """
+        ...
+
+    async def ready(self, id: str, /) -> OpenDocument:  # noqa: A002 - as above
+        """Return one document, as `document`; one that rests is opened first."""
+        ...
+
     def attach(self, listener: Listener, /) -> None:
         """Send it the list of documents, now and whenever it changes."""
         ...

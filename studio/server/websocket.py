@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 VIEWER_MESSAGE_LIMIT_BYTES: Final = 64 << 10
-"""For viewers, who send little; a presenter's limit is that of a command."""
+"""For guests, who send little; the limit of all others is that of a command."""
 _EXTENSION = "studio.socket"
 _PIECE_BYTES: Final = 4 << 10
 _UNIT_BYTES: Final = 1 << 10
@@ -88,7 +88,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
         """Assign the websocket to a person; False when they have too many."""
         if visitor is None:
             return True
-        if visitor.role is not Role.PRESENTER:
+        if visitor.role is Role.GUEST:  # others may come to have control
             self.conn.max_message_size = VIEWER_MESSAGE_LIMIT_BYTES
         return self._crowd.recognise(self, visitor)
 

@@ -11,7 +11,7 @@ from studio.errors import NotJoiningError
 
 
 def admission() -> Admission:
-    return Admission(ClassRecord(open=True, code="ABCDEF", link="long-and-secret"))
+    return Admission(ClassRecord(open=True, code="ABCDEF", link="long-and-secret-x"))
 
 
 def why(made: Admission, given: str) -> str:
@@ -23,7 +23,7 @@ def why(made: Admission, given: str) -> str:
     return ""
 
 
-@pytest.mark.parametrize("typed", ["ABCDEF", "abcdef", " abc def ", "abc-def", "long-and-secret"])
+@pytest.mark.parametrize("typed", ["ABCDEF", "abcdef", " abc def ", "abc-def", "long-and-secret-x"])
 def test_the_code_is_good_however_it_is_typed_and_so_is_that_of_the_link(typed: str):
     assert why(admission(), typed) == ""
 
@@ -40,13 +40,13 @@ def test_nobody_joins_a_class_that_is_closed_and_nobody_new_one_that_is_locked()
     assert why(made, "WRONG") == "code"
     made.open = False
     assert why(made, "ABCDEF") == "closed"
-    assert not made.knows_link("long-and-secret")
+    assert not made.knows_link("long-and-secret-x")
 
 
 def test_a_new_code_makes_the_old_ones_worthless():
     made = admission()
     made.renew()
-    assert why(made, "ABCDEF") == why(made, "long-and-secret") == "code"
+    assert why(made, "ABCDEF") == why(made, "long-and-secret-x") == "code"
     assert why(made, made.code) == why(made, made.link) == ""
 
 

@@ -34,11 +34,11 @@ class Hands:
     """Notes what a classroom does with the robot."""
 
     def __init__(self) -> None:
-        self.released: list[str] = []
+        self.may_go_on: Callable[[str], bool] = bool
         self.stops = 0
 
-    def release(self, person: str, /) -> None:
-        self.released.append(person)
+    def release(self, may_go_on: Callable[[str], bool], /) -> None:
+        self.may_go_on = may_go_on
 
     async def stop(self) -> None:
         self.stops += 1
@@ -124,13 +124,16 @@ def test_control_is_asked_for_given_seen_by_all_and_taken_back():
         assert ada.controls("")
         assert not bob.controls("")
         assert pages["Ada"].last("you")["has_control"] is True
+        assert hands.may_go_on(ada.person)
+        assert not hands.may_go_on(presenter.person)
         assert pages["Bob"].last("control")["name"] == "Ada"
         assert pages["Bob"].last("you")["asking"] is True
         assert presenter.last("you")["has_control"] is False
         made.take_control(presenter)
         assert not ada.controls("")
         assert presenter.last("you")["has_control"] is True
-        assert hands.released == ["", ada.person]
+        assert not hands.may_go_on(ada.person)
+        assert hands.may_go_on(presenter.person)
 
     run(work)
 

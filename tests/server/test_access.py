@@ -41,12 +41,12 @@ VIEWER_COMMANDS = {
     *("set_name", "follow"),
 }
 """What everybody may who sees the page."""
-STUDENT_COMMANDS = {"ask_control", "return_control", "raise_hand", "stop_robot"}
-HELPER_COMMANDS = {"give_control", "take_control", "lower_hand"}
+STUDENT_COMMANDS = {"ask_control", "return_control", "raise_hand", "stop_robot", "open_copy"}
+HELPER_COMMANDS = {"give_control", "take_control", "lower_hand", "send_back"}
 PRESENTER_COMMANDS = {
     *("start_class", "pause_class", "end_class", "set_class", "renew_code"),
     *("set_member_role", "remove_member", "readmit_member"),
-    *("lead", "gather_all", "show_view", "show_focus"),
+    *("lead", "gather_all", "show_view", "show_focus", "show_copy"),
     *("open_path", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),
     *("list_recent", "forget_recent", "list_examples", "list_places", "open_recent"),
     *("open_example", "new_robot", "new_untitled", "save_as", "save_copy", "choose_package"),
@@ -85,6 +85,10 @@ class Somebody(NamedTuple):
     def controls(self, document: str) -> bool:
         del document
         return self.has_control
+
+    def sees(self, document: str) -> bool:
+        del document
+        return True
 
 
 PEOPLE = [Somebody(role, has_control) for role in ROLES for has_control in (False, True)]

@@ -113,6 +113,7 @@ FIELDS: dict[str, object] = {
     "subject": "graph",
     "pressed": "up",
     "person": "x",
+    "remark": "x",
     **dict.fromkeys(("leading", "following"), True),
     "role": "student",
 }

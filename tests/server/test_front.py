@@ -32,11 +32,12 @@ def test_directly_the_address_is_that_of_the_connection_whatever_headers_say():
 
 
 def test_through_a_trusted_proxy_it_is_the_one_that_the_proxy_saw():
-    found = caller(PROXY, {"host": "class.example", **FAR})
-    assert found == Caller(Authority("class.example", None), "198.51.100.7", is_secure=True)
-    named = caller(PROXY, {"host": "upstream:1", "x-forwarded-host": "class.example:444", **FAR})
+    found = caller(PROXY, {"host": "robots.example", **FAR})
+    assert found == Caller(Authority("robots.example", None), "198.51.100.7", is_secure=True)
+    named = caller(PROXY, {"host": "upstream:1", "x-forwarded-host": "robots.example:444", **FAR})
     assert named is not None
-    assert named.host == Authority("class.example", 444)
+    assert named.host == Authority("robots.example", 444)
+    assert caller(PROXY, {"host": "evil.example", **FAR}) is None
 
 
 @pytest.mark.parametrize(
@@ -45,11 +46,11 @@ def test_through_a_trusted_proxy_it_is_the_one_that_the_proxy_saw():
         ("10.9.9.9, 198.51.100.7", "198.51.100.7"),
         (f"10.9.9.9, 198.51.100.7, {PROXY}", "198.51.100.7"),
         (PROXY, PROXY),
-        ("", ""),
+        ("", PROXY),
     ],
 )
 def test_what_stands_before_it_may_be_made_up(passed: str, expected: str):
-    found = caller(PROXY, {"host": "a.example", "x-forwarded-for": passed})
+    found = caller(PROXY, {"host": "robots.example", "x-forwarded-for": passed})
     assert found is not None
     assert found.address == expected
 
@@ -65,6 +66,15 @@ def test_no_header_of_a_proxy_breaks_it(passed: str, host: str):
     raw = [(name.encode(), value.encode("utf-8")) for name, value in headers.items()]
     found = front().caller(scope, Headers(raw=raw))
     assert found is None or len(found.address) <= 64
+
+
+def test_of_several_lines_the_last_is_the_proxys():
+    raw = [(b"host", b"robots.example"), (b"x-forwarded-for", b"10.0.0.1")]
+    raw.append((b"x-forwarded-for", b"198.51.100.7"))
+    scope: dict[str, Any] = {"client": (f"::ffff:{PROXY}", 5), "scheme": "http"}
+    found = front().caller(scope, Headers(raw=raw))
+    assert found is not None
+    assert found.address == "198.51.100.7"
 
 
 @pytest.mark.parametrize(

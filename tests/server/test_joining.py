@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -33,7 +34,7 @@ def web(running: RunningWeb, monkeypatch: pytest.MonkeyPatch) -> RunningWeb:
     """With a class that is open and new; each test has all its tries."""
     running.run(classroom(running).end())
     running.run(classroom(running).start())
-    monkeypatch.setattr(joining.Tries, "check", pass_all)
+    monkeypatch.setattr(joining.Tries, "begin", pass_all)
     return running
 
 
@@ -205,12 +206,32 @@ def test_a_thousand_wrong_codes_are_not_all_looked_at_and_others_join_by_the_lin
             assert ada.join("Ada", admission(web).link).status_code == 303
 
 
-def test_tries_are_limited_in_all_too_and_few_addresses_are_remembered():
-    tries = joining.Tries()
-    for number in range(10_000):
-        tries.failed(f"2001:db8::{number:x}")
-    with pytest.raises(joining.NotJoiningError):
-        tries.check("203.0.113.1")
+def test_tries_are_limited_in_all_too_and_one_that_was_none_is_given_back():
+    tries = joining.Tries(joining.Rate(3, 0.001), joining.Rate(5, 0.001))
+    for _ in range(10):
+        tries.begin("one")
+        tries.give_back("one")
+    for address in ("one", "one", "one", "two", "three"):
+        tries.begin(address)
+    for address in ("one", "four"):
+        with pytest.raises(joining.NotJoiningError):
+            tries.begin(address)
+
+
+def test_many_passwords_at_once_are_no_more_than_one_after_the_other(assets_folder: Path):
+    with running_web(assets_folder) as web:
+        web.run(classroom(web).start())
+        web.run(admission(web).set_password("sesame"))
+        code = admission(web).code
+
+        def guess(number: int) -> int:
+            with browser(web) as eve:
+                return eve.join("Eve", code, f"guess {number}").status_code
+
+        with ThreadPoolExecutor(60) as pool:
+            statuses = list(pool.map(guess, range(60)))
+        assert statuses.count(200) <= 32
+        assert statuses.count(429) >= 28
 
 
 def test_everybody_has_to_join_again_after_all_were_logged_out(web: RunningWeb):

@@ -57,6 +57,9 @@ class _SweepEar(Ear):
     def controls(self, document: str) -> bool:
         return Visitor(self.role).controls(document)
 
+    def sees(self, document: str) -> bool:
+        return Visitor(self.role).sees(document)
+
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         if data.startswith(b'{"type":"refused"'):
             super().post(data, binary=binary, key=key)

@@ -137,6 +137,12 @@ class SmallEngine:
             raise UnknownDocumentError(name)
         return self.documents[name]
 
+    def check(self, name: str, /) -> None:
+        self.document(name)
+
+    async def ready(self, name: str, /) -> SmallDocument:
+        return self.document(name)
+
     def attach(self, listener: Listener, /) -> None:
         self.listeners.append(listener)
         entry = DocumentEntry(id="small", title="small", path="small.urdf", unsaved=False)

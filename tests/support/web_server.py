@@ -80,7 +80,7 @@ class RunningWeb:
     def in_control(self, role: Role) -> Generator[None]:
         """Within this block the member of a role has control; the presenter, if it is theirs."""
         control = self.engine.classroom.control
-        control.give("" if role is Role.PRESENTER else self.member(role).person)
+        control.give("" if role is Role.PRESENTER else self.member(role).person, "small")
         try:
             yield
         finally:

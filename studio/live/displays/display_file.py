@@ -50,6 +50,10 @@ class DisplayFile:
             return KeptDisplays()
         return msgspec.structs.replace(kept, displays=kept.displays[:DISPLAYS_MAX])
 
+    def delete(self) -> None:
+        """Delete the file; thread-safe."""
+        self._path.unlink(missing_ok=True)
+
     def write(self, kept: KeptDisplays) -> None:
         """Write the file; thread-safe. Errors of the disk are logged."""
         try:

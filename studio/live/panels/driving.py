@@ -12,7 +12,7 @@ from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.publishing import Drive
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 _SILENCE_S: Final = 0.5
 _DRIVEN_MAX: Final = 20
+_STAYS_STOPPED_S: Final = 1.0
+"""After a stop: a key that is held sends twenty speeds in it."""
 _HALT_PATIENCE_S: Final = 0.3
 """A publisher that is made for a stop is known to the subscribers after a few milliseconds."""
 _LOOK_EVERY_S: Final = 0.005
@@ -108,6 +110,9 @@ class Driving:
         self._drivers: dict[str, _Driver] = {}
         self._driven: dict[str, bool] = {}
         """Topics on which somebody drove with this connection, and whether it was stamped."""
+        self._all_stopped_until_s = 0.0
+        self._stopped_until_s: dict[str, float] = {}
+        """By topic, where keys are held on: each try puts it off."""
         self._ends: set[asyncio.Task[object]] = set()
         self._leaves = False
 
@@ -118,11 +123,11 @@ class Driving:
             StudioError: Another page drives there, or it cannot be published.
         """
         topic = command.topic if command.topic.startswith("/") else f"/{command.topic}"
+        self._check_stopped(topic, command)
         driver = self._driver(topic, listener)
-        self._driven[topic] = command.stamped
         self._wait_for_more(topic, driver)
         async with driver.turn:
-            await self._send(driver, command)
+            await self._send(topic, driver, command)
 
     def detach(self, listener: Listener) -> None:
         """Remove a page, and stop all that it drove."""
@@ -130,10 +135,10 @@ class Driving:
             if driver.listener is listener:
                 self._end(topic, driver)
 
-    def release(self, person: str) -> None:
-        """Stop all that a person drives: they have no control any more."""
+    def release(self, may_go_on: Callable[[str], bool]) -> None:
+        """Stop all that persons drive who have no control any more."""
         for topic, driver in tuple(self._drivers.items()):
-            if driver.listener.person == person:
+            if not may_go_on(driver.listener.person):
                 self._end(topic, driver)
 
     async def stop(self, also: Mapping[str, bool]) -> None:
@@ -142,6 +147,8 @@ class Driving:
         Args:
             also: Other topics of velocities, and whether their messages are stamped.
         """
+        self._stopped_until_s.clear()
+        self._all_stopped_until_s = time.monotonic() + _STAYS_STOPPED_S
         for topic, driver in tuple(self._drivers.items()):
             self._end(topic, driver)
         await asyncio.gather(*self._ends)
@@ -176,7 +183,7 @@ class Driving:
         loop = asyncio.get_running_loop()
         driver.patience = loop.call_later(_SILENCE_S, self._end, topic, driver)
 
-    async def _send(self, driver: _Driver, command: Drive) -> None:
+    async def _send(self, topic: str, driver: _Driver, command: Drive) -> None:
         publisher = driver.publisher
         if publisher is not None and publisher.stamped != command.stamped:
             driver.publisher = None
@@ -189,6 +196,29 @@ class Driving:
         # A command sent before the end that waited until after it must not move anything.
         if driver.publisher is not None and not driver.is_over:
             await asyncio.to_thread(driver.publisher.steer, command.x, command.y, command.yaw)
+            self._note(topic, stamped=command.stamped)
+
+    def _note(self, topic: str, *, stamped: bool) -> None:
+        """Note that somebody drove there; the topics of long ago are forgotten first."""
+        self._driven.pop(topic, None)
+        self._driven[topic] = stamped
+        while len(self._driven) > _DRIVEN_MAX:
+            del self._driven[next(iter(self._driven))]
+
+    def _check_stopped(self, topic: str, command: Drive) -> None:
+        """Pass, unless the robot was stopped and nobody has let go of the keys since.
+
+        Raises:
+            CommandError: It was stopped a moment ago.
+        """
+        until_s = self._stopped_until_s.get(topic, self._all_stopped_until_s)
+        if time.monotonic() >= until_s:
+            return
+        if command.x == command.y == command.yaw == 0.0:
+            self._stopped_until_s[topic] = 0.0
+            return
+        self._stopped_until_s[topic] = time.monotonic() + _STAYS_STOPPED_S
+        raise CommandError("The robot was stopped: let go of the controls first.")
 
     def _end(self, topic: str, driver: _Driver) -> None:
         driver.is_over = True

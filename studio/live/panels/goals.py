@@ -8,7 +8,8 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.live.panels.operations import Operations, Outcome, RunningTasks, outcome_of
+from studio.errors import CommandError
+from studio.live.panels.operations import Begins, Operations, Outcome, RunningTasks, outcome_of
 from studio.protocol.calls import Begun
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import CancelGoal, FeedbackView, Goals, GoalState, GoalView, SendGoal
@@ -101,7 +102,7 @@ class ActionGoals:
     ) -> None:
         self._wire, self._logs, self._named = wire, logs, named
         self.operations: Operations[Goal] = Operations(_event_of, kept=_KEPT, running=_RUNNING_MAX)
-        self._running = RunningTasks()
+        self._running, self._begins = RunningTasks(), Begins()
         self._requests: dict[int, GoalRequest] = {}
         self._clients: tuple[WireLink, ActionClients] | None = None
 
@@ -114,9 +115,13 @@ class ActionGoals:
         from studio.live.panels.goal_work import GoalRequest  # noqa: PLC0415 - imports zenoh
 
         number = self.operations.next_number()
-        link = await self._wire.link()
-        clients = self._clients_of(link)
-        request = await asyncio.to_thread(GoalRequest, link, clients, command)
+        with self._begins.of("") as begin:
+            link = await self._wire.link()
+            clients = self._clients_of(link)
+            request = await asyncio.to_thread(GoalRequest, link, clients, command)
+            if not begin.may_go_on:
+                await asyncio.to_thread(request.close)
+                raise CommandError("The robot was stopped: send the goal again.")
         goal = Goal(number, request.name, request.type_name, command.text)
         goal.log_from = self._logs.listen()
         self._requests[number] = request
@@ -153,6 +158,7 @@ class ActionGoals:
 
     async def cancel_all(self) -> None:
         """Ask for every goal that was sent from here to be canceled; what refuses goes on."""
+        self._begins.release(lambda _: False)
         orders = (CancelGoal(operation=one.operation) for one in self.operations.unfinished())
         await asyncio.gather(*(outcome_of(self.cancel(order)) for order in orders))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import itertools
 import logging
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, Generic, Literal, Protocol, TypeVar
 
@@ -13,7 +14,7 @@ from studio.errors import CommandError, StudioError
 from studio.protocol.listeners import Audience, send
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Coroutine
+    from collections.abc import Awaitable, Callable, Coroutine, Generator
 
     from studio.protocol import Event
     from studio.protocol.listeners import Listener
@@ -142,6 +143,35 @@ class Outcome(Generic[ValueT]):
     kind: Literal["done", "failed", "cancelled"]
     value: ValueT | None = None
     trouble: str = ""
+
+
+class Begin:
+    """An operation that somebody is about to begin."""
+
+    def __init__(self, person: str) -> None:
+        self.person, self.may_go_on = person, True
+
+
+class Begins:
+    """Operations that are about to begin: what ends all that runs ends these, too."""
+
+    def __init__(self) -> None:
+        self._begins: set[Begin] = set()
+
+    @contextmanager
+    def of(self, person: str) -> Generator[Begin]:
+        """Begin one within this block; at its end it is asked whether it may still go on."""
+        begin = Begin(person)
+        self._begins.add(begin)
+        try:
+            yield begin
+        finally:
+            self._begins.discard(begin)
+
+    def release(self, may_go_on: Callable[[str], bool]) -> None:
+        """Let none go on but those of these persons."""
+        for one in self._begins:
+            one.may_go_on = one.may_go_on and may_go_on(one.person)
 
 
 class RunningTasks:

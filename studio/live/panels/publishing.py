@@ -7,13 +7,16 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.live.panels.operations import Operations, Outcome, RunningTasks
+from studio.errors import CommandError
+from studio.live.panels.operations import Begins, Operations, Outcome, RunningTasks
 from studio.protocol.calls import Begun
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.publishing import Publications, PublicationView, Publish, StopPublishing
 from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.publication_work import MessageSender
     from studio.protocol.listeners import Listener
@@ -81,7 +84,7 @@ class Publishing:
         self.operations: Operations[Publication] = Operations(
             _event_of, kept=_KEPT, running=_RUNNING_MAX
         )
-        self._running = RunningTasks()
+        self._running, self._begins = RunningTasks(), Begins()
         self._presenters: set[Listener] = set()
         self._leaving: asyncio.TimerHandle | None = None
 
@@ -94,8 +97,12 @@ class Publishing:
         from studio.live.panels.publication_work import MessageSender  # noqa: PLC0415 - imports zenoh
 
         number = self.operations.next_number()
-        link = await self._wire.link()
-        sender = await asyncio.to_thread(MessageSender, link, command)
+        with self._begins.of(person) as begin:
+            link = await self._wire.link()
+            sender = await asyncio.to_thread(MessageSender, link, command)
+            if not begin.may_go_on:
+                await asyncio.to_thread(sender.close)
+                raise CommandError("The robot was stopped, or control went to somebody else.")
         publication = Publication(number, sender.name, sender.type_name, command, person)
         self.operations.add(publication)
         self._running.start(
@@ -117,14 +124,16 @@ class Publishing:
         else:
             self._stop_all("")
 
-    def release(self, person: str) -> None:
-        """Stop what a person publishes: they have no control any more."""
+    def release(self, may_go_on: Callable[[str], bool]) -> None:
+        """Stop what persons publish who have no control any more."""
+        self._begins.release(may_go_on)
         for one in self.operations.unfinished():
-            if one.person == person:
+            if not may_go_on(one.person):
                 self._running.cancel(one.operation, "Control went to somebody else.")
 
     def stop_all(self) -> dict[str, bool]:
         """Stop all; return the topics of velocities that were published, and if it was stamped."""
+        self._begins.release(lambda _: False)
         self._stop_all("")
         kinds = {_TWIST: False, _TWIST_STAMPED: True}
         every = self.operations.all()

@@ -30,6 +30,8 @@ from studio.protocol.calls import FollowOperations
 from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.live.connection.ros_connection import RosConnection
     from studio.protocol.listeners import Listener
 
@@ -70,6 +72,7 @@ class RosSystem:
         self.parameters = parameters.NodeParameters(wire)
         self.driving = driving.Driving(wire)
         self.lessons = lessons.CourseDemos(wire, partial(self.changes.changed, "lessons"))
+        self._stopping: asyncio.Task[None] | None = None
         self._operations = {
             "calls": self.calls.operations,
             "goals": self.goals.operations,
@@ -118,13 +121,21 @@ class RosSystem:
         self.publishing.detach(listener)
         self.driving.detach(listener)
 
-    def release(self, person: str) -> None:
-        """End what a person drives and publishes; their calls and goals go on."""
-        self.driving.release(person)
-        self.publishing.release(person)
+    def release(self, may_go_on: Callable[[str], bool]) -> None:
+        """End what persons drive and publish who have no control; calls and goals go on."""
+        self.driving.release(may_go_on)
+        self.publishing.release(may_go_on)
 
     async def stop(self) -> None:
-        """Stop all that pages make robots do: publish zero, cancel goals, end publications."""
+        """Stop all that pages make robots do: publish zero, cancel goals, end publications.
+
+        Who asks while one is under way waits for that.
+        """
+        if self._stopping is None or self._stopping.done():
+            self._stopping = asyncio.create_task(self._stop())
+        await asyncio.shield(self._stopping)
+
+    async def _stop(self) -> None:
         published = self.publishing.stop_all()
         stops = (self.driving.stop(published), self.goals.cancel_all())
         # A server that does not answer, or a router that is away, keeps nobody waiting.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.errors import CommandError
 from studio.live.panels import driving
 from studio.protocol.goals import SendGoal
 from studio.protocol.publishing import Drive, Publish
@@ -51,7 +52,7 @@ def test_what_a_person_drives_and_publishes_ends_with_their_control(
             await ask_ros(page.ros, Drive(topic=TOPIC, x=0.5), ada)
             await page.do(Drive(topic=OTHER, x=0.25))
             await until(lambda: len(said) > 2 and len(twists) > 0)
-            page.ros.release("ada")
+            page.ros.release(lambda person: person != "ada")
             await until(lambda: forward(twists) == [0.5, 0.0])
             (ended,) = page.ros.publishing.operations.all()
             await until(lambda: ended.is_over)
@@ -87,6 +88,12 @@ def test_a_stop_publishes_zero_where_pages_drove_and_published_and_cancels_goals
             await page.operation_in("goals", sent, "executing")
             await page.ros.stop()
             await until(lambda: forward(others)[-1] == 0.0 and forward(twists)[-1] == 0.0)
+            # A key that is held on moves nothing; one that was let go of and pressed anew does.
+            with pytest.raises(CommandError, match="let go of the controls first"):
+                await page.do(Drive(topic=TOPIC, x=0.5))
+            await page.do(Drive(topic=TOPIC, x=0.0))
+            await page.do(Drive(topic=TOPIC, x=0.25))
+            await until(lambda: forward(twists)[-1] == 0.25)
             await asyncio.to_thread(work.end, "canceled")
             await page.operation_in("goals", sent, "canceled")
 
