@@ -178,6 +178,20 @@ class Document:
         """Whether any text differs from the disk."""
         return bool(self.sources.unsaved_files)
 
+    def confine(self) -> None:
+        """Read no file that was not read so far: somebody who is not trusted with them edits now.
+
+        It stays so, whoever has control, until a presenter saves or reloads: else what they wrote
+        would read more at the presenter's next edit.
+        """
+        self.workspace.confine((*self.last_run.files, self.path))
+        self._spawn("confined", self.runs.reopen())
+
+    def free(self) -> None:
+        """A presenter has looked at the texts: read what the opened folders have, again."""
+        if self.workspace.free():
+            self._spawn("confined", self.runs.reopen())
+
     @property
     def mesh_files(self) -> tuple[Path, ...]:
         """The files of all meshes in use."""

@@ -55,7 +55,7 @@ from studio.protocol.documents import (
 )
 from studio.protocol.edits import EditSite
 from studio.protocol.listeners import Audience, send
-from studio.protocol.roles import owner_of
+from studio.protocol.roles import Role, owner_of
 from studio.protocol.saving import ForgetWork, Reload, ResolveCollisions, Save
 from studio.protocol.texts import EditText, Rename, ReplaceTexts
 
@@ -92,6 +92,7 @@ class Engine:
         self.ros = RosSystem(wire)
         self.classroom = classroom or Classroom()
         self.classroom.robot = self.ros
+        self.classroom.on_control = self._lent
         self.copies = Copies(self.classroom.folder, self, self._services, self.classroom)
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
@@ -186,7 +187,15 @@ class Engine:
             self.ros.check_router()
         if owner_of(command.document) and entry.permission.needs_control:
             self._check_copy(command)
-        return await COMMANDS.carry_out(self, command, asker)
+        answer = await COMMANDS.carry_out(self, command, asker)
+        if isinstance(command, Save | Reload) and asker.role is Role.PRESENTER:
+            self.document(command.document).free()
+        return answer
+
+    def _lent(self, document: str) -> None:
+        """A member has control of a document now."""
+        if document in self.documents:
+            self.documents[document].confine()
 
     def _check_copy(self, command: Command) -> None:
         """Pass if a copy can have this done.

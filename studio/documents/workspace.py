@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,7 +29,6 @@ class Workspace:
         entry: The entry file.
         path: The same, as a string.
         location: The folders that may be read and written, and the packages in them.
-        policy: Files that the document's xacro worker may read.
         sources: The texts and arguments with their edits.
 
     Raises:
@@ -42,7 +42,8 @@ class Workspace:
             raise CommandError(f"{location.root} holds no robot description: open a file.")
         self.entry, self.path = location.entry, str(location.entry)
         self._trusted = trusted
-        self.location, self.policy = location, read_policy(location, trusted=trusted)
+        self.location, self._policy = location, read_policy(location, trusted=trusted)
+        self._confined: frozenset[str] | None = None
         self.sources = Sources(
             # Asked again each time: a package that is chosen later is served from then on.
             lambda path: self.served.read(path),  # noqa: PLW0108
@@ -57,6 +58,23 @@ class Workspace:
     def title(self) -> str:
         """The entry file's name, or which untitled text it is."""
         return self.location.title
+
+    @property
+    def policy(self) -> ReadPolicy:
+        """Files that the document's xacro worker may read."""
+        if self._confined is None:
+            return self._policy
+        return replace(self._policy, roots=tuple(sorted(self._confined)))
+
+    def confine(self, files: Iterable[str]) -> None:
+        """Let xacro read these files and no others, until `free`; the first time counts."""
+        if self._confined is None:
+            self._confined = frozenset(files)
+
+    def free(self) -> bool:
+        """Let xacro read all opened folders again; return whether it could not."""
+        was_confined, self._confined = self._confined is not None, None
+        return was_confined
 
     @property
     def served(self) -> ServedRoots:
@@ -78,7 +96,7 @@ class Workspace:
             PackageError: It does not hold that package.
         """
         self.location = await asyncio.to_thread(self.location.choose_package, name, folder)
-        self.policy = read_policy(self.location, trusted=self._trusted)
+        self._policy = read_policy(self.location, trusted=self._trusted)
 
     def packages_of(self, files: Iterable[str]) -> dict[str, str]:
         """Return the package of each file: its name, and which copy it is.

@@ -20,6 +20,7 @@ from studio.errors import (
     StudioError,
     UnknownDocumentError,
 )
+from studio.protocol.classroom import GiveControl, ReturnControl
 from studio.protocol.commands import demand
 from studio.protocol.copies import DiscardCopy, HandIn, OpenCopy, SendBack, ShowCopy
 from studio.protocol.displays import AddDisplay
@@ -27,7 +28,7 @@ from studio.protocol.documents import Watch
 from studio.protocol.edits import EditSite, Undo
 from studio.protocol.robot import SetJoints
 from studio.protocol.roles import Role, Visitor
-from studio.protocol.saving import Save
+from studio.protocol.saving import Save, UndoTo
 from studio.protocol.texts import EditText, GetText, TextChange
 from studio.protocol.variants import SaveVariant
 from studio.settings import Settings
@@ -203,6 +204,67 @@ def test_it_reads_the_files_that_the_shared_run_read_and_its_own_and_no_other(
             await refused(room.ask(ada, GetText(document=copy.id, file=str(secret))))
             == OutsideRootsError.__name__
         )
+
+    run(tmp_path, work)
+
+
+@pytest.mark.parametrize("name", ["secret.xacro", "secret.yaml", "run.py"])
+def test_who_was_given_control_makes_it_read_no_other_files_until_the_presenter_saves(
+    tmp_path: Path, name: str
+):
+    async def work(room: Room) -> None:
+        secret = tmp_path / "rover_description" / name
+        secret.write_text('<robot><link name="very_secret"/></robot>')
+        ada = await room.student("Ada")
+        give = GiveControl(person=ada.person, document="rover")
+        await room.ask(room.presenter, give)
+        shared = room.shared
+        ask = GetText(document="rover", file=str(secret))
+        await room.ask(ada, GetText(document="rover", file=shared.path))
+        version = ada.last("text")["version"]
+        reading = (
+            f'<xacro:include filename="{secret}"/>'
+            if name.endswith(".xacro")
+            else f"<link name=\"${{xacro.load_yaml('{secret}')}}\"/>"
+        )
+        at = text_of(shared).decode().index("<!-- Chassis")
+        change = TextChange(start=at, end=at, text=reading)
+        edit = EditText(document="rover", file=shared.path, version=version, changes=(change,))
+        await room.ask(ada, edit)
+        assert shared.last_run.failed
+        assert await refused(room.ask(ada, ask)) == "CommandError"
+        await room.ask(ada, ReturnControl())
+        radius = site(shared, "wheel_radius")
+        await room.ask(room.presenter, EditSite(document="rover", site=radius, text="0.15"))
+        assert shared.last_run.failed
+        guest = room.page(Visitor(Role.GUEST, "g", room.classroom.control))
+        assert await refused(room.ask(guest, ask)) == "CommandError"
+        await room.ask(room.presenter, UndoTo(document="rover", position=0, of=2))
+        await room.ask(room.presenter, Save(document="rover", files=None))
+        await until(lambda: not shared.last_run.failed)
+
+    run(tmp_path, work)
+
+
+def test_control_is_of_the_document_that_it_was_given_for_alone(tmp_path: Path):
+    async def work(room: Room) -> None:
+        other_entry = tmp_path / "other" / "other.urdf"
+        other_entry.parent.mkdir()
+        other_entry.write_text('<robot name="o"><link name="base"/></robot>')
+        other = await room.engine.open_path(other_entry, {})
+        ada = await room.student("Ada")
+        await room.ask(room.presenter, GiveControl(person=ada.person, document="rover"))
+        for who, document, is_allowed in (
+            (ada, "rover", True),
+            (ada, other, False),
+            (room.presenter, "rover", False),
+            (room.presenter, other, True),
+        ):
+            save = Save(document=document, files=None)
+            if is_allowed:
+                await room.ask(who, save)
+            else:
+                assert await refused(room.ask(who, save)) == "NotInControlError"
 
     run(tmp_path, work)
 
