@@ -19,16 +19,19 @@ import {
   you,
 } from "../model/class.js";
 import { connection, hasControl, role } from "../model/connection.js";
+import { canCopy, isCopy, openCopy } from "../model/copies.js";
 import { canFollow, comeBack, explore, gatherAll, isFollowing } from "../model/following.js";
 import { dialog, isFree } from "../model/view.js";
 
 /** Below the bar above: what one may do here, and who has control where that is somebody else. */
 export function ControlBar() {
-  if (!isSaid()) return null;
+  if (!isSaid() || isCopy.value) return null;
   return html`<div class=${`bar control-bar ${hasControl.value ? "own" : ""}`} role="status">
     <${Icon} name=${hasControl.value ? "check" : role.value === "presenter" ? "hand" : "watching"} />
     <span class="control-words">${stateWords()}</span>
-    <${ControlButton} /><span class="push"></span>
+    <${ControlButton} />
+    ${canCopy.value && html`<button type="button" class="button small" title=${t("copy.open.hint")} onClick=${openCopy}><${Icon} name="fork" size=${14} />${t("copy.open")}</button>`}
+    <span class="push"></span>
     <${FollowButton} />
     ${takesPart.value && !leads.value && html`<${HandButton} />`}
     ${takesPart.value && role.value !== "presenter" && html`<${StopButton} />`}</div>`;
@@ -141,6 +144,7 @@ export function classCommands() {
       enabled: () => inClass() && !leads.value,
       run: () => void raiseHand(!you.value.hand),
     },
+    { id: "open_copy", icon: "fork", enabled: () => canCopy.value, run: () => void openCopy() },
     {
       id: "gather_all",
       icon: "users",

@@ -9,6 +9,7 @@ import { Dialog, DialogParts } from "../lib/ui.js";
 import { role } from "../model/connection.js";
 import { documentState, problems } from "../model/document.js";
 import { dialog } from "../model/view.js";
+import { RemarkDialog } from "./copy-bar.js";
 import { GraphicsDialog } from "./graphics.js";
 import { DialogHelp } from "./help.js";
 import { MergeDialog } from "./merge-dialog.js";
@@ -58,6 +59,8 @@ function ShownDialog() {
       return html`<${ShareDialog} link=${shown.link} onClose=${close} />`;
     case "class":
       return html`<${ClassDialog} onClose=${close} />`;
+    case "remark":
+      return html`<${RemarkDialog} document=${shown.document} onClose=${close} />`;
     case "class_name":
       return html`<${NameDialog} onClose=${close} />`;
     case "graphics":

@@ -8,6 +8,7 @@ import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { anyUnderWay } from "../lib/latest.js";
 import { iconElement } from "../lib/ui.js";
 import { documentId, mayEdit, role } from "../model/connection.js";
+import { isCopy } from "../model/copies.js";
 import { history, movable, title, unsaved } from "../model/document.js";
 import { followPresenter } from "../model/following.js";
 import { addMeasuring } from "../model/measuring.js";
@@ -82,7 +83,7 @@ function addPageCommands() {
       icon: "disk",
       keys: ["Mod+S"],
       inText: true,
-      enabled: () => mayEdit.value && (unsaved.value || anyUnderWay()),
+      enabled: () => mayEdit.value && !isCopy.value && (unsaved.value || anyUnderWay()),
       run: save,
     },
     {

@@ -9,6 +9,7 @@ import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
 import { drawnLines } from "../lib/text-differences.js";
 import { Dialog, Icon, ProgressBar } from "../lib/ui.js";
+import { mayManage } from "../model/connection.js";
 import { documentState, SAVE_CHOICES, showBeforeSaving } from "../model/document.js";
 import { ask, saveFiles } from "../model/requests.js";
 import { notify } from "../model/view.js";
@@ -103,6 +104,7 @@ function Hindered({ file, hindrance, copies }) {
   return html`<div class="save-hindered"><p><${Icon} name="lock" size=${14} /><span>${hindrance}</span></p>
     ${
       copies &&
+      mayManage.value &&
       html`<div class="save-copy"><input class="box" aria-label=${t("save.copy.path")} spellcheck=${false} value=${path.value} onKeyDown=${onKey}
         onInput=${(/** @type {any} */ event) => {
           path.value = event.currentTarget.value;

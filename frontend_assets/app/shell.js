@@ -10,6 +10,7 @@ import { documentState, gone } from "../model/document.js";
 import { goTo, openPath } from "../model/requests.js";
 import { activePanel, dialog, size } from "../model/view.js";
 import { ControlBar } from "./control.js";
+import { CopyBar } from "./copy-bar.js";
 import { Dialogs } from "./dialogs.js";
 import { help } from "./help.js";
 import { placedPanels } from "./layouts.js";
@@ -35,6 +36,7 @@ export function Shell({ onDock }) {
     <${SkipLink} />
     <${TopBar} />
     <${ControlBar} />
+    <${CopyBar} />
     <${LostBar} />
     <${GoneBar} />
     <${RestoredBar} />

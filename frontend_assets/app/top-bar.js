@@ -13,6 +13,7 @@ import { allSettled } from "../lib/latest.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { control, you } from "../model/class.js";
 import { documentId, mayEdit, mayManage, role } from "../model/connection.js";
+import { isCopy } from "../model/copies.js";
 import { documents, history, title, unsaved } from "../model/document.js";
 import { ask, closeDocument, goTo, redo, reload, save, undo } from "../model/requests.js";
 import { dialog, languageChoice, layoutControl, size, theme, themeChoice } from "../model/view.js";
@@ -158,9 +159,12 @@ function EditButtons() {
     <${IconButton} icon="undo" label=${t("command.undo")} hint=${hinted("undo", done.at(-1))} disabled=${off || done.length === 0} onClick=${() => undo()} />
     <${IconButton} icon="redo" label=${t("command.redo")} hint=${hinted("redo", undone.at(-1))} disabled=${off || undone.length === 0} onClick=${() => redo()} />
     <${HistoryMenu} />
-    <button type="button" class="button save" aria-label=${t("command.save")} title=${`${t("command.save")} (${keyOf("save")})`}
+    ${
+      !isCopy.value &&
+      html`<button type="button" class="button save" aria-label=${t("command.save")} title=${`${t("command.save")} (${keyOf("save")})`}
       disabled=${off || !unsaved.value} onClick=${save}>
-      <${Icon} name="disk" /><span class="label">${t("command.save")}</span></button>
+      <${Icon} name="disk" /><span class="label">${t("command.save")}</span></button>`
+    }
   </div>`;
 }
 

@@ -5,7 +5,8 @@
 
 import { computed, signal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { hasControl, role } from "./connection.js";
+import { hasControl, lent, person, role } from "./connection.js";
+import { halt } from "./driving.js";
 import { ask } from "./requests.js";
 import { notify } from "./view.js";
 import { subscribe } from "./wire.js";
@@ -21,7 +22,13 @@ export const you = signal({
   hand: false,
 });
 /** @type {Signal<Control>} */
-export const control = signal({ type: "control", class_open: false, holder: "", name: "" });
+export const control = signal({
+  type: "control",
+  class_open: false,
+  holder: "",
+  name: "",
+  document: "",
+});
 /** Null: we do not lead it. @type {Signal<ClassState | null>} */
 export const classState = signal(null);
 
@@ -52,6 +59,7 @@ subscribe("you", (event) => {
   const before = you.value;
   you.value = event;
   role.value = event.role;
+  person.value = event.person;
   hasControl.value = event.has_control;
   if (!leads.value) classState.value = null;
   if (before.person === event.person) sayControl(before, event);
@@ -65,6 +73,7 @@ function sayControl(before, now) {
 
 subscribe("control", (event) => {
   control.value = event;
+  lent.value = { holder: event.holder, document: event.document };
 });
 
 subscribe("class_state", (event) => {
@@ -76,6 +85,7 @@ subscribe("class_state", (event) => {
 });
 
 subscribe("stopped", ({ name }) => {
+  halt();
   notify(name ? t("class.stopped.by", { name }) : t("class.stopped"), { bad: true });
 });
 

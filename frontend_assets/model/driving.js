@@ -10,7 +10,7 @@ import { computed, signal, useRef } from "vendor/preact.js";
 import { clamp } from "../lib/numbers.js";
 import { remembered } from "../lib/remembered.js";
 import { askedWhenChanged, askOrKeepWhy } from "./asking.js";
-import { mayEdit } from "./connection.js";
+import { mayAct } from "./connection.js";
 
 /** @typedef {{x: number, y: number, turn: number}} Deflection each from -1 to 1: forward, to the left, anticlockwise */
 /** @typedef {{linear: number, angular: number, sideways: boolean}} Limits m/s, rad/s; whether it can move to its left */
@@ -147,7 +147,7 @@ let waits = false;
 
 /** @param {string} hand @param {Deflection} deflection what this hand holds from now on @param {DriveTarget} [target] of what stood still until now */
 export function hold(hand, deflection, target = chosenTarget()) {
-  if (!mayEdit.peek()) return;
+  if (!mayAct.peek()) return;
   held.value = new Map(held.peek()).set(hand, deflection);
   if (beat !== undefined) return;
   moved = target;

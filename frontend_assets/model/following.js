@@ -9,7 +9,8 @@
 import { computed, effect, signal, untracked } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
 import { classState, control } from "./class.js";
-import { connection, documentId, role } from "./connection.js";
+import { connection, documentId, ownerOf, person, role } from "./connection.js";
+import { isOwnCopy } from "./copies.js";
 import { hoverSite, pointedSite } from "./origin.js";
 import { goTo } from "./requests.js";
 import { part, selection, selectPart } from "./selection.js";
@@ -30,9 +31,9 @@ const GESTURE_MS = 1000;
 export const leading = signal(false);
 /** Whether this page takes part in that. */
 export const follows = signal(true);
-/** Others than the presenter may follow while they are led. */
+/** Others than the presenter may follow while they are led; on a copy of their own they work alone. */
 export const canFollow = computed(
-  () => leading.value && control.value.class_open && role.value !== "presenter",
+  () => leading.value && control.value.class_open && role.value !== "presenter" && !isOwnCopy.value,
 );
 /** This page shows what the presenter looks at. */
 export const isFollowing = computed(
@@ -72,7 +73,10 @@ export function comeBack() {
 subscribe("leading", (event) => {
   leading.value = event.leading;
 });
-subscribe("gather", comeBack);
+subscribe("gather", ({ document }) => {
+  if (!isOwnCopy.value) comeBack();
+  else if (document !== documentId.value) goTo(documentId.value.split("~")[0] ?? "");
+});
 subscribe("focus", (event) => {
   if (isFollowing.value) takeFocus(event);
 });
@@ -86,15 +90,24 @@ function takeView({ eye, target, pointer }) {
   viewport.value?.setGuide(pointer);
 }
 
+/** The panel that is open, as far as this page was told of it. @type {string | null | undefined} */
+let opened;
+
 /** @param {Focus} focus */
 function takeFocus({ document, part: key, site, panel }) {
-  if (document && document !== documentId.value) return goTo(document);
+  if (document && document !== documentId.value) {
+    // The owner of a copy that is shown works on it, or came back from it: they are told instead.
+    return ownerOf(document) === person.value ? undefined : goTo(document);
+  }
   if (key !== (part.peek() ?? "")) {
     if (key) selectPart(key, "", "", BY);
     else selection.value = null;
   }
   hoverSite(site || null);
-  if (panel && panel !== activePanel.peek()) commandById(`panel.${panel}`)?.run();
+  if (panel && panel !== activePanel.peek()) {
+    opened = panel; // not by a hand on this page
+    commandById(`panel.${panel}`)?.run();
+  }
   return undefined;
 }
 
@@ -140,9 +153,6 @@ function leaveByHand(view) {
 function leaveBySelecting(chosen) {
   if (chosen && chosen.by !== BY && isByHand()) untracked(explore);
 }
-
-/** @type {string | null | undefined} */
-let opened;
 
 /** @param {string | null} panel */
 function leaveByOpening(panel) {

@@ -6,7 +6,7 @@
 import { documentAddress } from "../lib/address.js";
 import { t } from "../lib/i18n.js";
 import { allSettled, latestSender } from "../lib/latest.js";
-import { documentId, hasControl, role } from "./connection.js";
+import { documentId, mayEdit, mayManage, role } from "./connection.js";
 import {
   animating,
   documentState,
@@ -82,7 +82,7 @@ export async function redo(steps = 1) {
 /** Show what saving writes, or write it at once, as was chosen. */
 export async function save() {
   await allSettled();
-  if (!hasControl.value || !unsaved.value) return;
+  if (!mayEdit.value || !unsaved.value) return;
   const { unsaved_count: places, unsaved_files: files } = history.value;
   const choice = showBeforeSaving.value;
   if (choice === "always" || (choice === "several" && Math.max(places, files.length) > 1))
@@ -189,6 +189,12 @@ async function applyFix({ code, sentence, fix }) {
   await allSettled();
   return ask({ type: "apply_fix", code, sentence, label: fix?.label ?? "" });
 }
+
+const MENDED_BY_EDITS = ["edit", "undo", "resolve_collisions"];
+
+/** @param {import("../types/wire.d.ts").Problem} problem @returns {boolean} this person may have it mended */
+export const canMend = ({ fix }) =>
+  fix !== null && (MENDED_BY_EDITS.includes(fix.action) ? mayEdit.value : mayManage.value);
 
 /** @param {import("../types/wire.d.ts").Problem} problem */
 export function mend(problem) {

@@ -9,7 +9,7 @@ import { computed, effect, html, signal, useSignal } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { EmptyState, Icon, MenuButton, ProgressBar } from "../lib/ui.js";
 import { askOrKeepWhy, useLooking } from "../model/asking.js";
-import { mayEdit, mayManage } from "../model/connection.js";
+import { mayAct, mayManage } from "../model/connection.js";
 import { calls, followOperations, followServices, plainOf, services } from "../model/operations.js";
 import { followTopics, topics } from "../model/topics.js";
 import { ConnectFirst, isRouterAway, isUnconnected, RouterAway } from "./parts.js";
@@ -53,7 +53,7 @@ function Content({ id, icon, demo, worlds: { all, shown, chosen }, nameOf, world
     html`<div class="panel-bar row"><${MenuButton} label=${t(`${id}.choose`)} value=${nameOf(one)} class="button" items=${items}>
       <span class="field-name">${nameOf(one)}</span><${Icon} name="chevronDown" size=${12} /><//></div>`
   }
-    ${!mayEdit.value && html`<p class="note padded">${t(`${id}.viewer`)}</p>`}
+    ${!mayAct.value && html`<p class="note padded">${t(`${id}.viewer`)}</p>`}
     <${World} key=${one.prefix} world=${one} />`;
 }
 

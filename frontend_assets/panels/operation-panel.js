@@ -11,7 +11,7 @@ import { shownNumber } from "../lib/numbers.js";
 import { readLine } from "../lib/ros2-lines.js";
 import { useSeen } from "../lib/seen.js";
 import { Icon, IconButton, SearchBox } from "../lib/ui.js";
-import { mayEdit } from "../model/connection.js";
+import { mayAct } from "../model/connection.js";
 import {
   blank,
   boundsOf,
@@ -68,12 +68,12 @@ export function OperationPanel({ id, icon, kind, follow, onLine, children }) {
     return true;
   };
   const onPaste = (/** @type {ClipboardEvent} */ event) => {
-    if (mayEdit.value && take(event.clipboardData?.getData("text/plain") ?? ""))
+    if (mayAct.value && take(event.clipboardData?.getData("text/plain") ?? ""))
       event.preventDefault();
   };
   return html`<section ref=${panel} class="panel-body operations" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
     <${RouterAway} />
-    ${!mayEdit.value && html`<p class="note panel-said">${t("operations.viewer")}</p>`}
+    ${!mayAct.value && html`<p class="note panel-said">${t("operations.viewer")}</p>`}
     ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
   </section>`;
 }
@@ -108,7 +108,7 @@ export function Offers({
   const filter = useSignal("");
   const all = useSignal(false);
   const onInput = (/** @type {string} */ text) => {
-    filter.value = mayEdit.value && paste(text) ? "" : text;
+    filter.value = mayAct.value && paste(text) ? "" : text;
   };
   const toggle = () => {
     all.value = !all.value;
@@ -150,7 +150,7 @@ export function OperationForm({ form, onSubmit, actions, children }) {
   const { name = "", type = "" } = form.chosen.value ?? {};
   const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
-    if (mayEdit.value && !form.wrong.value) onSubmit();
+    if (mayAct.value && !form.wrong.value) onSubmit();
   };
   const onKeyDown = (/** @type {KeyboardEvent} */ event) => {
     if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) submit(event);
@@ -158,7 +158,7 @@ export function OperationForm({ form, onSubmit, actions, children }) {
   return html`<form class="operation-form" aria-label=${name} onSubmit=${submit} onKeyDown=${onKeyDown} novalidate>
     <header class="operation-head"><${IconButton} icon="chevronRight" class="operation-back" label=${t("operations.back")} onClick=${form.close} />
       <h3 title=${name}>${name}</h3><span class="offer-type" title=${type}>${type}</span></header>
-    <${FormOfMessage} form=${form} disabled=${!mayEdit.value} />
+    <${FormOfMessage} form=${form} disabled=${!mayAct.value} />
     <div class="operation-actions">${actions}</div>
     ${children}
   </form>`;

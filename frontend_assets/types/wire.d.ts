@@ -360,6 +360,28 @@ export interface Control {
   class_open: boolean;
   holder: string;
   name: string;
+  document: string;
+}
+
+/** All copies, to those who lead the class. */
+export interface Copies {
+  type: "copies";
+  copies: CopyView[];
+}
+
+/** One copy. */
+export interface CopyView {
+  document: string;
+  of: string;
+  person: string;
+  name: string;
+  title: string;
+  made_s: number;
+  handed_s: number | null;
+  changes: number;
+  remark: string;
+  remarked_s: number | null;
+  shown: boolean;
 }
 
 /** Forget one's own pose; the joints stay where they are. */
@@ -456,6 +478,14 @@ export interface DifferenceView {
   unit: string;
   delta: number | null;
   percent: number | null;
+}
+
+/** Give a copy up; the next one begins with the shared robot as it is then. */
+export interface DiscardCopy {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "discard_copy";
 }
 
 /** Give up what was restored at the opening; undo brings it back. */
@@ -892,6 +922,7 @@ export interface Frames {
 /** Follow the presenter, whatever you did before. */
 export interface Gather {
   type: "gather";
+  document: string;
 }
 
 /** Bring everybody to what the presenter looks at, also those who explore. */
@@ -1284,6 +1315,14 @@ export interface GraphNodeView {
   own: boolean;
 }
 
+/** Hand a copy in as it is now; handed in again, it takes the place of the one before. */
+export interface HandIn {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "hand_in";
+}
+
 /** First on every control lane: who you are here. */
 export interface Hello {
   type: "hello";
@@ -1673,6 +1712,12 @@ export interface Misfit {
   heard: boolean;
 }
 
+/** Your own copies, to all pages of a person. */
+export interface MyCopies {
+  type: "my_copies";
+  copies: CopyView[];
+}
+
 /** Make a package `folder/name` out of a template, and open its robot. */
 export interface NewRobot {
   request?: number;
@@ -1712,6 +1757,14 @@ export interface OfferView {
   name: string;
   types: string[];
   nodes: string[];
+}
+
+/** Make a copy of a shared document with its unsaved edits, or go on with yours. */
+export interface OpenCopy {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_copy";
 }
 
 /** Open the working copy of a shipped model. */
@@ -2426,6 +2479,15 @@ export interface Saved {
   files: string[];
 }
 
+/** Send a copy back to its owner with a remark. */
+export interface SendBack {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "send_back";
+  remark: string;
+}
+
 /** Send a goal; those who follow goals receive what becomes of it. */
 export interface SendGoal {
   request?: number;
@@ -2575,6 +2637,15 @@ export interface SetParameter {
  * something will not work as it is written; the rest is worth knowing.
  */
 export type Severity = "error" | "warning" | "info";
+
+/** Let everybody see a copy, and bring those who follow to it; or no longer. */
+export interface ShowCopy {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "show_copy";
+  shown?: boolean;
+}
 
 /** What the presenter has selected, points at and has open. */
 export interface ShowFocus {
@@ -3073,6 +3144,7 @@ export type Command =
   | ConnectWire
   | DeletePose
   | DeleteVariant
+  | DiscardCopy
   | DiscardRestored
   | DisconnectWire
   | Drive
@@ -3127,6 +3199,7 @@ export type Command =
   | GetUrdf
   | GetUrdfChanges
   | GiveControl
+  | HandIn
   | Lead
   | ListExamples
   | ListFolder
@@ -3140,6 +3213,7 @@ export type Command =
   | MendAll
   | NewRobot
   | NewUntitled
+  | OpenCopy
   | OpenExample
   | OpenFromWire
   | OpenLink
@@ -3171,6 +3245,7 @@ export type Command =
   | SaveCopy
   | SavePose
   | SaveVariant
+  | SendBack
   | SendGoal
   | SetArgument
   | SetArguments
@@ -3184,6 +3259,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | ShowCopy
   | ShowFocus
   | ShowView
   | StartClass
@@ -3212,6 +3288,7 @@ export type Event =
   | Comparison
   | CompletionsAnswer
   | Control
+  | Copies
   | DemoCode
   | DemoOutput
   | Demos
@@ -3250,6 +3327,7 @@ export type Event =
   | ManagedNodes
   | Masses
   | MeaningAnswer
+  | MyCopies
   | NodeAnswer
   | Opened
   | Origin

@@ -384,6 +384,7 @@ class Classroom:
             class_open=self.admission.open,
             holder=self.control.holder,
             name=holder.name if holder else "",
+            document=self.control.document if holder else "",
         )
 
     def _you(self, person: str, role: Role) -> You:

@@ -10,6 +10,8 @@ from studio.protocol.classroom import Focus, Gather, Leading
 from studio.protocol.listeners import Audience, encode, send
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from studio.protocol.classroom import ShowFocus, ShowView
     from studio.protocol.listeners import Listener
 
@@ -51,10 +53,12 @@ class Following:
             self._view, self._focus, self._leader = b"", None, None
         self._everybody.send(Leading(leading=leading))
 
-    def gather(self) -> None:
-        """Bring everybody to what the presenter looks at."""
+    def gather(self, document: str = "") -> None:
+        """Bring everybody to what the presenter looks at, or first to a document."""
         self.lead(leading=True)
-        self._everybody.send(Gather())
+        self._everybody.send(Gather(document=document))
+        if document:
+            self._show(Focus(document=document, part="", site="", panel=""), self._followers)
 
     def follow(self, listener: Listener, *, following: bool) -> bool:
         """Show a page what the presenter looks at, or no longer; return whether that is new."""
@@ -63,6 +67,8 @@ class Following:
             self._followers.pop(listener, None)
             return is_new
         self._followers[listener] = None
+        if self._focus is not None and not listener.sees(self._focus.document):
+            return is_new
         if self._focus is not None:
             send(listener, self._focus)
         if self._view:
@@ -80,7 +86,7 @@ class Following:
         self._leader = leader
         numbers = (*command.eye, *command.target, *(command.pointer or _NOWHERE))
         self._view = _FRAME.pack(VIEW, *numbers)
-        for page in self._others(leader):
+        for page in self._others(leader, command.document):
             page.post(self._view, binary=True, key=_KEY)
 
     def show_focus(self, leader: Listener, command: ShowFocus) -> None:
@@ -88,12 +94,17 @@ class Following:
         if not self.leading:
             return
         self._leader = leader
-        self._focus = Focus.model_validate(
+        focus = Focus.model_validate(
             {name: getattr(command, name) for name in Focus.model_fields if name != "type"}
         )
-        data = encode(self._focus)
-        for page in self._others(leader):
+        self._show(focus, self._others(leader, command.document))
+
+    def _show(self, focus: Focus, pages: Iterable[Listener]) -> None:
+        self._focus = focus
+        data = encode(focus)
+        for page in pages:
             page.post(data, key="focus")
 
-    def _others(self, leader: Listener) -> list[Listener]:
-        return [page for page in self._followers if page is not leader]
+    def _others(self, leader: Listener, document: str) -> list[Listener]:
+        """Return those who follow: to a copy that is not shown to them they are not taken."""
+        return [page for page in self._followers if page is not leader and page.sees(document)]

@@ -191,6 +191,8 @@ class Gather(Event):
     """Follow the presenter, whatever you did before."""
 
     type: Literal["gather"] = "gather"
+    document: str = ""
+    """A copy that is shown to all; empty: what the presenter has open."""
 
 
 class Focus(Event):
@@ -224,6 +226,8 @@ class Control(Event):
     """The person; empty: the presenter."""
     name: str
     """The holder's; empty for the presenter."""
+    document: str = ""
+    """The shared document that a member has control of, besides ROS."""
 
 
 class Stopped(Event):

@@ -24,6 +24,10 @@ class Listener(Protocol):
         """The same for all that comes from one browser, or with one token."""
         ...
 
+    def sees(self, document: str) -> bool:
+        """Whether its person may look at a document."""
+        ...
+
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Queue one message without waiting; of one `key` only the newest need arrive."""
         ...

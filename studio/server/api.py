@@ -216,6 +216,23 @@ class Exports:
         return _sent(await self._engine.document(document).exports.page(dark=theme == "dark"))
 
 
+class HandedIn:
+    """The route for all copies that were handed in, and the engine that has them."""
+
+    def __init__(self, engine: OpenDocuments) -> None:
+        self._engine = engine
+
+    def router(self) -> APIRouter:
+        """Return the one route."""
+        router = APIRouter(prefix="/api")
+        router.add_api_route("/copies", self.copies, response_class=Response, responses=_REFUSED)
+        return router
+
+    async def copies(self) -> Response:
+        """Return a zip with a folder for each person who handed something in."""
+        return _sent(self._engine.copies.download())
+
+
 def _sent(download: Download) -> Response:
     headers = {
         "content-disposition": disposition(download.name),

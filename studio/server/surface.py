@@ -84,6 +84,18 @@ class SubscribesTopics(Protocol):
         ...
 
 
+class HandedCopies(Protocol):
+    """Copies that were handed in."""
+
+    def download(self) -> Download:
+        """Return all of them as a zip.
+
+        Raises:
+            CommandError: Nobody handed one in.
+        """
+        ...
+
+
 class OpenDocuments(Protocol):
     """The engine."""
 
@@ -95,6 +107,11 @@ class OpenDocuments(Protocol):
     @property
     def classroom(self) -> Classroom:
         """The class that shares it."""
+        ...
+
+    @property
+    def copies(self) -> HandedCopies:
+        """The copies of the class."""
         ...
 
     @property

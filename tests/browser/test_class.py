@@ -219,3 +219,48 @@ def test_a_student_follows_camera_selection_and_panel_explores_and_is_brought_ba
         presenter.page.keyboard.press("Enter")
         wait_until("everybody here", lambda: same_camera(presenter, ada))
         assert presenter.errors == ada.errors == []
+
+
+def test_a_copy_is_tried_on_handed_in_compared_shown_and_sent_back(
+    browser: Browser, served: Served
+):
+    address = served.addresses["nginx"]
+    with ExitStack() as held:
+        presenter, ada, bob = (held.enter_context(tab(browser)) for _ in range(3))
+        presenter.open(f"{address}?token={served.studio.token}", view=False)
+        for student, name in ((ada, "Ada C"), (bob, "Bob C")):
+            join(student, address, name, served.studio.class_code)
+        shared = value_of(presenter, "mast_height")
+        press(ada, "My copy")
+        copy_bar(ada).get_by_text("Your copy: nobody else changes it").wait_for()
+        changed = float(ada.drag_slider("mast_height", 0.9))
+        assert value_of(presenter, "mast_height") == shared != changed
+        press(ada, "Hand in")
+        copy_bar(ada).get_by_text("1 change").wait_for()
+        presenter.page.keyboard.press("Control+K")
+        presenter.page.keyboard.type("People")
+        presenter.page.keyboard.press("Enter")
+        presenter.page.get_by_role("button", name="Open what Ada C handed in: 1 change").click()
+        copy_bar(presenter).get_by_text("Copy of Ada C").wait_for()
+        shows(presenter, "mast_height", changed)
+        press(presenter, "Compare with the original")
+        table = presenter.page.get_by_role("region", name="Variants")
+        table.get_by_text("mast_height").first.wait_for()
+        press(presenter, "Show to all")
+        copy_bar(bob).get_by_text("Copy of").wait_for()
+        shows(bob, "mast_height", changed)
+        assert bob.slider("mast_height").is_disabled()
+        press(presenter, "Send back…")
+        presenter.page.get_by_label("Remark for the owner").fill("Too <b>high</b>, I think.")
+        presenter.page.get_by_role("dialog").get_by_role("button", name="Send back").click()
+        ada.page.get_by_text("Remark: Too <b>high</b>, I think.").wait_for()
+        press(ada, "Back to the class")
+        bar(ada).get_by_text("You are looking").wait_for()
+        assert value_of(ada, "mast_height") == shared
+        for one in (presenter, ada, bob):
+            assert one.errors == []
+
+
+def copy_bar(tab: StudioPage) -> Locator:
+    """The bar above a copy."""
+    return tab.page.locator(".copy-bar")

@@ -90,6 +90,7 @@ def test_a_new_page_learns_who_it_is_and_who_has_control():
             "class_open": True,
             "holder": "",
             "name": "",
+            "document": "",
         }
 
     run(work)

@@ -73,7 +73,7 @@ def test_nobody_is_led_while_the_presenter_does_not_lead_and_all_are_gathered_at
     assert len(student.frames) == 1
     assert student.last("leading")["leading"] is False
     made.gather()
-    assert student.last("gather") == {"type": "gather"}
+    assert student.last("gather") == {"type": "gather", "document": ""}
     assert student.last("leading")["leading"] is True
 
 
@@ -83,3 +83,16 @@ def test_a_page_that_is_gone_is_sent_nothing():
     made.detach(presenter)
     made.show_view(presenter, VIEW)
     assert student.frames == []
+
+
+def test_nobody_is_taken_to_a_copy_before_it_is_shown_to_all_and_then_everybody_is():
+    made, presenter, student = pair()
+    made.show_focus(presenter, ShowFocus(document="rover~ada", part="link:mast"))
+    made.show_view(presenter, VIEW.model_copy(update={"document": "rover~ada"}))
+    late = Ear(Role.STUDENT)
+    made.attach(late)
+    made.follow(late, following=True)
+    assert [page.frames for page in (student, late)] == [[], []]
+    assert not any(event["type"] == "focus" for page in (student, late) for event in page.events)
+    made.gather("rover~ada")
+    assert [page.last("focus")["document"] for page in (student, late)] == ["rover~ada"] * 2

@@ -13,7 +13,7 @@ from studio.protocol.commands import may
 from studio.protocol.roles import Role, Visitor
 from studio.scene import SUBPROTOCOL
 from studio.server.access import PUBLIC_ROUTES, ROUTES
-from studio.server.api import Api, Exports, LogOut
+from studio.server.api import Api, Exports, HandedIn, LogOut
 from studio.server.assets import Assets
 from studio.server.cookies import Cookies
 from studio.server.credentials import Credentials
@@ -45,6 +45,7 @@ def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder:
     Site(engine, Assets(assets_folder), "session", "").add_to(app)
     app.include_router(Api(engine, "session").router())
     app.include_router(Exports(engine).router())
+    app.include_router(HandedIn(engine).router())
     app.include_router(Uploads(engine).router())
     app.include_router(LogOut(credentials, classroom).router())
     app.include_router(

@@ -8,7 +8,7 @@ from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any
 
 from studio.documents.engine import Engine
-from studio.protocol.roles import Role
+from studio.protocol.roles import Role, Visitor
 from studio.settings import Settings
 
 if TYPE_CHECKING:
@@ -27,6 +27,10 @@ class Ear:
         self.role, self.person = role, ""
         self.events: list[dict[str, Any]] = []
         self.frames: list[bytes] = []
+
+    def sees(self, document: str) -> bool:
+        """What its role may look at."""
+        return Visitor(self.role).sees(document)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         del key  # everything is kept

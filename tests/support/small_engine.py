@@ -73,6 +73,13 @@ class SmallDocument:
         self.exports = SmallExports()
 
 
+class SmallCopies:
+    """One copy, handed in."""
+
+    def download(self) -> Download:
+        return Download("copies.zip", "application/zip", (b"copies",))
+
+
 class SmallUploads:
     """Keeps what is sent in memory, and opens it as the small document."""
 
@@ -125,7 +132,7 @@ class SmallEngine:
     def __init__(self) -> None:
         self.documents = {"small": SmallDocument()}
         self.classroom = Classroom()
-        self.uploads = SmallUploads()
+        self.uploads, self.copies = SmallUploads(), SmallCopies()
         self.browser_topics = SmallTopics()
         self.default_document: str | None = "small"
         self.executed: list[Command] = []

@@ -8,7 +8,7 @@ import { commandById } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
 import { Icon, ProgressBar } from "../../lib/ui.js";
 import { askedWhenChanged, askOrKeepWhy } from "../../model/asking.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { filterLogTo, levelOf } from "../../model/log.js";
 import { goalForm } from "../../model/message-forms.js";
 import {
@@ -67,7 +67,7 @@ function Chosen({ name }) {
   const own = goals.value.filter((one) => one.name === name).reverse();
   return html`<div class="operations-chosen scroll">
     <${OperationForm} form=${goalForm} onSubmit=${sendGoal} actions=${html`
-      <button type="submit" class="button primary" disabled=${!mayEdit.value || goalForm.wrong.value}><${Icon} name="send" />${t("actions.send")}</button>`} />
+      <button type="submit" class="button primary" disabled=${!mayAct.value || goalForm.wrong.value}><${Icon} name="send" />${t("actions.send")}</button>`} />
     ${own.map((goal) => html`<${Goal} key=${goal.operation} goal=${goal} />`)}
     <${Others} />
   </div>`;
@@ -126,7 +126,7 @@ function Stand({ goal }) {
 /** @param {{goal: GoalView}} props */
 function Cancel({ goal }) {
   const asked = goal.state === "canceling";
-  return html`<button type="button" class="button small" disabled=${asked || !mayEdit.value} onClick=${() => cancelGoal(goal.operation)}>
+  return html`<button type="button" class="button small" disabled=${asked || !mayAct.value} onClick=${() => cancelGoal(goal.operation)}>
     ${t(asked ? "actions.cancelling" : "cancel")}</button>`;
 }
 

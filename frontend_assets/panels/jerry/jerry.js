@@ -8,7 +8,7 @@
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { Icon } from "../../lib/ui.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { FieldPanel, followNamespaces, Troubles } from "../demo-panel.js";
 import {
   clearWalk,
@@ -48,11 +48,11 @@ function Shown({ world: shown }) {
   const steps = useSignal(1);
   const place = useSignal(/** @type {Place} */ ({ x: 3, y: 4 }));
   const go = (/** @type {string} */ direction) => {
-    if (mayEdit.peek()) command(shown, direction, steps.peek());
+    if (mayAct.peek()) command(shown, direction, steps.peek());
   };
   const ask = (/** @type {Place} */ at) => {
     place.value = at;
-    if (mayEdit.peek()) measure(shown, known, at);
+    if (mayAct.peek()) measure(shown, known, at);
   };
   return html`<div class="field-parts">
       <${JerryField} known=${known} go=${go} ask=${ask} />
@@ -77,7 +77,7 @@ function Standing({ jerry: { pose }, known }) {
 /** @param {Parts & {go: (direction: string) => void, steps: import("vendor/preact.js").Signal<number>}} props */
 function Commands({ jerry: { command: topic }, known, go, steps }) {
   known.turn.value;
-  const isOff = !mayEdit.value || topic === null;
+  const isOff = !mayAct.value || topic === null;
   const type = (/** @type {number} */ typed) => {
     steps.value = Math.min(STEPS_MAX, Math.max(0, Math.round(typed) || 0));
   };
@@ -97,7 +97,7 @@ function HeardRow({ heard: { direction, steps, fate } }) {
 /** @param {Parts & {ask: (place: Place) => void, place: import("vendor/preact.js").Signal<Place>}} props */
 function Distances({ jerry: { distance }, known, ask, place }) {
   known.turn.value;
-  const isOff = !mayEdit.value || distance === null;
+  const isOff = !mayAct.value || distance === null;
   const box = (/** @type {"x" | "y"} */ axis) =>
     html`<label>${axis} <input type="number" step="any" class="box number" value=${place.value[axis]} disabled=${isOff}
       onInput=${(/** @type {any} */ event) => {

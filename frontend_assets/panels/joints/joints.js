@@ -11,7 +11,7 @@ import { remembered } from "../../lib/remembered.js";
 import { reveal } from "../../lib/seen.js";
 import { Slider, TextBox } from "../../lib/slider.js";
 import { EmptyState, Icon, SearchBox, Switch } from "../../lib/ui.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { animating, movable, position, robot } from "../../model/document.js";
 import {
   jointsSettled,
@@ -173,7 +173,7 @@ function Choices() {
   };
   const { publishes_robot: robotOut, publishes_joints: jointsOut } = feed.value;
   const { description_from: from, trouble, rivals } = feed.value;
-  const off = !mayEdit.value || busy.value;
+  const off = !mayAct.value || busy.value;
   return html`
     <label class="ros-row"><span>${t("source_of_joints.label")}</span>
       <select class="box" disabled=${off || movable.value.length === 0} value=${sourceNow()} onChange=${(

@@ -9,7 +9,7 @@ import { language, t } from "../../lib/i18n.js";
 import { secondsSince, shortTime, useNow } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
-import { mayEdit, mayManage } from "../../model/connection.js";
+import { mayAct, mayManage } from "../../model/connection.js";
 import {
   askLessons,
   chosenLesson,
@@ -251,7 +251,7 @@ function Run({ lesson }) {
       <div class="lesson-run-names"><strong>${demo}</strong><span class="muted" title=${node}>${node}</span></div>
       ${!isStranger && html`<${Buttons} demo=${demo} />`}</div>
     ${isStranger ? html`<p class="note">${t("lessons.elsewhere", { node })}</p>` : html`<${State} view=${view} />`}
-    ${hasKeys && mayEdit.value && view?.state === "running" && html`<${Keys} demo=${demo} />`}</li>`;
+    ${hasKeys && mayAct.value && view?.state === "running" && html`<${Keys} demo=${demo} />`}</li>`;
 }
 
 /** @param {{demo: string}} props */

@@ -7,7 +7,7 @@ import { html, signal, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { Icon, ProgressBar } from "../../lib/ui.js";
 import { askOrKeepWhy, polled, useLooking } from "../../model/asking.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { ask } from "../../model/requests.js";
 import { ConnectFirst, isUnconnected, NothingThere, Refusal, RouterAway } from "../parts.js";
 
@@ -32,7 +32,7 @@ function Content() {
   return html`<div class="scroll lifecycle-list">
     ${answer.nodes.map((node) => html`<${ManagedNode} key=${node.name} node=${node} />`)}
     ${answer.more > 0 && html`<p class="note padded">${t("lifecycle.more", { count: answer.more })}</p>`}
-    ${!mayEdit.value && html`<p class="note padded">${t("lifecycle.viewer")}</p>`}
+    ${!mayAct.value && html`<p class="note padded">${t("lifecycle.viewer")}</p>`}
   </div>`;
 }
 
@@ -45,7 +45,7 @@ function ManagedNode({ node }) {
     await askManaged();
     busy.value = "";
   };
-  const off = !mayEdit.value || busy.value !== "";
+  const off = !mayAct.value || busy.value !== "";
   return html`<section class="lifecycle-node" aria-label=${node.name}>
     <header><${Icon} name="node" size=${15} /><h3>${node.name}</h3></header>
     ${node.trouble ? html`<p class="note bad">${node.trouble}</p>` : html`<${States} state=${node.state} />`}

@@ -7,7 +7,7 @@ import { saveAsFile } from "../../lib/files.js";
 import { t } from "../../lib/i18n.js";
 import { TextBox } from "../../lib/slider.js";
 import { Icon, IconButton, SearchBox, Switch } from "../../lib/ui.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { plainOf } from "../../model/operations.js";
 import {
   askNodes,
@@ -108,7 +108,7 @@ function rangeWords({ low, high, step, value_type: type }) {
 
 /** @param {{parameter: ParameterView}} props */
 function Value({ parameter: { name, value, value_type: type, read_only: fixed, step } }) {
-  const disabled = fixed || !mayEdit.value;
+  const disabled = fixed || !mayAct.value;
   const plain = plainOf(value);
   const write = (/** @type {string} */ text) => void setParameter(name, text, type);
   if (type === "bool")
@@ -142,7 +142,7 @@ function AsFile({ node }) {
   return html`<details class="operation-history"><summary>${t("parameters.file")}</summary>
     <div class="operation-actions"><button type="button" class="button small" onClick=${dump}>${t("parameters.dump")}</button>
       <button type="button" class="button small" disabled=${text.value === ""} onClick=${save}><${Icon} name="download" size=${13} />${t("parameters.save")}</button>
-      <button type="button" class="button small" disabled=${text.value.trim() === "" || !mayEdit.value} onClick=${load}>${t("parameters.load")}</button></div>
+      <button type="button" class="button small" disabled=${text.value.trim() === "" || !mayAct.value} onClick=${load}>${t("parameters.load")}</button></div>
     <textarea class="box yaml" rows=${8} spellcheck=${false} aria-label=${t("parameters.file.of", { node })} placeholder=${`${node}:\n  ros__parameters:\n    …`} value=${text.value}
       onInput=${(/** @type {any} */ event) => {
         text.value = event.currentTarget.value;

@@ -4,6 +4,7 @@
 /** @import { MenuItem } from "../../lib/ui.js" */
 
 import { html, useSignal } from "vendor/preact.js";
+import { address } from "../../lib/address.js";
 import { t } from "../../lib/i18n.js";
 import { EmptyState, Icon, IconButton, MenuButton, SearchBox, Switch } from "../../lib/ui.js";
 import {
@@ -18,7 +19,9 @@ import {
   takeControl,
 } from "../../model/class.js";
 import { role } from "../../model/connection.js";
+import { allCopies, copyOf, isHandedIn } from "../../model/copies.js";
 import { gatherAll, lead, leading } from "../../model/following.js";
+import { goTo } from "../../model/requests.js";
 import { dialog } from "../../model/view.js";
 import { listed } from "./listing.js";
 
@@ -48,6 +51,7 @@ function Content() {
     <p class="people-count" role="status">${t("people.count", { here: state.members.filter(({ here }) => here).length, all: state.members.length })}${state.viewers > 0 ? ` ${t("people.viewers", { count: state.viewers })}` : ""}</p>
     ${state.members.some(({ hand_s: raised }) => raised != null) && html`<button type="button" class="button small" onClick=${() => lowerHand()}>${t("people.lower_all")}</button>`}
     ${role.value === "presenter" && html`<${Guiding} />`}
+    ${allCopies.value.some((one) => typeof one.handed_s === "number") && html`<a class="button small" href=${address("/api/copies")} download><${Icon} name="download" size=${14} />${t("people.copies.download")}</a>`}
     ${rows.length === 0 && html`<p class="note">${t(state.members.length > 0 ? "people.none_found" : "people.none")}</p>`}
     <ul class="people-list">${rows.map((member) => html`<${Person} key=${member.person} member=${member} />`)}</ul></div>`;
 }
@@ -83,9 +87,19 @@ function Person({ member }) {
     ${member.role !== "student" && html`<span class="person-role">${t(`class.role.${member.role}`)}</span>`}
     ${member.hand_s != null && html`<${IconButton} icon="hand" size=${14} class="person-hand" label=${t("people.lower", { name })} onClick=${() => lowerHand(member.person)} />`}
     ${here && leading.value && html`<span class="person-looks" role="img" aria-label=${looks} title=${looks}><${Icon} name=${member.follows ? "watching" : "compass"} size=${14} /></span>`}
+    ${html`<${Copy} who=${member.person} name=${name} />`}
     <span class="push"></span>
     ${removed ? html`<${Removed} member=${member} />` : html`<${Control} member=${member} holds=${holds} />`}
     ${role.value === "presenter" && !removed && html`<${MenuButton} label=${t("people.menu", { name })} items=${() => itemsOf(member)}><${Icon} name="dots" size=${14} /><//>`}</li>`;
+}
+
+/** @param {{who: string, name: string}} props their copy, to be looked at */
+function Copy({ who, name }) {
+  const copy = copyOf(who);
+  if (!copy) return null;
+  const handed = isHandedIn(copy);
+  return html`<${IconButton} icon=${handed ? "check" : "fork"} size=${14} class=${handed ? "person-handed" : ""} onClick=${() => goTo(copy.document)}
+    label=${t(handed ? "people.copy.handed" : "people.copy", { name, count: copy.changes })} />`;
 }
 
 /** @param {{member: MemberView}} props */

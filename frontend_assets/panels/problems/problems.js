@@ -11,7 +11,7 @@ import { baseName, placeText, shortPath } from "../../lib/paths.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../../lib/ui.js";
 import { mayEdit } from "../../model/connection.js";
 import { allSites, documentState, problems, sitesRevision } from "../../model/document.js";
-import { mend, mendAll } from "../../model/requests.js";
+import { canMend, mend, mendAll } from "../../model/requests.js";
 import { selectPart } from "../../model/selection.js";
 import { showSource } from "../../model/source.js";
 import { notify, propertyFilter, soughtSite } from "../../model/view.js";
@@ -146,7 +146,7 @@ function ProblemRow({ problem, id: key, at, of }) {
       </p>
       ${open.value && html`<div class="problem-more" id=${id}><${Why} code=${problem.code} /><${Trail} problem=${problem} /></div>`}
     </div>
-    ${fix && mayEdit.value && html`<button type="button" class="button small problem-fix" onClick=${() => mend(problem)}>${fix.label}</button>`}
+    ${fix && canMend(problem) && html`<button type="button" class="button small problem-fix" onClick=${() => mend(problem)}>${fix.label}</button>`}
   </div>`;
 }
 

@@ -10,7 +10,7 @@ import { parseNumber } from "../../lib/numbers.js";
 import { TextBox } from "../../lib/slider.js";
 import { Icon } from "../../lib/ui.js";
 import { askedWhenChanged, askOrKeepWhy } from "../../model/asking.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { publishForm, publishing } from "../../model/message-forms.js";
 import {
   followOperations,
@@ -80,23 +80,23 @@ function AnotherTopic() {
       onLine({ kind: "topic", name: name.value, type: type.value, text: "", rate_hz: 0, qos: {} });
   };
   return html`<form class="another-topic" aria-label=${t("publish.another")} onSubmit=${open}>
-    <input class="box wide" aria-label=${t("publish.topic")} placeholder=${t("publish.topic")} value=${name.value} disabled=${!mayEdit.value} spellcheck=${false} autocomplete="off" onInput=${(
+    <input class="box wide" aria-label=${t("publish.topic")} placeholder=${t("publish.topic")} value=${name.value} disabled=${!mayAct.value} spellcheck=${false} autocomplete="off" onInput=${(
       /** @type {any} */ event,
     ) => {
       name.value = event.currentTarget.value.trim();
     }} />
-    <input class="box wide" aria-label=${t("publish.type")} placeholder=${EXAMPLE} value=${type.value} disabled=${!mayEdit.value} spellcheck=${false} autocomplete="off" onInput=${(
+    <input class="box wide" aria-label=${t("publish.type")} placeholder=${EXAMPLE} value=${type.value} disabled=${!mayAct.value} spellcheck=${false} autocomplete="off" onInput=${(
       /** @type {any} */ event,
     ) => {
       type.value = event.currentTarget.value.trim();
     }} />
-    <button type="submit" class="button small" disabled=${!isWhole || !mayEdit.value}>${t("publish.take")}</button></form>`;
+    <button type="submit" class="button small" disabled=${!isWhole || !mayAct.value}>${t("publish.take")}</button></form>`;
 }
 
 /** The topic that is chosen, and what is published on it. */
 function Chosen() {
   const { rate_hz: rate } = publishing.value;
-  const blocked = !mayEdit.value || publishForm.wrong.value;
+  const blocked = !mayAct.value || publishForm.wrong.value;
   const name = publishForm.chosen.value?.name;
   const repeated = repeatedPublications.value.filter((one) => one.name === name);
   return html`<div class="operations-chosen scroll">
@@ -104,7 +104,7 @@ function Chosen() {
       <button type="submit" class="button primary" disabled=${blocked}><${Icon} name="send" />${t("publish.once")}</button>
       ${
         repeated.length > 0
-          ? html`<button type="button" class="button danger" disabled=${!mayEdit.value} onClick=${() => stopAll(repeated)}><${Icon} name="stop" />${t("publish.stop.rate", { rate: repeated[0]?.rate_hz ?? 0 })}</button>`
+          ? html`<button type="button" class="button danger" disabled=${!mayAct.value} onClick=${() => stopAll(repeated)}><${Icon} name="stop" />${t("publish.stop.rate", { rate: repeated[0]?.rate_hz ?? 0 })}</button>`
           : html`<button type="button" class="button" disabled=${blocked} onClick=${() => publish({ once: false })}><${Icon} name="animate" />${t("publish.at", { rate, count: rate })}</button>`
       }
       <${Rate} rate=${rate} />`}><${Quality} /><//>
@@ -124,7 +124,7 @@ function Rate({ rate }) {
     if (hz && hz > 0)
       publishing.value = { ...publishing.value, rate_hz: Math.min(hz, RATE_MAX_HZ) };
   };
-  return html`<label class="operation-timeout">${t("publish.rate")}<${TextBox} label=${t("publish.rate.hz")} class="number narrow" text=${String(rate)} disabled=${!mayEdit.value}
+  return html`<label class="operation-timeout">${t("publish.rate")}<${TextBox} label=${t("publish.rate.hz")} class="number narrow" text=${String(rate)} disabled=${!mayAct.value}
     number=${rate} step=${1} onWrite=${write} />${UNIT}</label>`;
 }
 
@@ -135,8 +135,8 @@ function Quality() {
     publishing.value = { ...publishing.value, ...news };
   };
   return html`<details class="operation-history"><summary>${t("publish.quality")}</summary><div class="quality">
-    <label><input type="checkbox" checked=${reliable} disabled=${!mayEdit.value} onChange=${() => change({ reliable: !reliable })} />${t("publish.reliable")}</label>
-    <label><input type="checkbox" checked=${latched} disabled=${!mayEdit.value} onChange=${() => change({ latched: !latched })} />${t("publish.latched")}</label></div></details>`;
+    <label><input type="checkbox" checked=${reliable} disabled=${!mayAct.value} onChange=${() => change({ reliable: !reliable })} />${t("publish.reliable")}</label>
+    <label><input type="checkbox" checked=${latched} disabled=${!mayAct.value} onChange=${() => change({ latched: !latched })} />${t("publish.latched")}</label></div></details>`;
 }
 
 /** @param {{all: boolean}} props all that run, or the last ones of the topic that is chosen */
@@ -148,7 +148,7 @@ function Publications({ all }) {
   if (shown.length === 0) return null;
   return html`<section class="goals-running" aria-label=${t(all ? "publish.now" : "publish.last")}>
     <h4>${t(all ? "publish.now" : "publish.last")}
-      ${all && running.length > 1 && html`<button type="button" class="button small" disabled=${!mayEdit.value} onClick=${() => stopPublishing()}>${t("publish.stop_all")}</button>`}</h4>
+      ${all && running.length > 1 && html`<button type="button" class="button small" disabled=${!mayAct.value} onClick=${() => stopPublishing()}>${t("publish.stop_all")}</button>`}</h4>
     ${shown.map((one) => html`<${Publication} key=${one.operation} publication=${one} />`)}</section>`;
 }
 
@@ -162,6 +162,6 @@ function Publication({ publication: one }) {
   });
   return html`<div class="goal-line"><span class="offer-name" title=${one.text}>${one.name}</span>
     <${OperationState} state=${one.state} busy=${runs} bad=${one.state === "failed"} words=${words} />
-    ${runs && html`<button type="button" class="button small" disabled=${!mayEdit.value} onClick=${() => stopPublishing(one.operation)}>${t("publish.stop")}</button>`}
+    ${runs && html`<button type="button" class="button small" disabled=${!mayAct.value} onClick=${() => stopPublishing(one.operation)}>${t("publish.stop")}</button>`}
     ${one.trouble && html`<p class="note bad">${one.trouble}</p>`}</div>`;
 }

@@ -23,7 +23,7 @@ import {
 } from "../../model/document.js";
 import { fixedFrame, framesNow, frameTrouble, setFixedFrame } from "../../model/live-displays.js";
 import { measuring } from "../../model/measuring.js";
-import { mend, openPath, setDisplay, undo, worstProblem } from "../../model/requests.js";
+import { canMend, mend, openPath, setDisplay, undo, worstProblem } from "../../model/requests.js";
 import { heldBack } from "../../model/source.js";
 import { dialog, mouseMode, theme } from "../../model/view.js";
 import {
@@ -153,6 +153,7 @@ function Failed() {
         html`<div class="buttons">
         ${
           problem?.fix &&
+          canMend(problem) &&
           html`<button type="button" class="button primary"
           onClick=${() => mend(problem)}>${problem.fix.label}</button>`
         }
@@ -187,7 +188,7 @@ function LastGoodNotice() {
 /** What mends it, and the way back. @param {{problem: import("../../types/wire.d.ts").Problem | undefined}} props */
 function NoticeButtons({ problem }) {
   const fix = problem?.fix?.action === "undo" ? null : problem?.fix;
-  return html`${problem && fix && html`<button type="button" class="button" onClick=${() => mend(problem)}>${fix.label}</button>`}
+  return html`${problem && fix && canMend(problem) && html`<button type="button" class="button" onClick=${() => mend(problem)}>${fix.label}</button>`}
     ${history.value.undo.length > 0 && html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`}`;
 }
 

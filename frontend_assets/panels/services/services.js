@@ -7,7 +7,7 @@ import { t } from "../../lib/i18n.js";
 import { parseNumber } from "../../lib/numbers.js";
 import { TextBox } from "../../lib/slider.js";
 import { Icon } from "../../lib/ui.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { callTimeout, serviceForm } from "../../model/message-forms.js";
 import {
   askServices,
@@ -60,10 +60,10 @@ function Chosen() {
   const running = call?.state === "calling" ? call : null;
   return html`<div class="operations-chosen scroll">
     <${OperationForm} form=${serviceForm} onSubmit=${run} actions=${html`
-      <button type="submit" class="button primary" disabled=${!mayEdit.value || serviceForm.wrong.value}><${Icon} name="send" />${t("services.call")}</button>
-      ${running && html`<button type="button" class="button" disabled=${!mayEdit.value} onClick=${() => cancelCall(running.operation)}>${t("cancel")}</button>`}
+      <button type="submit" class="button primary" disabled=${!mayAct.value || serviceForm.wrong.value}><${Icon} name="send" />${t("services.call")}</button>
+      ${running && html`<button type="button" class="button" disabled=${!mayAct.value} onClick=${() => cancelCall(running.operation)}>${t("cancel")}</button>`}
       <label class="operation-timeout">${t("services.timeout")}<${TextBox} label=${t("services.timeout.seconds")} class="number narrow" text=${String(callTimeout.value)}
-        disabled=${!mayEdit.value} number=${callTimeout.value} step=${1} onWrite=${writeTimeout} />s</label>`} />
+        disabled=${!mayAct.value} number=${callTimeout.value} step=${1} onWrite=${writeTimeout} />s</label>`} />
     ${call && html`<${Reply} call=${call} />`}
     ${
       own.length > 1 &&

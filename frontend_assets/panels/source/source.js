@@ -18,7 +18,7 @@ import { recall, remember } from "../../lib/remembered.js";
 import { EmptyState, Icon, ProgressBar } from "../../lib/ui.js";
 import { connection, mayEdit } from "../../model/connection.js";
 import { documentState, history, problems } from "../../model/document.js";
-import { mend } from "../../model/requests.js";
+import { canMend, mend } from "../../model/requests.js";
 import {
   cursorPlace,
   litPlaces,
@@ -143,7 +143,7 @@ function useMarks(texts) {
 
 /** @param {Problem} problem @param {boolean} free @returns {{name: string, apply: () => void}[]} a click on it where it is underlined */
 function fixOf(problem, free) {
-  if (!free || !problem.fix) return [];
+  if (!free || !problem.fix || !canMend(problem)) return [];
   return [{ name: problem.fix.label, apply: () => void mend(problem) }];
 }
 

@@ -6,7 +6,7 @@ import { allDigits, shownNumber } from "../../lib/numbers.js";
 import { Slider } from "../../lib/slider.js";
 import { Icon, Switch } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import {
   CENTRE,
   chosenDrive,
@@ -60,12 +60,12 @@ function stopsWithPage() {
 function Content() {
   return html`<div class="scroll teleop-parts">
     <${Target} />
-    ${!mayEdit.value && html`<p class="note">${t("teleop.viewer")}</p>`}
+    ${!mayAct.value && html`<p class="note">${t("teleop.viewer")}</p>`}
     <${Hands} />
     <${Speed} />
     ${drivingRefused.value && html`<p class="note bad" role="alert">${drivingRefused.value}</p>`}
     <div class="teleop-limits">${BOUNDS.map((bound) => html`<${Limit} key=${bound.name} ...${bound} />`)}</div>
-    <div class="teleop-line"><span>${t("teleop.sideways")}</span><${Switch} label=${t("teleop.sideways")} checked=${driveLimits.value.sideways} disabled=${!mayEdit.value}
+    <div class="teleop-line"><span>${t("teleop.sideways")}</span><${Switch} label=${t("teleop.sideways")} checked=${driveLimits.value.sideways} disabled=${!mayAct.value}
       onChange=${(/** @type {boolean} */ sideways) => {
         driveLimits.value = { ...driveLimits.value, sideways };
       }} /></div>
@@ -86,10 +86,10 @@ function Target() {
     chosenDrive.value = { name, stamped: now };
   };
   return html`<div class="teleop-target">
-    <label>${t("teleop.topic")}<input class="box wide" list="teleop-topics" value=${name} disabled=${!mayEdit.value} spellcheck=${false} autocomplete="off"
+    <label>${t("teleop.topic")}<input class="box wide" list="teleop-topics" value=${name} disabled=${!mayAct.value} spellcheck=${false} autocomplete="off"
       onChange=${(/** @type {any} */ event) => choose(event.currentTarget.value.trim())} /></label>
     <datalist id="teleop-topics">${driveTopics.value.map((one) => html`<option key=${one.name} value=${one.name}></option>`)}</datalist>
-    <label class="teleop-stamped"><input type="checkbox" checked=${stamped} disabled=${!mayEdit.value}
+    <label class="teleop-stamped"><input type="checkbox" checked=${stamped} disabled=${!mayAct.value}
       onChange=${(/** @type {any} */ event) => stamp(event.currentTarget.checked)} />${STAMPED}</label></div>`;
 }
 
@@ -111,7 +111,7 @@ function Limit({ name, unit, min, max, step }) {
   const value = driveLimits.value[name];
   const label = t(`teleop.${name}`);
   const text = `${shownNumber(value)} ${unit}`;
-  return html`<span>${label}</span><output>${text}</output><${Slider} label=${label} min=${min} max=${max} step=${step} value=${value} text=${text} disabled=${!mayEdit.value}
+  return html`<span>${label}</span><output>${text}</output><${Slider} label=${label} min=${min} max=${max} step=${step} value=${value} text=${text} disabled=${!mayAct.value}
     onMove=${(/** @type {number} */ moved) => {
       driveLimits.value = { ...driveLimits.peek(), [name]: moved };
     }} onEnd=${async () => {}} />`;
@@ -146,14 +146,14 @@ function Stick() {
     hold("stick", ofStick(right, event.clientY - top - height / 2, width / 2));
   };
   const onPointerDown = (/** @type {any} */ event) => {
-    if (event.button !== 0 || !mayEdit.peek()) return;
+    if (event.button !== 0 || !mayAct.peek()) return;
     event.currentTarget.setPointerCapture(event.pointerId);
     pull(event);
   };
   const onPointerMove = (/** @type {any} */ event) => {
     if (held.peek().has("stick")) pull(event);
   };
-  return html`<div class="teleop-stick" role="application" aria-label=${t("teleop.stick")} title=${t("teleop.stick")} tabindex=${mayEdit.value ? 0 : -1} aria-disabled=${!mayEdit.value}
+  return html`<div class="teleop-stick" role="application" aria-label=${t("teleop.stick")} title=${t("teleop.stick")} tabindex=${mayAct.value ? 0 : -1} aria-disabled=${!mayAct.value}
     style=${`--aside:${(-aside).toFixed(3)};--ahead:${(-x).toFixed(3)}`} onPointerDown=${onPointerDown} onPointerMove=${onPointerMove}
     onPointerUp=${() => release("stick")} onPointerCancel=${() => release("stick")} onLostPointerCapture=${() => release("stick")}><span class="teleop-knob"></span></div>`;
 }
@@ -178,7 +178,7 @@ function Arrow({ id, icon, x = 0, y = 0, turn = 0 }) {
   const onKeyDown = (/** @type {KeyboardEvent} */ event) => {
     if (event.key === "Enter" && !event.repeat) press();
   };
-  return html`<button type="button" class=${`button teleop-${id}`} aria-label=${t(wordOf(id))} title=${t(wordOf(id))} disabled=${!mayEdit.value}
+  return html`<button type="button" class=${`button teleop-${id}`} aria-label=${t(wordOf(id))} title=${t(wordOf(id))} disabled=${!mayAct.value}
     aria-pressed=${stops ? null : held.value.has(hand)} onPointerDown=${onPointerDown} onPointerUp=${end} onPointerCancel=${end} onLostPointerCapture=${end}
     onKeyDown=${onKeyDown} onKeyUp=${end} onBlur=${end} onContextMenu=${(/** @type {Event} */ event) => event.preventDefault()}><${Icon} name=${icon} size=${20} /></button>`;
 }

@@ -6,7 +6,7 @@
 
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { halt, useDrivingKeys } from "../../model/driving.js";
 import { drawField, FIELD_M, placeAt, turtleAt } from "./drawing.js";
 import { spawn, teleport } from "./turtles.js";
@@ -59,7 +59,7 @@ export function TurtleField({ prefix, world, turtles, chosen, choose, isPlacing 
     else if (event.key === "Escape") isPlacing.value = false;
     return undefined;
   };
-  const label = t(mayEdit.value && chosen ? "turtlesim.field.drives" : "turtlesim.field", {
+  const label = t(mayAct.value && chosen ? "turtlesim.field.drives" : "turtlesim.field", {
     name: chosen?.name ?? "",
   });
   return html`<div ref=${frame} class="field-frame">
@@ -146,7 +146,7 @@ function useHands({ world, size_px, moved, isPlacing, choose, place, dragged }) 
       );
       if (!turtle) return undefined;
       choose(turtle.name);
-      if (!mayEdit.peek()) return undefined;
+      if (!mayAct.peek()) return undefined;
       held.current = { turtle, x: event.clientX, y: event.clientY };
       event.currentTarget.setPointerCapture(event.pointerId);
       return undefined;

@@ -7,7 +7,7 @@ import { html, useEffect, useMemo, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { allDigits } from "../../lib/numbers.js";
 import { Icon, Switch } from "../../lib/ui.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayAct } from "../../model/connection.js";
 import { drivingRefused } from "../../model/driving.js";
 import { FieldPanel, Troubles } from "../demo-panel.js";
 import { hexOf } from "./drawing.js";
@@ -93,7 +93,7 @@ function TurtleTools({ prefix, node, world, turtles, chosen, choose, isPlacing }
     </div>
     ${chosen && html`<${PenRow} key=${chosen.path} turtle=${chosen} pen=${world.turtles.get(chosen.name)?.pen} />`}
     <div class="field-line"><label for="turtle-ground">${t("turtlesim.ground")}</label>
-      <input id="turtle-ground" type="color" class="colour" value=${hexOf(world.background)} disabled=${!mayEdit.value || node === ""}
+      <input id="turtle-ground" type="color" class="colour" value=${hexOf(world.background)} disabled=${!mayAct.value || node === ""}
         onInput=${(/** @type {any} */ event) => setBackground(node, event.currentTarget.value)} /></div>
     <p class="note">${t("turtlesim.keys")}</p>
     <p class="note">${t("turtlesim.seen")}</p>
@@ -130,7 +130,7 @@ function Row({ turtle: { name }, now, isChosen, choose }) {
 
 /** @param {{icon: string, word: string, service: string, run: () => void, off?: boolean, pressed?: boolean}} props a button that calls a service */
 function Do({ icon, word, service, run, off = false, pressed }) {
-  const isOff = off || !mayEdit.value || !isServed(service);
+  const isOff = off || !mayAct.value || !isServed(service);
   return html`<button type="button" class="button small" title=${t(`turtlesim.${word}.hint`, { service })} disabled=${isOff} aria-pressed=${pressed} onClick=${run}>
     <${Icon} name=${icon} size=${13} />${t(`turtlesim.${word}`)}</button>`;
 }
@@ -138,7 +138,7 @@ function Do({ icon, word, service, run, off = false, pressed }) {
 /** @param {{turtle: Turtle, pen: Pen | undefined}} props as it was set last from this studio, or as turtlesim begins */
 function PenRow({ turtle: { path, name }, pen }) {
   if (!pen) return null;
-  const isOff = !mayEdit.value || !isServed(`${path}/set_pen`);
+  const isOff = !mayAct.value || !isServed(`${path}/set_pen`);
   const change = (/** @type {Partial<Pen>} */ changed) => void setPen(path, { ...pen, ...changed });
   return html`<fieldset class="field-group" disabled=${isOff}><legend>${t("turtlesim.pen", { name })}</legend><div class="field-line">
     <input type="color" class="colour" aria-label=${t("turtlesim.pen.color")} value=${hexOf(pen.color)} disabled=${isOff}

@@ -71,6 +71,11 @@ class TextChecks:
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Send nothing: replies are returned to the caller."""
 
+    def sees(self, document: str) -> bool:
+        """It asks of its own document alone."""
+        del document
+        return True
+
     def failed(self, failure: Failure) -> None:
         """A run gave no robot."""
         first, *others = failure.problems or (failure.problem,)

@@ -24,10 +24,13 @@ from studio.documents.copies.folder import (
 )
 from studio.documents.document import Document
 from studio.documents.draft_files import forget_drafts
+from studio.documents.exports import Download
 from studio.documents.services import Services
 from studio.errors import CommandError, DataFolderError, UnknownDocumentError
 from studio.files import write_whole
 from studio.live.displays.display_file import DisplayFile
+from studio.packages.packing import PackedFile, zip_chunks
+from studio.packages.roots import ServedRoots
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.copies import (
     Copies as CopiesEvent,
@@ -218,8 +221,18 @@ class Copies:
         self._known(name)
         self._classroom.control.shown = name if shown else ""
         if shown:
-            self._classroom.following.gather()
+            self._classroom.following.gather(name)
+        else:
+            self._send_away(name)
         self._send()
+
+    def _send_away(self, name: str) -> None:
+        """Have all stop looking who may not any more."""
+        document = self._awake.get(name)
+        for page in tuple(self._pages) if document else ():
+            if document and not page.role.includes(Role.HELPER) and page.person != owner_of(name):
+                document.audience.remove(page)
+                send(page, Gone(document=name))
 
     def check_room(self, name: str) -> None:
         """Pass if the texts of a copy may still grow.
@@ -233,6 +246,19 @@ class Copies:
                 f"The texts of a copy have {TEXTS_MAX_BYTES >> 20} MB at most: undo, or make them "
                 "shorter."
             )
+
+    def download(self) -> Download:
+        """Return all that was handed in as a zip, a folder for each person.
+
+        Raises:
+            CommandError: Nobody handed one in.
+        """
+        files = [PackedFile(name, path) for name, path in self.handed_files()]
+        if not files or self._folder is None:
+            raise CommandError("Nobody has handed in a copy yet.")
+        return Download(
+            "copies.zip", "application/zip", zip_chunks(files, ServedRoots((), (self._folder,)))
+        )
 
     def handed_files(self) -> list[tuple[str, Path]]:
         """Return all files that were handed in, each with its name in a zip: a folder a person."""
