@@ -1097,6 +1097,14 @@ export interface GetMasses {
   type: "get_masses";
 }
 
+/** Ask what there is in the domain of your own nodes. */
+export interface GetMyGraph {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_my_graph";
+}
+
 /** Ask what a node has. */
 export interface GetNode {
   request?: number;
@@ -1104,6 +1112,14 @@ export interface GetNode {
   id?: string;
   type: "get_node";
   name: string;
+}
+
+/** Ask for the domain and the credentials of your own nodes: the same ones each time. */
+export interface GetNodeAccess {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_node_access";
 }
 
 /** Ask where a part of the last good run comes from: `link:<name>`, `joint:<name>` ... */
@@ -1718,6 +1734,16 @@ export interface MyCopies {
   copies: CopyView[];
 }
 
+/** Answer to `get_my_graph`; what the studio itself has there is left out. */
+export interface MyGraph {
+  type: "my_graph";
+  request: number;
+  domain: number;
+  nodes: string[];
+  topics: OwnTopic[];
+  more: number;
+}
+
 /** Make a package `folder/name` out of a template, and open its robot. */
 export interface NewRobot {
   request?: number;
@@ -1736,6 +1762,16 @@ export interface NewUntitled {
   id?: string;
   type: "new_untitled";
   text: string;
+}
+
+/** Answer to `get_node_access`, to the asker alone. */
+export interface NodeAccess {
+  type: "node_access";
+  request: number;
+  domain: number;
+  endpoint: string;
+  shell: string;
+  powershell: string;
 }
 
 /** Answer to `get_node`: what it has, grouped as `ros2 node info` does. */
@@ -1912,6 +1948,14 @@ export interface OutlineValue {
   text: string;
   values: string[];
   doc: string;
+}
+
+/** A topic of a student's domain. */
+export interface OwnTopic {
+  name: string;
+  types: string[];
+  publishers: number;
+  subscriptions: number;
 }
 
 /** A parameter of a macro. */
@@ -2726,6 +2770,14 @@ export interface StartDemo {
   demo: string;
 }
 
+/** Let students' own nodes join, each in a ROS domain of its own; makes new credentials. */
+export interface StartNodes {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "start_nodes";
+}
+
 /** End a demo that was started from a page; done when it has ended. */
 export interface StopDemo {
   request?: number;
@@ -2733,6 +2785,14 @@ export interface StopDemo {
   id?: string;
   type: "stop_demo";
   demo: string;
+}
+
+/** Let none of them join any more, and end the connections of those that have. */
+export interface StopNodes {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "stop_nodes";
 }
 
 /** Publish it no more; those of that number, or all. */
@@ -2760,6 +2820,17 @@ export interface StopRobot {
 export interface Stopped {
   type: "stopped";
   name: string;
+}
+
+/** Whether students' own nodes may join, and where. */
+export interface StudentNodesState {
+  type: "student_nodes";
+  state: "off" | "starting" | "on" | "failed";
+  endpoint: string;
+  only_here: boolean;
+  given: number;
+  limit: number;
+  trouble: string;
 }
 
 /** Kind of the thing at a place in a text. */
@@ -3183,7 +3254,9 @@ export type Command =
   | GetLog
   | GetManaged
   | GetMasses
+  | GetMyGraph
   | GetNode
+  | GetNodeAccess
   | GetOrigin
   | GetOutline
   | GetParameterNodes
@@ -3264,7 +3337,9 @@ export type Command =
   | ShowView
   | StartClass
   | StartDemo
+  | StartNodes
   | StopDemo
+  | StopNodes
   | StopPublishing
   | StopRobot
   | SwitchDisplays
@@ -3328,7 +3403,9 @@ export type Event =
   | Masses
   | MeaningAnswer
   | MyCopies
+  | MyGraph
   | NodeAnswer
+  | NodeAccess
   | Opened
   | Origin
   | OutlineAnswer
@@ -3352,6 +3429,7 @@ export type Event =
   | Services
   | Sites
   | Stopped
+  | StudentNodesState
   | Text
   | TextsChanged
   | TextsFound

@@ -10,6 +10,8 @@ from studio.classroom.admission import Admission
 from studio.classroom.control import Control
 from studio.classroom.following import Following
 from studio.classroom.members import MEMBERS_MAX, Members, now_s
+from studio.classroom.nodes.nodes import COMMANDS as NODE_COMMANDS
+from studio.classroom.nodes.nodes import StudentNodes
 from studio.classroom.qr_code import qr_svg
 from studio.classroom.record import ClassFile, ClassRecord, MemberRecord
 from studio.debounce import Throttle
@@ -44,6 +46,7 @@ from studio.protocol.classroom import Control as ControlEvent
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import Audience, encode, send
 from studio.protocol.roles import Role
+from studio.settings import DEFAULT_HOST
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -68,12 +71,16 @@ class Reach:
         only_here: No other machine reaches it.
         fingerprint: SHA-256 of a certificate that the studio made itself.
         why_not: Why it may not be shared, in a sentence; empty: it may.
+        listen: The address of this machine that it listens at.
+        host: The address by which others find this machine; empty: `listen`.
     """
 
     addresses: tuple[str, ...] = ()
     only_here: bool = True
     fingerprint: str = ""
     why_not: str = ""
+    listen: str = DEFAULT_HOST
+    host: str = ""
 
 
 class Robot(Protocol):
@@ -117,11 +124,15 @@ class Classroom:
         self._pages: dict[str, set[Listener]] = {}
         self._everybody = Audience()
         self.following = Following()
+        self.nodes = StudentNodes(
+            self.reach.listen, self.reach.host, kept.nodes, self._keep_quietly, self._everybody.send
+        )
         self._leaders_later = Throttle(self._send_to_leaders, first_s=_SOON_S, pause_s=_PAUSE_S)
 
     async def close(self) -> None:
         """Wait for nobody any more."""
         self.control.close()
+        await self.nodes.close()
         await self._leaders_later.close()
 
     # Joining
@@ -188,6 +199,7 @@ class Classroom:
         send(listener, self._control_event())
         send(listener, self._you(person, listener.role))
         self.following.attach(listener)
+        send(listener, self.nodes.event())
         if listener.role.includes(Role.HELPER):
             send(listener, self._state())
         self._changed()
@@ -240,6 +252,7 @@ class Classroom:
         self._all_changed()
         for person in people:
             self.end_pages(person)
+        await self.nodes.stop()
         await self._file.delete()
         if self.on_end is not None:
             await self.on_end()
@@ -278,6 +291,7 @@ class Classroom:
             member.asks_s = member.hand_s = None
             if self.control.holder == member.person:
                 self.control.give("")
+            await self.nodes.revoke(member.person)
         await self._keep()
         self._tell(member.person)
 
@@ -291,6 +305,7 @@ class Classroom:
         self._changed()
         self.end_pages(person)
         await self._keep()
+        await self.nodes.revoke(person)
 
     async def readmit(self, person: str) -> None:
         """Let a person in again."""
@@ -477,6 +492,7 @@ class Classroom:
             password=admission.password,
             join_as=admission.join_as,
             key=self.members.key.hex(),
+            nodes=self.nodes.record,
             members=tuple(
                 MemberRecord.model_validate(one, from_attributes=True) for one in self.members
             ),
@@ -503,6 +519,7 @@ _VIEWS: Final = Limits(bytes_max=1_000, per_second=60)
 _FOCUSES: Final = Limits(bytes_max=4_000, per_second=30)
 
 COMMANDS: Final = Commands[Classroom](Scope.STUDIO)
+COMMANDS.include(NODE_COMMANDS, lambda room, _: room.nodes)
 COMMANDS.presenter(Lead, lambda room, c, _: room.following.lead(leading=c.leading))
 COMMANDS.presenter(GatherAll, lambda room, _, __: room.following.gather())
 COMMANDS.presenter(ShowView, lambda room, c, who: room.following.show_view(who, c), limits=_VIEWS)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from studio.classroom.nodes.record import NodesRecord
 from studio.errors import DataFolderError
 from studio.files import write_whole
 from studio.protocol.classroom import JoinRole
@@ -59,6 +60,7 @@ class ClassRecord(_Kept):
     key: str = Field(default_factory=lambda: secrets.token_hex(32), pattern=r"^[0-9a-f]{64}$")
     """Signs the members' cookies, in hex."""
     members: tuple[MemberRecord, ...] = ()
+    nodes: NodesRecord = NodesRecord()
 
 
 class ClassFile:

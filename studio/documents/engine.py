@@ -93,6 +93,7 @@ class Engine:
         self.classroom = classroom or Classroom()
         self.classroom.robot = self.ros
         self.classroom.on_control = self._lent
+        self.classroom.nodes.choice = lambda: wire.choice
         self.copies = Copies(self.classroom.folder, self, self._services, self.classroom)
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
@@ -103,6 +104,7 @@ class Engine:
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""
         await self._services.start()
+        self.classroom.nodes.resume()
 
     def rejoin(self, *, always: bool = False) -> None:
         """Join the ROS 2 system that it was connected with when it ended; `always`: in any case."""

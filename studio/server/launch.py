@@ -215,7 +215,14 @@ def place_of(settings: Settings, port: int) -> Place:
     return Place(
         port,
         here,
-        Reach(addresses, not found and not settings.public_url, print_, why_not),
+        Reach(
+            addresses,
+            not found and not settings.public_url,
+            print_,
+            why_not,
+            settings.host,
+            (urlsplit(found[0]).hostname or "") if found else "",
+        ),
         Front(known, port, base, settings.proxies),
         files,
     )

@@ -41,10 +41,14 @@ VIEWER_COMMANDS = {
     *("set_name", "follow"),
 }
 """What everybody may who sees the page."""
-STUDENT_COMMANDS = {"ask_control", "return_control", "raise_hand", "stop_robot", "open_copy"}
+STUDENT_COMMANDS = {
+    *("ask_control", "return_control", "raise_hand", "stop_robot", "open_copy"),
+    *("get_node_access", "get_my_graph"),
+}
 HELPER_COMMANDS = {"give_control", "take_control", "lower_hand", "send_back"}
 PRESENTER_COMMANDS = {
     *("start_class", "pause_class", "end_class", "set_class", "renew_code"),
+    *("start_nodes", "stop_nodes"),
     *("set_member_role", "remove_member", "readmit_member"),
     *("lead", "gather_all", "show_view", "show_focus", "show_copy"),
     *("open_path", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 _VARIABLE: Final = "STUDIO_ROS2_PEER"
 _NO_PYTHON: Final = "Python 3.11 is needed"
-_IN_ROS: Final = '. "$0/env.sh" && exec "$@"'
+_COPIED: Final = "COPIED_LINE"
+_IN_ROS: Final = f'. "$0/env.sh" && eval "${_COPIED}" && exec "$@"'
 _ROUTER: Final = '. "$0/env.sh" && real_router'
 _END_S: Final = 20.0
 _SCRIPT: Final = Path(__file__).with_name("ros2_script.py")
@@ -113,16 +114,21 @@ class RealNode:
 
 @contextmanager
 def real_node(
-    endpoint: str, role: str, *options: str, environment: Mapping[str, str] | None = None
+    endpoint: str,
+    role: str,
+    *options: str,
+    environment: Mapping[str, str] | None = None,
+    line: str = "",
 ) -> Generator[RealNode]:
     """A real node until the end of the block; the options are those of `peer.py`.
 
+    `line` is typed in its terminal before it is started, and may set variables of ROS.
     It stays until it is ended, unless the options give `--seconds`. It does not wait for a router:
     `wait_said("ready")` tells that it is made.
     """
     options = options if "--seconds" in options else (*options, "--seconds", "0")
     words = ("python3", str(ros2_peer() / "peer.py"), role, *options)
-    node = RealNode(_started(_IN_ROS, endpoint, words, environment))
+    node = RealNode(_started(_IN_ROS, endpoint, words, {**(environment or {}), _COPIED: line}))
     try:
         yield node
     finally:

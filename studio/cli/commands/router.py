@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import argparse
 
+    from studio.ros.wire.settings import WireSettings
+
 
 _LOOPBACK = "tcp/127.0.0.1:7447"
 
@@ -20,6 +22,12 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="ENDPOINT",
         help=f"where (default: {_LOOPBACK}, this machine only)",
     )
+    parser.add_argument(
+        "--join",
+        action="store_true",
+        help="join the router that ZENOH_CONFIG_OVERRIDE names, by its certificate: then the nodes "
+        "of this machine need ROS_DOMAIN_ID alone",
+    )
     parser.set_defaults(run=_run)
 
 
@@ -28,7 +36,18 @@ def _run(options: argparse.Namespace) -> None:
     from studio.ros.wire.settings import wire_settings
 
     settings = wire_settings()
-    run_router(options.listen, _print, settings.overrides, settings.router_config_file)
+    joins = _joined(settings) if options.join else ()
+    run_router(options.listen, _print, settings.overrides, settings.router_config_file, joins)
+
+
+def _joined(settings: WireSettings) -> tuple[str, ...]:
+    from studio.errors import WireSettingsError
+
+    if settings.connect == (_LOOPBACK,):
+        raise WireSettingsError(
+            "ZENOH_CONFIG_OVERRIDE names no router to join: paste the line of the class first."
+        )
+    return settings.connect
 
 
 def _print(endpoint: str) -> None:

@@ -41,14 +41,20 @@ _STRING: Final = "std_msgs/msg/String"
 class WireLink:
     """An open connection; made and closed in a thread, for both wait.
 
-    `changed` is called from other threads whenever the connection or the graph changed.
+    `changed` is called from other threads whenever the connection or the graph changed. `settings`
+    are those of ROS's environment and of the choice, unless they are given.
 
     Raises:
         WireError: The router cannot be reached; the sentence says why.
     """
 
-    def __init__(self, choice: WireChoice, changed: Callable[[], None]) -> None:
-        settings = planned_wire(choice)
+    def __init__(
+        self,
+        choice: WireChoice,
+        changed: Callable[[], None],
+        settings: WireSettings | None = None,
+    ) -> None:
+        settings = settings or planned_wire(choice)
         self._wire = open_wire(settings, choice.router, types_of(settings.profile.distro))
         self._context = Context.over(self._wire, owns_wire=True)
         self._executor = SingleThreadedExecutor(context=self._context)

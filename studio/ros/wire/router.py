@@ -107,6 +107,7 @@ def start_router(
     endpoint: Endpoint,
     overrides: Mapping[str, str] | None = None,
     config_file: str | None = None,
+    joins: tuple[str, ...] = (),
 ) -> EmbeddedRouter:
     """Listen at an endpoint.
 
@@ -115,6 +116,7 @@ def start_router(
         overrides: Keys of Zenoh's configuration and JSON5, such as its TLS keys; those by which
             sessions find routers are passed over.
         config_file: Of Zenoh, taken whole but for where it listens: that is `endpoint` alone.
+        joins: Endpoints of routers, of which one is joined whenever it is there.
 
     Raises:
         RouterNotStartedError: The endpoint is held by another program, or cannot be listened at.
@@ -123,6 +125,8 @@ def start_router(
     config = _base(config_file)
     try:
         _complete(config, endpoint, overrides or {})
+        if joins:
+            _join(config, joins)
         session = open_zenoh(config)
     except ZError as error:
         reason = str(error).split(" at /")[0]
@@ -146,6 +150,7 @@ def run_router(
     ready: Callable[[str], None],
     overrides: Mapping[str, str] | None = None,
     config_file: str | None = None,
+    joins: tuple[str, ...] = (),
 ) -> None:
     """Run a router until Ctrl-C or SIGTERM; for the main thread of a process.
 
@@ -154,6 +159,7 @@ def run_router(
         ready: Given the endpoint once others may connect.
         overrides: See `start_router`.
         config_file: See `start_router`.
+        joins: See `start_router`.
 
     Raises:
         WireSettingsError: `listen` is no endpoint, or the file cannot be read.
@@ -166,7 +172,7 @@ def run_router(
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end)
-    with start_router(parse_endpoint(listen), overrides, config_file) as router:
+    with start_router(parse_endpoint(listen), overrides, config_file, joins) as router:
         ready(router.endpoint.text)
         # A signal that comes while a wait begins does not end that wait: check again.
         while not asked_to_end.wait(_CHECK_EVERY_S):
@@ -206,6 +212,13 @@ def _complete(config: Config, endpoint: Endpoint, overrides: Mapping[str, str]) 
     for key, json5 in overrides.items():
         if key.partition("/")[0] not in _OF_SESSIONS:
             insert(config, key, json5)
+
+
+def _join(config: Config, endpoints: tuple[str, ...]) -> None:
+    insert(config, "connect/endpoints", json.dumps(endpoints))
+    insert(config, "connect/timeout_ms", "0")
+    insert(config, "connect/exit_on_failure", "false")
+    insert(config, "connect/retry", json.dumps(_RETRY))
 
 
 class TokenRelay:

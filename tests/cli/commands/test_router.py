@@ -28,3 +28,12 @@ def test_what_is_no_endpoint_is_one_sentence(endpoint: str):
         assert ran.code == 2
         assert ran.err.startswith("studio: ")
         assert ran.err.count("\n") == 1
+
+
+def test_to_join_takes_a_line_that_names_a_router():
+    ran = studio("router", "--listen", free_endpoint(), "--join")
+    assert ran.code == 2
+    assert ran.err == (
+        "studio: ZENOH_CONFIG_OVERRIDE names no router to join: "
+        "paste the line of the class first.\n"
+    )
