@@ -25,6 +25,7 @@ StudioError
             DraftError
         VariantsFileError
         PosesFileError
+    LessonError
     RobotError
         MeshError
     SceneError
@@ -296,6 +297,10 @@ class PosesFileError(DescriptionError):
     def __init__(self, path: str, reason: str) -> None:
         super().__init__(f"The poses in {path} cannot be used: {reason}.")
         self.path, self.reason = path, reason
+
+
+class LessonError(StudioError):
+    """A lesson, or a check in it, is not written as lessons are."""
 
 
 class RobotError(StudioError):

@@ -73,6 +73,8 @@ class Settings:
     tls: TlsChoice | None = None
     data_folder: Path = Path()
     package_paths: tuple[Path, ...] = ()
+    lesson_folders: tuple[Path, ...] = ()
+    """Each a lesson, or with a lesson in each folder of it."""
     trusted: bool = False
     open_browser: bool = True
     wire: WireChoice = WireChoice()

@@ -43,7 +43,6 @@ DISPLAYS_NAMED = {
     ("studio/live/displays/robot_models.py", "RobotModelDisplay"): "its meshes are read there",
 }
 COMMANDS_PASSED_ON = {
-    "CallService": {"studio/live/panels/requests.py"},
     "GetTf": {"studio/live/displays/scene_frames.py"},
     "GetUrdf": {"studio/server/api.py"},
     "OpenFromWire": {

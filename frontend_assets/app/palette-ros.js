@@ -27,47 +27,44 @@ import { panelTitle } from "./panels.js";
 /** Have the list of lessons, what runs of them, and their texts. */
 export async function askForLessons() {
   await askLessons();
-  const all = lessons.peek() ?? [];
-  await fetchLessons(
-    language.peek(),
-    all.map(({ demo }) => demo),
-  );
+  await fetchLessons(language.peek(), lessons.peek() ?? []);
 }
 
-/** @param {string} demo */
-function showLesson(demo) {
-  chosenLesson.value = demo;
+/** @param {string} name */
+function showLesson(name) {
+  chosenLesson.value = name;
   commandById("panel.lessons")?.run();
 }
 
 /** @param {LessonView} lesson @returns {string} */
-const titleOf = ({ demo }) => lessonTexts.value.get(demo)?.title || demo;
+const titleOf = ({ name }) => lessonTexts.value.get(name)?.title || name;
 
 /** @returns {Choice[]} each is also found by its demo, its node and what its first sentences say */
 export function lessonChoices() {
   return (lessons.value ?? []).map((lesson) => ({
     rank: "lesson",
-    key: `lesson ${lesson.demo}`,
+    key: `lesson ${lesson.name}`,
     icon: "lessons",
     label: t("palette.lesson", { name: titleOf(lesson) }),
-    words: `${lesson.demo} ${lesson.node} ${firstParagraph(lesson.demo)}`,
-    hint: lesson.demo,
+    words: `${lesson.name} ${lesson.node} ${firstParagraph(lesson.name)}`,
+    hint: lesson.name,
     does: t("palette.does.lesson"),
-    run: () => showLesson(lesson.demo),
+    run: () => showLesson(lesson.name),
   }));
 }
 
-/** @param {string} demo @returns {string} */
-function firstParagraph(demo) {
-  const block = lessonTexts.value.get(demo)?.blocks[0];
+/** @param {string} name @returns {string} */
+function firstParagraph(name) {
+  const block = lessonTexts.value.get(name)?.blocks[0];
   return block?.kind === "text" ? block.parts.map(({ text }) => text).join("") : "";
 }
 
 /** @returns {Choice[]} demos to be started, and those that run to be stopped */
 export function demoChoices() {
   if (!mayManage.value || ros.value.state !== "connected") return [];
-  return (lessons.value ?? []).map((lesson) => {
-    const { demo, node } = lesson;
+  const withDemo = (lessons.value ?? []).filter(({ node }) => node !== "");
+  return withDemo.map((lesson) => {
+    const { name: demo, node } = lesson;
     const runs = isUnderWay(demo);
     return {
       rank: "demo",
@@ -117,8 +114,8 @@ function follow({ panel, about, form }, rest, text) {
   if (name && about === "topic") chosenTopic.value = rooted(name);
   if (name && about === "node") chooseNode(rooted(name));
   if (about === "demo") {
-    const known = lessons.value?.find(({ demo }) => rest.includes(demo));
-    if (known) chosenLesson.value = known.demo;
+    const known = lessons.value?.find(({ name: demo }) => rest.includes(demo));
+    if (known) chosenLesson.value = known.name;
   }
   (commandById(`panel.${panel}`) ?? commandById(panel))?.run();
 }

@@ -138,11 +138,15 @@ const changes = {
   diagnostics: signal(0),
   goal_statuses: signal(0),
   lessons: signal(0),
+  ticks: signal(0),
 };
 
 subscribe("changed", ({ subject }) => {
   changes[subject].value += 1;
 });
+
+/** @param {Changed["subject"]} subject @returns {number} how often it was told to have changed */
+export const changeCount = (subject) => changes[subject].peek();
 
 /** @param {Changed["subject"]} subject be told of its changes; gives the end of it */
 const followChanges = (subject) =>
@@ -164,6 +168,7 @@ const FOLLOW = {
   diagnostics: followChanges("diagnostics"),
   goal_statuses: followChanges("goal_statuses"),
   lessons: followChanges("lessons"),
+  ticks: followChanges("ticks"),
 };
 
 /** @param {() => Promise<boolean | void>} ask gives whether there is more @returns {() => Promise<void>} asks; while that goes on, once more afterwards */

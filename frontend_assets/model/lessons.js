@@ -7,7 +7,9 @@
  * same in every language. An empty line, then the text in the markup of `lib/help-text.js`: blocks
  * between empty lines; `## Heading`, lists of `- entries` (an entry may go on in the next line), all
  * else paragraphs; in them `**name of a control**`, code in backticks, `{key Mod+K}`, `{icon eye}`.
- * No pictures, no HTML, no numbered lists.
+ * No pictures, no HTML, no numbered lists. Lines `check: node /talker runs` that follow each other are a
+ * step, which turns green by itself: `studio/course/lessons/checks.py` has the forms. They are the same
+ * in every language.
  *
  * Links open panels, by the id that stands in `app/panels.js`, and may say what is shown there:
  *   `[words](topics)`  `[words](graph)`  any panel
@@ -31,7 +33,7 @@
 import { computed, effect, signal } from "vendor/preact.js";
 import { readHelp, textFiles } from "../lib/help-text.js";
 import { remembered } from "../lib/remembered.js";
-import { askedWhenChanged, askOrKeepWhy } from "./asking.js";
+import { askedWhenChanged, askOrKeepWhy, changeCount } from "./asking.js";
 import { session } from "./connection.js";
 import { goalForm, publishForm, serviceForm } from "./message-forms.js";
 import { chooseNode } from "./parameters.js";
@@ -71,6 +73,9 @@ export const demoCode = signal(new Map());
 /** What the demo that is looked at printed. @type {Signal<Output>} */
 export const output = signal(NOTHING_PRINTED);
 
+/** How often ticks had changed when the list was asked for. */
+let listedAt = -1;
+
 /** The demo whose output is asked for; empty: none is. */
 let heard = "";
 
@@ -81,14 +86,11 @@ export const isUnderWay = (demo) => UNDER_WAY.includes(demos.value.get(demo)?.st
 export const underWay = computed(() => [...demos.value.keys()].filter(isUnderWay));
 
 /** Keep them true while somebody looks; gives the end of looking. */
-export const followLessons = askedWhenChanged(askLessons, "lessons", "graph");
+export const followLessons = askedWhenChanged(askLessons, "lessons", "graph", "ticks");
 
 /** Ask how all of it stands. */
 export async function askLessons() {
-  if (lessons.value === null) {
-    const answer = await askOrKeepWhy({ type: "get_lessons" }, lessonsRefused);
-    if (answer?.type === "lessons") lessons.value = answer.lessons;
-  }
+  await askList();
   const answer = await askOrKeepWhy({ type: "get_demos" }, lessonsRefused);
   if (answer?.type === "demos") {
     demosToldAt_ms.value = performance.now();
@@ -96,6 +98,16 @@ export async function askLessons() {
     elsewhere.value = answer.elsewhere;
   }
   await askOutput();
+}
+
+/** The list, with what is done: once, and whenever a step is done or a lesson was written. */
+async function askList() {
+  const told = changeCount("ticks");
+  if (lessons.peek() !== null && told === listedAt) return;
+  const answer = await askOrKeepWhy({ type: "get_lessons" }, lessonsRefused);
+  if (answer?.type !== "lessons") return;
+  listedAt = told;
+  lessons.value = answer.lessons;
 }
 
 async function askOutput() {
@@ -123,8 +135,12 @@ effect(() => {
   output.value = NOTHING_PRINTED;
 });
 
-/** @typedef {{title: string, needs: readonly string[], blocks: readonly import("../lib/help-text.js").Block[]}} Lesson */
+/** @typedef {{kind: "checks", step: number, lines: readonly string[]}} Checks a step, by its place among all */
+/** @typedef {import("../lib/help-text.js").Block | Checks} LessonBlock */
+/** @typedef {{title: string, needs: readonly string[], blocks: readonly LessonBlock[]}} Lesson */
 
+/** Lines of checks, which stand by themselves. */
+const STEP = /^(?:[ \t]*check:.*(?:\n|$))+/gm;
 const HEAD = /^# (.+)\n(?:needs:(.*)\n)?/;
 
 /** @param {string} text @returns {Lesson} */
@@ -133,18 +149,38 @@ export function readLesson(text) {
   return {
     title: title.trim(),
     needs: needs.split(" ").filter(Boolean),
-    blocks: readHelp(text.slice(head.length)),
+    blocks: readBlocks(text.slice(head.length)),
   };
+}
+
+/** @param {string} text @returns {LessonBlock[]} */
+function readBlocks(text) {
+  /** @type {LessonBlock[]} */
+  const blocks = [];
+  let at = 0;
+  let step = 0;
+  for (const match of text.matchAll(STEP)) {
+    blocks.push(...readHelp(text.slice(at, match.index)));
+    const lines = match[0].trim().split("\n");
+    blocks.push({
+      kind: "checks",
+      step,
+      lines: lines.map((line) => line.trim().slice("check:".length).trim()),
+    });
+    step += 1;
+    at = match.index + match[0].length;
+  }
+  return [...blocks, ...readHelp(text.slice(at))];
 }
 
 /**
  * @param {string} words what is sought
- * @param {{demo: string, node: string}} named
+ * @param {{name: string, node: string}} named
  * @param {string} text of its lesson
  * @returns {boolean} each of the words is somewhere in it
  */
-export function isSought(words, { demo, node }, text) {
-  const all = `${demo} ${node} ${text}`.toLowerCase();
+export function isSought(words, { name, node }, text) {
+  const all = `${name} ${node} ${text}`.toLowerCase();
   return words
     .toLowerCase()
     .split(/\s+/)
@@ -156,10 +192,22 @@ const known = textFiles(new URL("../lessons/", import.meta.url).href, (text) => 
   text,
 }));
 
-/** Have the texts of some demos in a language. @param {string} language @param {readonly string[]} demos */
-export async function fetchLessons(language, demos) {
-  const texts = await Promise.all(demos.map((demo) => known(`${language}/${demo}.md`)));
-  lessonTexts.value = new Map(texts.map((text, at) => [demos[at] ?? "", text]));
+/** Have the texts of some lessons in a language. @param {string} language @param {readonly LessonView[]} wanted */
+export async function fetchLessons(language, wanted) {
+  const texts = await Promise.all(
+    wanted.map(({ name, own }) =>
+      own ? ownText(name, language) : known(`${language}/${name}.md`),
+    ),
+  );
+  lessonTexts.value = new Map(texts.map((text, at) => [wanted[at]?.name ?? "", text]));
+}
+
+/** @param {string} name @param {string} language @returns {Promise<Lesson & {text: string}>} of a lesson that is none of the course */
+async function ownText(name, language) {
+  const command = /** @type {const} */ ({ type: "get_lesson_text", lesson: name });
+  const answer = await askOrKeepWhy({ ...command, language }, lessonsRefused);
+  const text = answer?.type === "lesson_text" ? answer.text : "";
+  return { ...readLesson(text), text };
 }
 
 /** Have the code of a demo, once. @param {string} demo */

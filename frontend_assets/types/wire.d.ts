@@ -204,7 +204,7 @@ export interface ChangeState {
 /** The subject changed, once or several times since the last such event. */
 export interface Changed {
   type: "changed";
-  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "ticks";
 }
 
 /** Answer to `get_changes`. */
@@ -213,6 +213,16 @@ export interface Changes {
   request: number;
   files: FileChanges[];
   copies: string;
+}
+
+/** One check of a lesson, and how it stands. */
+export interface CheckView {
+  kind: string;
+  line: string;
+  values: Record<string, string>;
+  ok: boolean;
+  code: string;
+  found: Record<string, string>;
 }
 
 /** Use this folder for a package that was not found; remembered for the workspace. */
@@ -249,6 +259,14 @@ export interface CloseDocument {
   id?: string;
   type: "close_document";
   discard?: boolean;
+}
+
+/** Receive it no more. */
+export interface CloseLesson {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "close_lesson";
 }
 
 /** One Python file of a demo. */
@@ -382,6 +400,15 @@ export interface CopyView {
   remark: string;
   remarked_s: number | null;
   shown: boolean;
+}
+
+/** Delete a lesson that was written in the page. */
+export interface DeleteLesson {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "delete_lesson";
+  lesson: string;
 }
 
 /** Forget one's own pose; the joints stay where they are. */
@@ -831,7 +858,7 @@ export interface FollowChanges {
   document?: string;
   id?: string;
   type: "follow_changes";
-  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "ticks";
   following?: boolean;
 }
 
@@ -1056,7 +1083,26 @@ export interface GetInterface {
   with_text?: boolean;
 }
 
-/** Ask which demos there are. */
+/** Ask who has done which step of a lesson. */
+export interface GetLessonTable {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_lesson_table";
+  lesson: string;
+}
+
+/** Ask for the text of a lesson. */
+export interface GetLessonText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_lesson_text";
+  lesson: string;
+  language?: string;
+}
+
+/** Ask which lessons there are. */
 export interface GetLessons {
   request?: number;
   document?: string;
@@ -1456,12 +1502,62 @@ export interface LeftWorkEntry {
   at: string;
 }
 
-/** A demo as a lesson. */
+/** What is wrong with a text, and in which line, counted from 1. */
+export interface LessonFault {
+  line: number;
+  sentence: string;
+}
+
+/** Answer to `read_lesson`. */
+export interface LessonRead {
+  type: "lesson_read";
+  request: number;
+  faults: LessonFault[];
+  steps: StepView[];
+}
+
+/** A person and their steps. */
+export interface LessonRow {
+  person: string;
+  name: string;
+  here: boolean;
+  reads: boolean;
+  done_s: (number | null)[];
+}
+
+/** How the steps of the opened lesson stand, whenever that changed. */
+export interface LessonState {
+  type: "lesson_state";
+  lesson: string;
+  steps: StepView[];
+}
+
+/** Answer to `get_lesson_table`. */
+export interface LessonTable {
+  type: "lesson_table";
+  request: number;
+  lesson: string;
+  steps: StepView[];
+  rows: LessonRow[];
+}
+
+/** Answer to `get_lesson_text`. */
+export interface LessonText {
+  type: "lesson_text";
+  request: number;
+  text: string;
+}
+
+/** A lesson; one of the course that has a demo is named as its demo. */
 export interface LessonView {
-  demo: string;
+  name: string;
   chapter: string;
   node: string;
   has_keys: boolean;
+  own: boolean;
+  writable: boolean;
+  steps: number;
+  done: number;
 }
 
 /** Answer to `get_lessons`: in the order in which they are taught, chapter by chapter. */
@@ -1822,6 +1918,15 @@ export interface OpenFromWire {
   topic?: string;
   node?: string;
   parameter?: string;
+}
+
+/** Receive `lesson_state` of a lesson from now on, about the document that the page shows. */
+export interface OpenLesson {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_lesson";
+  lesson: string;
 }
 
 /** Open what a link holds as a document of its own; its edits are unsaved there. */
@@ -2220,6 +2325,15 @@ export interface RandomizeJoints {
   type: "randomize_joints";
 }
 
+/** Ask what is faulty in the text of a lesson. */
+export interface ReadLesson {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "read_lesson";
+  text: string;
+}
+
 /** Read YAML as values of a type; refused with the field that does not take its value. */
 export interface ReadValues {
   request?: number;
@@ -2497,6 +2611,17 @@ export interface SaveCopy {
   path: string;
 }
 
+/** Write a lesson in the studio's data folder. */
+export interface SaveLesson {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_lesson";
+  lesson: string;
+  language?: string;
+  text: string;
+}
+
 /** Keep where the joints are under a name; with `replace` also under one that there is. */
 export interface SavePose {
   request?: number;
@@ -2521,6 +2646,15 @@ export interface SaveVariant {
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** A panel was opened in the page, which checks of the page ask about. */
+export interface SawPanel {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "saw_panel";
+  panel: string;
 }
 
 /** Send a copy back to its owner with a remark. */
@@ -2776,6 +2910,14 @@ export interface StartNodes {
   document?: string;
   id?: string;
   type: "start_nodes";
+}
+
+/** A block of checks of a lesson, in the order of its text. */
+export interface StepView {
+  id: string;
+  heading: string;
+  done_s: number | null;
+  checks: CheckView[];
 }
 
 /** End a demo that was started from a page; done when it has ended. */
@@ -3210,9 +3352,11 @@ export type Command =
   | ChangeState
   | ChoosePackage
   | CloseDocument
+  | CloseLesson
   | CompareVariants
   | Complete
   | ConnectWire
+  | DeleteLesson
   | DeletePose
   | DeleteVariant
   | DiscardCopy
@@ -3249,6 +3393,8 @@ export type Command =
   | GetGoalStatuses
   | GetGraph
   | GetInterface
+  | GetLessonTable
+  | GetLessonText
   | GetLessons
   | GetLink
   | GetLog
@@ -3289,6 +3435,7 @@ export type Command =
   | OpenCopy
   | OpenExample
   | OpenFromWire
+  | OpenLesson
   | OpenLink
   | OpenPath
   | OpenRecent
@@ -3299,6 +3446,7 @@ export type Command =
   | PublishRobot
   | RaiseHand
   | RandomizeJoints
+  | ReadLesson
   | ReadValues
   | ReadmitMember
   | Redo
@@ -3316,8 +3464,10 @@ export type Command =
   | Save
   | SaveAs
   | SaveCopy
+  | SaveLesson
   | SavePose
   | SaveVariant
+  | SawPanel
   | SendBack
   | SendGoal
   | SetArgument
@@ -3394,6 +3544,10 @@ export type Event =
   | JointPositions
   | Leading
   | LeftWork
+  | LessonRead
+  | LessonState
+  | LessonTable
+  | LessonText
   | Lessons
   | Link
   | LinkOpened

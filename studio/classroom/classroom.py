@@ -20,6 +20,7 @@ from studio.protocol.classroom import (
     AskControl,
     ClassState,
     EndClass,
+    Focus,
     Follow,
     GatherAll,
     GiveControl,
@@ -45,7 +46,7 @@ from studio.protocol.classroom import (
 from studio.protocol.classroom import Control as ControlEvent
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import Audience, encode, send
-from studio.protocol.roles import Role
+from studio.protocol.roles import Role, original_of
 from studio.settings import DEFAULT_HOST
 
 if TYPE_CHECKING:
@@ -112,6 +113,8 @@ class Classroom:
         self.control = Control(self._control_changed)
         self.members = Members(bytes.fromhex(kept.key), self.control)
         self.members.restore(kept.members)
+        self._own_ticks = dict(kept.ticks)
+        """What the presenter has done of lessons."""
         self.admission = Admission(kept)
         self.admission.open = kept.open and not self.reach.why_not
         self.robot: Robot | None = None
@@ -186,7 +189,7 @@ class Classroom:
 
     def _may_be_dropped(self, one: Member) -> bool:
         """Whether a place may be taken: who was sent out, or helps, is always known again."""
-        return not (one.removed or one.role is Role.HELPER or self._is_here(one.person))
+        return not (one.removed or one.role is Role.HELPER or self.is_here(one.person))
 
     # Pages that come and go
 
@@ -218,7 +221,8 @@ class Classroom:
             self.control.left(person)
         self._changed()
 
-    def _is_here(self, person: str) -> bool:
+    def is_here(self, person: str) -> bool:
+        """Whether a person has a page open."""
         return person in self._pages
 
     # The class as a whole
@@ -276,8 +280,11 @@ class Classroom:
         self._changed()
 
     async def log_out(self) -> None:
-        """Make all members' cookies invalid: each has to join again."""
-        self.members.clear()
+        """Make all members' cookies invalid: each has to join again, and is another person then.
+
+        What those of before have made is kept, under their names.
+        """
+        self.members.renew_key()
         self.control.give("")
         await self._keep_quietly()
 
@@ -339,7 +346,24 @@ class Classroom:
         if self.following.follow(listener, following=following):
             self._changed()
 
+    # Lessons
+
+    def ticks_of(self, person: str, role: Role) -> dict[str, float] | None:
+        """Return when steps of lessons were done, to be added to; None: nothing is kept of them."""
+        if member := self.members.find(person):
+            return member.ticks
+        return self._own_ticks if role is Role.PRESENTER else None
+
+    async def keep_ticks(self) -> None:
+        """Keep what was done of lessons."""
+        await self._keep_quietly()
+
     # Control
+
+    def has_control(self, page: Listener) -> bool:
+        """Whether the person of a page has control of the ROS system."""
+        holder = self.control.holder
+        return page.person == holder if holder else page.role is Role.PRESENTER
 
     def ask_control(self, person: str, *, asking: bool) -> None:
         """Ask for control, or no longer; who asked first is first in the list."""
@@ -357,12 +381,12 @@ class Classroom:
         """
         if person:
             member = self.members.get(person)
-            if not self._is_here(person) or member.removed:
+            if not self.is_here(person) or member.removed:
                 raise CommandError(f"{member.name} is not here: wait until they are back.")
             if not member.role.includes(Role.STUDENT):
                 raise CommandError(f"{member.name} only looks: make them a student first.")
             member.asks_s = None
-        self.control.give(person, document)
+        self.control.give(person, original_of(document))
 
     def take_control(self, asker: Listener, document: str = "") -> None:
         """Take control: for the presenter, or for a helper."""
@@ -473,7 +497,7 @@ class Classroom:
 
     def _views(self) -> list[MemberView]:
         return [
-            one.view(here=self._is_here(one.person), follows=self._follows(one.person))
+            one.view(here=self.is_here(one.person), follows=self._follows(one.person))
             for one in self.members
         ]
 
@@ -493,6 +517,7 @@ class Classroom:
             join_as=admission.join_as,
             key=self.members.key.hex(),
             nodes=self.nodes.record,
+            ticks=self._own_ticks,
             members=tuple(
                 MemberRecord.model_validate(one, from_attributes=True) for one in self.members
             ),
@@ -513,6 +538,10 @@ class Classroom:
             self.end_pages(one.person)
 
 
+def _focus(shown: ShowFocus) -> Focus:
+    return Focus(document=shown.document, part=shown.part, site=shown.site, panel=shown.panel)
+
+
 _OFTEN: Final = Limits(bytes_max=1_000, per_second=5)
 
 _VIEWS: Final = Limits(bytes_max=1_000, per_second=60)
@@ -522,9 +551,13 @@ COMMANDS: Final = Commands[Classroom](Scope.STUDIO)
 COMMANDS.include(NODE_COMMANDS, lambda room, _: room.nodes)
 COMMANDS.presenter(Lead, lambda room, c, _: room.following.lead(leading=c.leading))
 COMMANDS.presenter(GatherAll, lambda room, _, __: room.following.gather())
-COMMANDS.presenter(ShowView, lambda room, c, who: room.following.show_view(who, c), limits=_VIEWS)
 COMMANDS.presenter(
-    ShowFocus, lambda room, c, who: room.following.show_focus(who, c), limits=_FOCUSES
+    ShowView,
+    lambda room, c, who: room.following.show_view(who, c.document, (c.eye, c.target), c.pointer),
+    limits=_VIEWS,
+)
+COMMANDS.presenter(
+    ShowFocus, lambda room, c, who: room.following.show_focus(who, _focus(c)), limits=_FOCUSES
 )
 COMMANDS.viewer(Follow, lambda room, c, who: room.follow(who, following=c.following), limits=_OFTEN)
 COMMANDS.presenter(StartClass, lambda room, _, __: room.start())

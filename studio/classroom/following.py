@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.protocol.classroom import Focus, Gather, Leading
 from studio.protocol.listeners import Audience, encode, send
@@ -12,9 +12,10 @@ from studio.protocol.listeners import Audience, encode, send
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.protocol.classroom import ShowFocus, ShowView
     from studio.protocol.listeners import Listener
 
+Point: TypeAlias = "tuple[float, float, float]"
+Place: TypeAlias = "tuple[Point, Point]"
 VIEW: Final = 2
 """First byte of the frame; 1 are joints."""
 _FRAME: Final = struct.Struct("<B7x9f")
@@ -79,25 +80,31 @@ class Following:
         """Whether a page follows."""
         return listener in self._followers
 
-    def show_view(self, leader: Listener, command: ShowView) -> None:
-        """Show camera and pointer to all who follow."""
+    def show_view(
+        self, leader: Listener, document: str, place: Place, pointer: Point | None
+    ) -> None:
+        """Show camera and pointer to all who follow.
+
+        Args:
+            leader: The page that shows.
+            document: What it shows.
+            place: The camera's eye, and what it looks at, in m in the root frame.
+            pointer: What the mouse points at, likewise; None: nothing.
+        """
         if not self.leading:
             return
         self._leader = leader
-        numbers = (*command.eye, *command.target, *(command.pointer or _NOWHERE))
+        numbers = (*place[0], *place[1], *(pointer or _NOWHERE))
         self._view = _FRAME.pack(VIEW, *numbers)
-        for page in self._others(leader, command.document):
+        for page in self._others(leader, document):
             page.post(self._view, binary=True, key=_KEY)
 
-    def show_focus(self, leader: Listener, command: ShowFocus) -> None:
+    def show_focus(self, leader: Listener, focus: Focus) -> None:
         """Show what is selected, pointed at and open to all who follow."""
         if not self.leading:
             return
         self._leader = leader
-        focus = Focus.model_validate(
-            {name: getattr(command, name) for name in Focus.model_fields if name != "type"}
-        )
-        self._show(focus, self._others(leader, command.document))
+        self._show(focus, self._others(leader, focus.document))
 
     def _show(self, focus: Focus, pages: Iterable[Listener]) -> None:
         self._focus = focus

@@ -30,6 +30,8 @@ class Member:
         self.asks_s: float | None = None
         """Since when they ask for control, in seconds since the epoch."""
         self.hand_s: float | None = None
+        self.ticks: dict[str, float] = {}
+        """When steps of lessons were done, in seconds since the epoch, by `lesson/step`."""
         self._control = control
 
     def controls(self, document: str) -> bool:
@@ -106,6 +108,7 @@ class Members:
         for one in records:
             member = Member(one.person, one.name, Role(one.role), self._control)
             member.removed = one.removed
+            member.ticks = dict(one.ticks)
             self._by_person[one.person] = member
 
     def drop(self, member: Member) -> None:
@@ -115,6 +118,10 @@ class Members:
     def clear(self) -> None:
         """Forget everybody; no cookie of before is valid any more."""
         self._by_person.clear()
+        self.renew_key()
+
+    def renew_key(self) -> None:
+        """Make the cookies of all invalid; nobody is forgotten."""
         self.key = secrets.token_bytes(32)
 
     def free_name(self, wanted: str, own: str = "") -> str:

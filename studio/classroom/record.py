@@ -45,6 +45,8 @@ class MemberRecord(_Kept):
     name: str
     role: Literal["helper", "student", "guest"]
     removed: bool = False
+    ticks: dict[str, float] = Field(default_factory=dict)
+    """When steps of lessons were done, in seconds since the epoch, by `lesson/step`."""
 
 
 class ClassRecord(_Kept):
@@ -61,6 +63,8 @@ class ClassRecord(_Kept):
     """Signs the members' cookies, in hex."""
     members: tuple[MemberRecord, ...] = ()
     nodes: NodesRecord = NodesRecord()
+    ticks: dict[str, float] = Field(default_factory=dict)
+    """What the presenter has done of lessons."""
 
 
 class ClassFile:

@@ -28,9 +28,7 @@ afterwards, when nobody waits."""
 
 def add_server_options(parser: argparse.ArgumentParser) -> None:
     """Options of every command that starts the server."""
-    parser.add_argument(
-        "--host", default=DEFAULT_HOST, help="address to listen on (default: this machine only)"
-    )
+    parser.add_argument("--host", help="address to listen on (default: this machine only)")
     parser.add_argument(
         "--port", type=_port, help=f"port to listen on (default: {DEFAULT_PORT} or the next free)"
     )
@@ -42,6 +40,14 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
         "auto",
         "where no router answers: auto starts one in this process for this machine, off starts "
         "none (default: auto)",
+    )
+    parser.add_argument(
+        "--lessons",
+        action="append",
+        type=Path,
+        default=[],
+        metavar="FOLDER",
+        help="show the lessons of this folder; may be given again",
     )
     add_read_options(parser)
 
@@ -126,7 +132,7 @@ def server_settings(options: argparse.Namespace) -> Settings:
         parse_endpoint(endpoint)
     public_url = _public_url(options.public_url)
     return Settings(
-        host=_EVERYWHERE if options.share and options.host == DEFAULT_HOST else options.host,
+        host=options.host or (_EVERYWHERE if options.share else DEFAULT_HOST),
         port=options.port,
         token=new_token(),
         guests=options.no_token,
@@ -137,6 +143,7 @@ def server_settings(options: argparse.Namespace) -> Settings:
         tls=_tls(options),
         data_folder=data_folder(options.data_dir),
         package_paths=package_paths(options),
+        lesson_folders=tuple(one.expanduser().absolute() for one in options.lessons),
         trusted=options.trust,
         open_browser=not options.no_browser,
         wire=WireChoice(options.router, tuple(options.connect), options.domain),

@@ -9,7 +9,7 @@ from studio.description.editing.sources import FileChange
 from studio.description.editing.undo import Change
 from studio.errors import EditError
 from studio.problems import Fix, Place, Problem, Severity
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.saving import (
     Collisions,
     CollisionView,
@@ -132,8 +132,12 @@ class DiskSync:
 
 COMMANDS: Final = Commands[DiskSync](Scope.DOCUMENT)
 COMMANDS.controller(GetCollisions, lambda disk, c, _: disk.collisions(c))
-COMMANDS.controller(ResolveCollisions, lambda disk, c, _: disk.resolve(c))
-COMMANDS.controller(Reload, lambda disk, _, __: disk.reload())
+COMMANDS.controller(
+    ResolveCollisions, lambda disk, c, _: disk.resolve(c), on_copies=OnCopies.REFUSED
+)
+COMMANDS.controller(
+    Reload, lambda disk, _, __: disk.reload(), on_copies=OnCopies.REFUSED, reviews=True
+)
 
 
 def changed_on_disk(file: str) -> Problem:

@@ -99,6 +99,8 @@ class Draft:
     opened_with: dict[str, str]
     """The arguments that the document was opened with."""
     kept: KeptSources
+    confined: tuple[str, ...] | None = None
+    """The only files that xacro may read, since others than a presenter edited; None: any."""
     version: int = _VERSION
 
 

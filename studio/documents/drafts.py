@@ -138,6 +138,8 @@ class Drafts:
             kept = replace(kept, texts=texts, done=(), undone=())
         if draft.opened_with != self._opened_with:  # arguments given now come first
             kept = replace(kept, arguments=self._opened_with)
+        if draft.confined is not None:
+            self._workspace.confine(draft.confined)
         sources.put(kept)
         self._disk.refresh([one.file for one in texts])
         if sources.unsaved_files or sources.arguments != self._opened_with:
@@ -168,7 +170,9 @@ class Drafts:
         if kept == self._written or self._file is None:
             return
         at = datetime.now(UTC).isoformat(timespec="seconds")
-        draft = Draft(self._workspace.path, at, self._opened_with, kept)
+        confined = self._workspace.confined
+        only = None if confined is None else tuple(sorted(confined))
+        draft = Draft(self._workspace.path, at, self._opened_with, kept, only)
         try:
             await asyncio.to_thread(_write_or_remove, self._file, draft)
         except DraftError as error:

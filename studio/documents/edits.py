@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.description.editing.undo import Change
 from studio.errors import CommandError
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.documents import SetArgument, SetArguments
 from studio.protocol.edits import Built, EditSite, History, Redo, ResetSite, Undo
 from studio.protocol.saving import UndoTo
@@ -169,7 +169,11 @@ class Edits:
 
 
 COMMANDS: Final = Commands[Edits](Scope.DOCUMENT)
-COMMANDS.controller(EditSite, lambda edits, c, _: edits.edit_site(c.site, c.text, c.gesture))
+COMMANDS.controller(
+    EditSite,
+    lambda edits, c, _: edits.edit_site(c.site, c.text, c.gesture),
+    on_copies=OnCopies.WITHIN_ROOM,
+)
 COMMANDS.controller(ResetSite, lambda edits, c, _: edits.reset_site(c.site))
 COMMANDS.controller(SetArgument, lambda edits, c, _: edits.pass_arguments({c.name: c.value}))
 COMMANDS.controller(SetArguments, lambda edits, c, _: edits.pass_arguments(c.values))

@@ -12,12 +12,15 @@ from typing import TYPE_CHECKING, Final
 
 from studio.classroom.classroom import COMMANDS as CLASS_COMMANDS
 from studio.classroom.classroom import Classroom
+from studio.course.lessons.shelf import Shelf
 from studio.documents.arguments import form_at, form_of
 from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
 from studio.documents.left_work import LeftDrafts
+from studio.documents.lessons.lesson_room import COMMANDS as LESSON_COMMANDS
+from studio.documents.lessons.lesson_room import LessonRoom
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
 from studio.documents.links import found_again, link_to, place_edits, read_link
@@ -32,8 +35,7 @@ from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
-from studio.protocol.commands import Answer, AtMostOnce, CommandRates, Commands, Scope
-from studio.protocol.displays import AddDisplay, DuplicateDisplay, RemoveDisplay
+from studio.protocol.commands import Answer, AtMostOnce, CommandRates, Commands, OnCopies, Scope
 from studio.protocol.documents import (
     Arguments,
     CloseDocument,
@@ -53,25 +55,21 @@ from studio.protocol.documents import (
     OpenPath,
     Watch,
 )
-from studio.protocol.edits import EditSite
 from studio.protocol.listeners import Audience, send
 from studio.protocol.roles import Role, owner_of
-from studio.protocol.saving import ForgetWork, Reload, ResolveCollisions, Save
-from studio.protocol.texts import EditText, Rename, ReplaceTexts
+from studio.protocol.saving import ForgetWork
+from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.live.connection.link import WireLink
     from studio.packages.workspace import Progress
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
-_NOT_FOR_COPIES: Final = frozenset(
-    (Save, Reload, ResolveCollisions, AddDisplay, RemoveDisplay, DuplicateDisplay)
-)
-"""What writes files of the original, or adds to what the class sees."""
 
 
 class Engine:
@@ -95,6 +93,17 @@ class Engine:
         self.classroom.on_control = self._lent
         self.classroom.nodes.choice = lambda: wire.choice
         self.copies = Copies(self.classroom.folder, self, self._services, self.classroom)
+        self.lessons = LessonRoom(
+            Shelf(
+                repository_or_wheel("frontend_assets") / "lessons",
+                settings.lesson_folders,
+                settings.data_folder / "lessons",
+            ),
+            self,
+            self.classroom,
+            self._system_of,
+            partial(self.ros.changes.changed, "ticks"),
+        )
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
         self.served = ServedRoots((self.library.robots_folder,))
@@ -114,6 +123,7 @@ class Engine:
         """Close all documents and end all workers."""
         await self._rejoining.close()
         await self.classroom.close()
+        await self.lessons.close()
         await asyncio.gather(self.left_work.close(), self.ros.close())
         await self.copies.close()
         documents, self.documents = tuple(self.documents.values()), {}
@@ -137,6 +147,7 @@ class Engine:
         self.ros.detach(listener)
         self.classroom.detach(listener)
         self.copies.detach(listener)
+        self.lessons.detach(listener)
         if document := self._watching.pop(listener, None):
             document.audience.remove(listener)
 
@@ -187,28 +198,33 @@ class Engine:
         self._rates.spend(asker.person, entry)
         if entry.needs_router:
             self.ros.check_router()
-        if owner_of(command.document) and entry.permission.needs_control:
-            self._check_copy(command)
+        if owner_of(command.document):
+            self._check_copy(command.document, entry.on_copies)
         answer = await COMMANDS.carry_out(self, command, asker)
-        if isinstance(command, Save | Reload) and asker.role is Role.PRESENTER:
+        if entry.reviews and asker.role is Role.PRESENTER:
             self.document(command.document).free()
         return answer
+
+    async def _system_of(self, person: str) -> tuple[WireLink | None, bool]:
+        """Return the ROS system that a person's lessons are about, and whether it is theirs."""
+        own = await self.classroom.nodes.link(person)
+        return (self.ros.connection.current, False) if own is None else (own, True)
 
     def _lent(self, document: str) -> None:
         """A member has control of a document now."""
         if document in self.documents:
             self.documents[document].confine()
 
-    def _check_copy(self, command: Command) -> None:
+    def _check_copy(self, name: str, rule: OnCopies) -> None:
         """Pass if a copy can have this done.
 
         Raises:
             CommandError: Only a shared document can, or the copy is full.
         """
-        if type(command) in _NOT_FOR_COPIES:
+        if rule is OnCopies.REFUSED:
             raise CommandError("A copy is not saved and has the displays of the class: hand it in.")
-        if isinstance(command, EditText | EditSite | ReplaceTexts | Rename):
-            self.copies.check_room(command.document)
+        if rule is OnCopies.WITHIN_ROOM:
+            self.copies.check_room(name)
 
     async def open_path(
         self, path: Path, arguments: dict[str, str], progress: Progress | None = None
@@ -381,6 +397,7 @@ COMMANDS.controller(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Sco
 COMMANDS.presenter(OpenLink, lambda engine, c, _: engine.open_link(c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
 COMMANDS.include(COPY_COMMANDS, lambda engine, _: engine.copies)
+COMMANDS.include(LESSON_COMMANDS, lambda engine, _: engine.lessons)
 COMMANDS.include(CLASS_COMMANDS, lambda engine, _: engine.classroom)
 COMMANDS.include(LIBRARY_COMMANDS, lambda engine, _: engine.library)
 COMMANDS.include(ROBOT_COMMANDS, lambda engine, _: engine.wire_robots)

@@ -13,7 +13,7 @@ from studio.description.language.questions import Renaming, RenamingQuery, Subje
 from studio.description.values import Edit
 from studio.documents.edits import READ_ONLY, TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError, ReadOnlyTextError, StaleTextError
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.texts import (
     FindTexts,
     FoundText,
@@ -269,8 +269,14 @@ class Rewriting:
 
 
 COMMANDS: Final = Commands[Rewriting](Scope.DOCUMENT)
-COMMANDS.controller(Rename, lambda rewriting, c, who: rewriting.rename(c, who))
-COMMANDS.controller(ReplaceTexts, lambda rewriting, c, who: rewriting.replace(c, who))
+COMMANDS.controller(
+    Rename, lambda rewriting, c, who: rewriting.rename(c, who), on_copies=OnCopies.WITHIN_ROOM
+)
+COMMANDS.controller(
+    ReplaceTexts,
+    lambda rewriting, c, who: rewriting.replace(c, who),
+    on_copies=OnCopies.WITHIN_ROOM,
+)
 COMMANDS.controller(GetRenaming, lambda rewriting, c, who: rewriting.renaming(c, who))
 COMMANDS.viewer(FindTexts, lambda rewriting, c, who: rewriting.find(c, who))
 

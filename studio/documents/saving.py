@@ -10,7 +10,7 @@ from studio.description.editing.line_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
 from studio.errors import CommandError, NotSavedError
 from studio.files import sweep
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.saving import Changes, FileChanges, GetChanges, Save, SaveCopy, Saved
 from studio.protocol.texts import hunk_views
 
@@ -116,5 +116,7 @@ class Saving:
 
 COMMANDS: Final = Commands[Saving](Scope.DOCUMENT)
 COMMANDS.controller(GetChanges, lambda saving, c, _: saving.changes(c))
-COMMANDS.controller(Save, lambda saving, c, _: saving.save(c.files))
+COMMANDS.controller(
+    Save, lambda saving, c, _: saving.save(c.files), on_copies=OnCopies.REFUSED, reviews=True
+)
 COMMANDS.presenter(SaveCopy, lambda saving, c, _: saving.save_copy(c))

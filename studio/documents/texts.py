@@ -19,7 +19,7 @@ from studio.description.language.questions import (
 )
 from studio.documents.edits import READ_ONLY, TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, ReadOnlyTextError, StaleTextError
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.language import (
     Complete,
     CompletionsAnswer,
@@ -208,7 +208,9 @@ class Texts:
 
 
 COMMANDS: Final = Commands[Texts](Scope.DOCUMENT)
-COMMANDS.controller(EditText, lambda texts, c, who: texts.edit(c, who.role))
+COMMANDS.controller(
+    EditText, lambda texts, c, who: texts.edit(c, who.role), on_copies=OnCopies.WITHIN_ROOM
+)
 COMMANDS.viewer(GetText, lambda texts, c, who: texts.answer(c, who.role))
 
 

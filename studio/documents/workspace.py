@@ -66,6 +66,11 @@ class Workspace:
             return self._policy
         return replace(self._policy, roots=tuple(sorted(self._confined)))
 
+    @property
+    def confined(self) -> frozenset[str] | None:
+        """The only files that xacro may read; None: those of all opened folders."""
+        return self._confined
+
     def confine(self, files: Iterable[str]) -> None:
         """Let xacro read these files and no others, until `free`; the first time counts."""
         if self._confined is None:

@@ -6,9 +6,9 @@ from typing import Literal, TypeAlias
 
 from studio.protocol.message import Command, Event
 
-Subject: TypeAlias = Literal["graph", "log", "diagnostics", "goal_statuses", "lessons"]
+Subject: TypeAlias = Literal["graph", "log", "diagnostics", "goal_statuses", "lessons", "ticks"]
 """The graph of nodes, topics, services and actions; lines of the log; diagnostics; states of goals;
-demos and their output."""
+demos and their output; steps of lessons that are done."""
 
 
 class FollowChanges(Command):

@@ -16,7 +16,7 @@ import asyncio
 import time
 from collections import OrderedDict
 from dataclasses import dataclass
-from enum import StrEnum
+from enum import Enum, StrEnum, auto
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
 
@@ -113,6 +113,16 @@ class Limits:
     """Rate for one person, with bursts of one second's; None: without a limit."""
 
 
+class OnCopies(Enum):
+    """Whether a command can be carried out on a copy of a document."""
+
+    ALLOWED = auto()
+    WITHIN_ROOM = auto()
+    """Only while the texts of the copy are not as large as they may be."""
+    REFUSED = auto()
+    """It writes files of the original, or adds to what the class sees."""
+
+
 @dataclass(frozen=True, slots=True)
 class CommandEntry(Generic[_Target]):
     """One command, and what carries it out."""
@@ -123,6 +133,9 @@ class CommandEntry(Generic[_Target]):
     needs_router: bool
     """Whether it reaches other nodes: it is refused at once while the router is away."""
     limits: Limits
+    on_copies: OnCopies = OnCopies.ALLOWED
+    reviews: bool = False
+    """Whether a presenter who sends it has seen what the texts are now."""
 
 
 class Commands(Generic[_Target]):
@@ -168,7 +181,7 @@ class Commands(Generic[_Target]):
         """Add a command that all may send who take part, and not only look."""
         self._add(message, work, Role.STUDENT, limits=limits)
 
-    def controller(
+    def controller(  # noqa: PLR0913 - by name, and few have more than one
         self,
         message: type[_Command],
         work: Work[_Target, _Command],
@@ -176,17 +189,13 @@ class Commands(Generic[_Target]):
         scope: Scope | None = None,
         needs_router: bool = False,
         limits: Limits | None = None,
+        on_copies: OnCopies = OnCopies.ALLOWED,
+        reviews: bool = False,
     ) -> None:
         """Add a command for the one person who has control."""
-        self._add(
-            message,
-            work,
-            Role.STUDENT,
-            scope=scope,
-            needs_control=True,
-            needs_router=needs_router,
-            limits=limits,
-        )
+        permission = Permission(type_of(message), Role.STUDENT, scope or self._scope, True)  # noqa: FBT003
+        limits = limits or Limits()
+        self._put(CommandEntry(permission, message, work, needs_router, limits, on_copies, reviews))
 
     def helper(
         self,
@@ -212,18 +221,17 @@ class Commands(Generic[_Target]):
             message, work, Role.PRESENTER, scope=scope, needs_router=needs_router, limits=limits
         )
 
-    def _add(  # noqa: PLR0913 - the ways in above have what each needs
+    def _add(
         self,
         message: type[_Command],
         work: Work[_Target, _Command],
         role: Role,
         *,
         scope: Scope | None = None,
-        needs_control: bool = False,
         needs_router: bool = False,
         limits: Limits | None = None,
     ) -> None:
-        permission = Permission(type_of(message), role, scope or self._scope, needs_control)
+        permission = Permission(type_of(message), role, scope or self._scope)
         self._put(CommandEntry(permission, message, work, needs_router, limits or Limits()))
 
     def include(self, part: Commands[_Part], of: Callable[[_Target, Command], _Part]) -> None:
@@ -258,7 +266,13 @@ def _within(
         return work(of(target, command), command, asker)
 
     return CommandEntry(
-        entry.permission, entry.message, carry_out, entry.needs_router, entry.limits
+        entry.permission,
+        entry.message,
+        carry_out,
+        entry.needs_router,
+        entry.limits,
+        entry.on_copies,
+        entry.reviews,
     )
 
 

@@ -37,6 +37,11 @@ def owner_of(document: str) -> str:
     return document.partition(OWNER)[2]
 
 
+def original_of(document: str) -> str:
+    """Return the shared document that a copy is of, or the document itself."""
+    return document.partition(OWNER)[0]
+
+
 class Person(Protocol):
     """A person with a role; `person` is the same for all of one browser, or of one token."""
 
@@ -92,7 +97,7 @@ class Visitor:
     def controls(self, document: str) -> bool:
         """Whether the person has control: that of the presenter is every presenter's.
 
-        Of documents that were lent to nobody they have it all the time.
+        Of documents that were lent to nobody, and of copies, they have it all the time.
         """
         if self.role is not Role.PRESENTER:
             return False

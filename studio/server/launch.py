@@ -171,8 +171,10 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
         place = place_of(settings, port_of(listener))
         for sentence in remarks(settings, place.port, is_root=_is_root()):
             _warn(sentence)
+        if place.reach.fingerprint and not settings.shared:
+            _print(_FINGERPRINT.format(place.reach.fingerprint))
         roles = (Role.PRESENTER, Role.GUEST) if viewer_link else (Role.PRESENTER,)
-        links = [with_token(place.address, credentials.token_of(role)) for role in roles]
+        links = [with_token(place.address_for(role), credentials.token_of(role)) for role in roles]
         visit = _Visit(opening, links, place)
         visit.run(settings, credentials, listener)
 
@@ -194,6 +196,15 @@ class Place:
     reach: Reach
     front: Front
     tls: tuple[Path, Path] | None = None
+
+    def address_for(self, role: Role) -> str:
+        """Return the address that somebody opens: viewers may be at other machines."""
+        if role is Role.PRESENTER or self.reach.only_here:
+            return self.address
+        return self.reach.addresses[0]
+
+
+_FINGERPRINT: Final = "SHA-256 of its certificate: {}"
 
 
 def place_of(settings: Settings, port: int) -> Place:
@@ -370,7 +381,7 @@ def invitation(classroom: Classroom) -> list[str]:
     lines = [f"Class: {first}  Code: {classroom.admission.code}"]
     lines += [f"   or: {other}" for other in others]
     if reach.fingerprint:
-        lines.append(f"SHA-256 of its certificate: {reach.fingerprint}")
+        lines.append(_FINGERPRINT.format(reach.fingerprint))
     return [*lines, qr_lines(classroom.link)]
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from tests.support.certificates import make_certificates
 from tests.support.nginx import free_port, running_nginx
+from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.server import RunningStudio, running_studio
 from tests.support.studio_page import StudioPage, studio_context, wait_until
 
@@ -60,7 +61,7 @@ def join(tab: StudioPage, address: str, name: str, code: str, *, view: bool = Fa
     tab.page.get_by_label("Code").fill(code)
     tab.page.get_by_label("Your name").fill(name)
     tab.page.get_by_role("button", name="Join").click()
-    tab.page.get_by_role("treeitem").first.wait_for()
+    bar(tab).get_by_text("You are looking").wait_for()
     return tab
 
 
@@ -232,7 +233,7 @@ def test_a_copy_is_tried_on_handed_in_compared_shown_and_sent_back(
             join(student, address, name, served.studio.class_code)
         shared = value_of(presenter, "mast_height")
         press(ada, "My copy")
-        copy_bar(ada).get_by_text("Your copy: nobody else changes it").wait_for()
+        copy_bar(ada).get_by_text("Your copy: only you and the presenter change it").wait_for()
         changed = float(ada.drag_slider("mast_height", 0.9))
         assert value_of(presenter, "mast_height") == shared != changed
         press(ada, "Hand in")
@@ -240,7 +241,9 @@ def test_a_copy_is_tried_on_handed_in_compared_shown_and_sent_back(
         presenter.page.keyboard.press("Control+K")
         presenter.page.keyboard.type("People")
         presenter.page.keyboard.press("Enter")
-        presenter.page.get_by_role("button", name="Open what Ada C handed in: 1 change").click()
+        presenter.page.get_by_role(
+            "button", name="Open the copy of Ada C: 1 change handed in"
+        ).click()
         copy_bar(presenter).get_by_text("Copy of Ada C").wait_for()
         shows(presenter, "mast_height", changed)
         press(presenter, "Compare with the original")
@@ -257,6 +260,54 @@ def test_a_copy_is_tried_on_handed_in_compared_shown_and_sent_back(
         press(ada, "Back to the class")
         bar(ada).get_by_text("You are looking").wait_for()
         assert value_of(ada, "mast_height") == shared
+        for one in (presenter, ada, bob):
+            assert one.errors == []
+
+
+def lessons_of(tab: StudioPage) -> Locator:
+    """Bring the panel of lessons to the front."""
+    tab.page.evaluate(SHOW_PANEL, "lessons")
+    return tab.page.get_by_role("region", name="Lessons", exact=True)
+
+
+def test_a_lesson_is_written_turns_green_for_one_and_the_teacher_sees_it(
+    browser: Browser, served: Served
+):
+    address = served.addresses["nginx"]
+    with ExitStack() as held:
+        presenter, ada, bob = (held.enter_context(tab(browser)) for _ in range(3))
+        presenter.open(f"{address}?token={served.studio.token}", view=False)
+        lessons = lessons_of(presenter)
+        lessons.get_by_role("button", name="Write a lesson").click()
+        lessons.get_by_role("textbox", name="Name").fill("larger-wheel")
+        text = lessons.get_by_role("textbox", name="Text")
+        text.fill(f"{text.input_value()}check: node talker runs\n<script>alert(1)</script>\n")
+        lessons.get_by_text("write it as `node /NAME runs`").wait_for()
+        text.fill(text.input_value().replace("check: node talker runs\n", ""))
+        wait_until("no fault", lambda: lessons.locator(".lesson-faults li").count() == 0)
+        lessons.get_by_role("button", name="Save").click()
+        lessons.get_by_text("0 of 2 steps done").wait_for()
+        for student, name in ((ada, "Ada <i>L</i>"), (bob, "=Bob L")):
+            join(student, address, name, served.studio.class_code)
+            read = lessons_of(student)
+            read.get_by_role("searchbox").fill("larger")
+            read.get_by_role("button", name="larger-wheel").click()
+            read.get_by_text("0 of 2 steps done").wait_for()
+            read.get_by_text("<script>alert(1)</script>").wait_for()
+            assert read.get_by_role("button", name="Edit this lesson").count() == 0
+        ada.page.evaluate(SHOW_PANEL, "origin")
+        lessons_of(ada).get_by_text("1 of 2 steps done").wait_for()
+        lessons.get_by_role("button", name="Who has done it").click()
+        row = lessons.get_by_role("row", name="Ada <i>L</i>")
+        row.get_by_role("img", name="1. Try").wait_for()
+        assert lessons.get_by_role("row", name="=Bob L").get_by_role("img", name="Try").count() == 0
+        lessons_of(bob).get_by_text("0 of 2 steps done").wait_for()
+        with presenter.page.expect_download() as saved:
+            lessons.get_by_role("button", name="Save as CSV").click()
+        table = saved.value.path().read_text(encoding="utf-8").splitlines()
+        assert table[0] == "Name,1. Try,2. Try"
+        assert any(line.startswith("Ada <i>L</i>,20") and line.endswith(",") for line in table)
+        assert "'=Bob L,," in table
         for one in (presenter, ada, bob):
             assert one.errors == []
 

@@ -4,11 +4,11 @@ import math
 import struct
 
 from studio.classroom.following import Following
-from studio.protocol.classroom import ShowFocus, ShowView
+from studio.protocol.classroom import Focus
 from studio.protocol.roles import Role
 from tests.support.open_documents import Ear
 
-VIEW = ShowView(eye=(1, 2, 3), target=(4, 5, 6), pointer=(7, 8, 9))
+PLACE, POINTER = ((1, 2, 3), (4, 5, 6)), (7, 8, 9)
 
 
 def floats(frame: bytes) -> tuple[float, ...]:
@@ -29,8 +29,8 @@ def test_who_follows_sees_camera_and_pointer_and_nobody_else_does():
     made, presenter, student = pair()
     other = Ear(Role.STUDENT)
     made.attach(other)
-    made.show_view(presenter, VIEW)
-    made.show_view(presenter, VIEW.model_copy(update={"pointer": None}))
+    made.show_view(presenter, "rover", PLACE, POINTER)
+    made.show_view(presenter, "rover", PLACE, None)
     first, second = map(floats, student.frames)
     assert first == (1, 2, 3, 4, 5, 6, 7, 8, 9)
     assert all(map(math.isnan, second[6:]))
@@ -39,8 +39,8 @@ def test_who_follows_sees_camera_and_pointer_and_nobody_else_does():
 
 def test_who_comes_later_sees_at_once_where_the_presenter_is():
     made, presenter, _ = pair()
-    made.show_view(presenter, VIEW)
-    made.show_focus(presenter, ShowFocus(document="rover", part="link:mast", panel="joints"))
+    made.show_view(presenter, "rover", PLACE, POINTER)
+    made.show_focus(presenter, Focus(document="rover", part="link:mast", site="", panel="joints"))
     late = Ear(Role.GUEST)
     made.attach(late)
     made.follow(late, following=True)
@@ -58,7 +58,7 @@ def test_who_explores_sees_nothing_until_they_come_back():
     made, presenter, student = pair()
     assert made.follow(student, following=False)
     assert not made.follow(student, following=False)
-    made.show_view(presenter, VIEW)
+    made.show_view(presenter, "rover", PLACE, POINTER)
     assert student.frames == []
     made.follow(student, following=True)
     assert len(student.frames) == 1
@@ -66,10 +66,10 @@ def test_who_explores_sees_nothing_until_they_come_back():
 
 def test_nobody_is_led_while_the_presenter_does_not_lead_and_all_are_gathered_at_once():
     made, presenter, student = pair()
-    made.show_view(presenter, VIEW)
+    made.show_view(presenter, "rover", PLACE, POINTER)
     made.lead(leading=False)
-    made.show_view(presenter, VIEW)
-    made.show_focus(presenter, ShowFocus(part="link:mast"))
+    made.show_view(presenter, "rover", PLACE, POINTER)
+    made.show_focus(presenter, Focus(document="rover", part="link:mast", site="", panel=""))
     assert len(student.frames) == 1
     assert student.last("leading")["leading"] is False
     made.gather()
@@ -81,14 +81,14 @@ def test_a_page_that_is_gone_is_sent_nothing():
     made, presenter, student = pair()
     made.detach(student)
     made.detach(presenter)
-    made.show_view(presenter, VIEW)
+    made.show_view(presenter, "rover", PLACE, POINTER)
     assert student.frames == []
 
 
 def test_nobody_is_taken_to_a_copy_before_it_is_shown_to_all_and_then_everybody_is():
     made, presenter, student = pair()
-    made.show_focus(presenter, ShowFocus(document="rover~ada", part="link:mast"))
-    made.show_view(presenter, VIEW.model_copy(update={"document": "rover~ada"}))
+    made.show_focus(presenter, Focus(document="rover~ada", part="link:mast", site="", panel=""))
+    made.show_view(presenter, "rover~ada", PLACE, POINTER)
     late = Ear(Role.STUDENT)
     made.attach(late)
     made.follow(late, following=True)

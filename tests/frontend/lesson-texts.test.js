@@ -15,6 +15,10 @@ const CHAPTERS = textOf("studio/course/demos.py");
 const FOUND = [...CHAPTERS.matchAll(/Lesson\("(\w+)", "(\/\w+)"/g)];
 const DEMOS = FOUND.map(([, demo = ""]) => demo);
 const NODES = FOUND.map(([, , node = ""]) => node);
+const [, LISTED = ""] =
+  /EXERCISES: Final = \(([^)]*)\)/.exec(textOf("studio/course/lessons/shelf.py")) ?? [];
+const EXERCISES = [...LISTED.matchAll(/"(\w+)"/g)].map(([, name = ""]) => name);
+const NAMES = [...DEMOS, ...EXERCISES];
 /** How many words a link may have after the panel. @type {Record<string, readonly number[]>} */
 const ABOUT = {
   ...{ topics: [0, 1], parameters: [0, 1], lessons: [0, 1] },
@@ -23,9 +27,9 @@ const ABOUT = {
 /** Names that are of no demo: every node's, or the studio's own. */
 const EVERYWHERE = ["/rosout", "/parameter_events", "/studio", "/tf", "/tf_static"];
 
-/** @param {string} language @param {string} demo */
-const lessonOf = (language, demo) =>
-  readLesson(textOf(`frontend_assets/lessons/${language}/${demo}.md`));
+/** @param {string} language @param {string} name */
+const lessonOf = (language, name) =>
+  readLesson(textOf(`frontend_assets/lessons/${language}/${name}.md`));
 
 /** @param {string} demo @returns {string} all that it is written in */
 function codeOf(demo) {
@@ -37,6 +41,13 @@ function codeOf(demo) {
     .map(textOf)
     .join("\n");
 }
+
+/** @param {import("../../frontend_assets/model/lessons.js").LessonBlock} block */
+const partsOfBlock = (block) => (block.kind === "checks" ? [] : partsOf(block));
+
+/** @param {import("../../frontend_assets/model/lessons.js").LessonBlock} block @returns {string[]} names of ROS in its checks */
+const checkedIn = (block) =>
+  block.kind === "checks" ? block.lines.flatMap((line) => line.match(/(?<= )\/\w+/g) ?? []) : [];
 
 /** @param {Part} part @returns {boolean} it leads somewhere, or is drawn */
 function isKnown(part) {
@@ -51,7 +62,7 @@ function leadsSomewhere({ page, about: [name, ...more] }) {
   const words = name === undefined ? 0 : 1 + more.length;
   if (page === "open")
     return existsSync(new URL(`models/${name}/package.xml`, ROOT)) && more.every(isArgument);
-  const isThere = page !== "lessons" || name === undefined || DEMOS.includes(name);
+  const isThere = page !== "lessons" || name === undefined || NAMES.includes(name);
   return isThere && PANELS.includes(page) && (ABOUT[page] ?? [0]).includes(words);
 }
 
@@ -61,43 +72,44 @@ const isArgument = (word) => /^\w+:=\S+$/.test(word);
 /** @param {Part} part @returns {string} the first part of a name of ROS; empty: it is none */
 const rosName = ({ kind, text }) => (kind === "code" && /^\/[a-z]\w*/.exec(text)?.[0]) || "";
 
-test("the demos and the panels are found", () => {
-  assert.ok(DEMOS.length >= 38 && PANELS.includes("lessons"));
+test("the demos, the exercises and the panels are found", () => {
+  assert.ok(DEMOS.length >= 38 && EXERCISES.length >= 5 && PANELS.includes("lessons"));
 });
 
-test("every demo has a lesson in each language, and they need the same others", () => {
+test("every demo and exercise has a lesson in each language, and they need the same others", () => {
   for (const language of ["en", "de"]) {
     const files = readdirSync(new URL(`frontend_assets/lessons/${language}/`, ROOT));
-    assert.deepEqual(files.sort(), DEMOS.map((demo) => `${demo}.md`).sort());
+    assert.deepEqual(files.sort(), NAMES.map((name) => `${name}.md`).sort());
   }
-  for (const demo of DEMOS) {
-    const [english, german] = [lessonOf("en", demo), lessonOf("de", demo)];
-    assert.ok(english.title && german.title && english.title !== demo, demo);
-    assert.deepEqual(english.needs, german.needs, demo);
+  for (const name of NAMES) {
+    const [english, german] = [lessonOf("en", name), lessonOf("de", name)];
+    assert.ok(english.title && german.title && english.title !== name, name);
+    assert.deepEqual(english.needs, german.needs, name);
     assert.ok(
-      english.needs.every((needed) => needed !== demo && DEMOS.includes(needed)),
-      demo,
+      english.needs.every((needed) => needed !== name && DEMOS.includes(needed)),
+      name,
     );
   }
 });
 
 for (const language of ["en", "de"]) {
   test(`links, icons and marks of the lessons in ${language} are known`, () => {
-    for (const demo of DEMOS)
-      for (const part of lessonOf(language, demo).blocks.flatMap(partsOf))
-        assert.ok(isKnown(part), `${language}/${demo}: ${part.text}`);
+    for (const name of NAMES)
+      for (const part of lessonOf(language, name).blocks.flatMap(partsOfBlock))
+        assert.ok(isKnown(part), `${language}/${name}: ${part.text}`);
   });
 
   test(`names of ROS in the lessons in ${language} are those of the demos`, () => {
-    for (const demo of DEMOS) {
-      const { needs, blocks } = lessonOf(language, demo);
-      const parts = blocks.flatMap(partsOf);
+    for (const lesson of NAMES) {
+      const { needs, blocks } = lessonOf(language, lesson);
+      const parts = blocks.flatMap(partsOfBlock);
       const linked = parts.flatMap((part) => (part.kind === "link" ? part.about : []));
-      const code = [demo, ...needs, ...linked].map(codeOf).join("\n");
+      const code = [lesson, ...needs, ...linked].map(codeOf).join("\n");
+      const own = EXERCISES.includes(lesson) ? blocks.flatMap(checkedIn) : [];
       for (const name of parts.map(rosName).filter(Boolean))
         assert.ok(
-          [...EVERYWHERE, ...NODES].includes(name) || code.includes(name.slice(1)),
-          `${language}/${demo}: ${name} is not in its code`,
+          [...EVERYWHERE, ...NODES, ...own].includes(name) || code.includes(name.slice(1)),
+          `${language}/${lesson}: ${name} is not in its code`,
         );
     }
   });

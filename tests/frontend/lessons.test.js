@@ -13,14 +13,25 @@ test("a lesson has a head, and a text in the markup of the help", () => {
   assert.deepEqual([title, needs, blocks.length], ["Two nodes", ["talker", "listener"], 1]);
   const bare = readLesson("# One node\n\n[see](topics /chatter)\n");
   assert.deepEqual(bare.needs, []);
-  assert.deepEqual(bare.blocks.flatMap(partsOf), [
-    { kind: "link", text: "see", page: "topics", about: ["/chatter"] },
-  ]);
+  assert.deepEqual(
+    bare.blocks.flatMap((block) => (block.kind === "checks" ? [] : partsOf(block))),
+    [{ kind: "link", text: "see", page: "topics", about: ["/chatter"] }],
+  );
   assert.deepEqual(readLesson("").title, "");
 });
 
+test("lines of checks are a step where they stand, numbered through the lesson", () => {
+  const { blocks } = readLesson(
+    "# T\n\nText,\ncheck: no errors\n  check: node /a runs\ngoes on.\n\n## Try\n\ncheck: opened graph\n",
+  );
+  assert.deepEqual(
+    blocks.map((block) => (block.kind === "checks" ? [block.step, ...block.lines] : block.kind)),
+    ["text", [0, "no errors", "node /a runs"], "text", "heading", [1, "opened graph"]],
+  );
+});
+
 test("a lesson is found by each of its words, wherever they stand", () => {
-  const talker = { demo: "talker", node: "/topic_helloworld_pub" };
+  const talker = { name: "talker", node: "/topic_helloworld_pub" };
   assert.ok(isSought("", talker, ""));
   assert.ok(isSought("Publisher helloworld", talker, "This publisher talks."));
   assert.ok(!isSought("publisher service", talker, "This publisher talks."));

@@ -19,6 +19,7 @@ COMMANDS = {entry.permission.name: entry.permission for entry in REGISTRY}
 PRESENTER, VIEWER = Visitor(Role.PRESENTER), Visitor(Role.GUEST)
 VIEWER_COMMANDS = {
     *("get_managed", "get_diagnostics"),
+    *("get_lesson_text", "open_lesson", "close_lesson", "saw_panel"),
     *("get_lessons", "get_demos", "get_demo_output", "get_demo_code"),
     *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
     *("get_outline", "look_up", "get_references"),
@@ -45,11 +46,12 @@ STUDENT_COMMANDS = {
     *("ask_control", "return_control", "raise_hand", "stop_robot", "open_copy"),
     *("get_node_access", "get_my_graph"),
 }
-HELPER_COMMANDS = {"give_control", "take_control", "lower_hand", "send_back"}
+HELPER_COMMANDS = {"get_lesson_table", "give_control", "take_control", "lower_hand", "send_back"}
 PRESENTER_COMMANDS = {
     *("start_class", "pause_class", "end_class", "set_class", "renew_code"),
     *("start_nodes", "stop_nodes"),
     *("set_member_role", "remove_member", "readmit_member"),
+    *("save_lesson", "delete_lesson", "read_lesson"),
     *("lead", "gather_all", "show_view", "show_focus", "show_copy"),
     *("open_path", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),
     *("list_recent", "forget_recent", "list_examples", "list_places", "open_recent"),

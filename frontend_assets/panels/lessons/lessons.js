@@ -10,6 +10,7 @@ import { secondsSince, shortTime, useNow } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayAct, mayManage } from "../../model/connection.js";
+import { deleteLesson, readOn, steps } from "../../model/lesson-steps.js";
 import {
   askLessons,
   chosenLesson,
@@ -35,18 +36,16 @@ import {
   underWay,
 } from "../../model/lessons.js";
 import { connectRos, ros } from "../../model/ros.js";
-import { notify } from "../../model/view.js";
+import { dialog, notify } from "../../model/view.js";
 import { isUnconnected, Refusal } from "../parts.js";
+import { LessonEditor } from "./editor.js";
+import { Progress, Step } from "./steps.js";
 
 export function LessonsPanel() {
   const { panel } = useLooking(followLessons);
   const all = lessons.value;
   useEffect(() => {
-    if (all)
-      void fetchLessons(
-        language.value,
-        all.map(({ demo }) => demo),
-      );
+    if (all) void fetchLessons(language.value, all);
   }, [all, language.value]);
   return html`<section ref=${panel} class="panel-body operations lessons" aria-label=${t("panel.lessons")}>
     ${lessonsRefused.value && html`<${Refusal} sentence=${lessonsRefused.value} again=${askLessons} />`}
@@ -57,7 +56,8 @@ export function LessonsPanel() {
 
 /** @param {{all: readonly LessonView[]}} props the list, and beside or in place of it a page */
 function Parts({ all }) {
-  const read = all.find(({ demo }) => demo === chosenLesson.value);
+  const edited = useSignal(/** @type {string | null} */ (null));
+  const read = all.find(({ name }) => name === chosenLesson.value);
   const parts = useRef(/** @type {HTMLElement | null} */ (null));
   const before = useRef(read);
   useEffect(() => {
@@ -65,19 +65,24 @@ function Parts({ all }) {
     before.current = read;
     // Where the page takes the place of the list, what had the focus is hidden: it goes on with what came.
     if (last === read || (document.activeElement ?? document.body) !== document.body) return;
-    const next = read ? ".lesson-scroll" : `[data-demo="${last?.demo}"]`;
+    const next = read ? ".lesson-scroll" : `[data-demo="${last?.name}"]`;
     /** @type {HTMLElement | null | undefined} */ (parts.current?.querySelector(next))?.focus();
   }, [read]);
-  return html`<div ref=${parts} class=${`operations-parts ${read ? "chosen" : ""}`}>
-    <${List} all=${all} />${read && html`<${LessonPage} key=${read.demo} lesson=${read} all=${all} />`}
+  const edit = (/** @type {string | null} */ name) => {
+    edited.value = name;
+  };
+  const isEditing = edited.value !== null && mayManage.value;
+  return html`<div ref=${parts} class=${`operations-parts ${read || isEditing ? "chosen" : ""}`}>
+    <${List} all=${all} onNew=${() => edit("")} />
+    ${isEditing ? html`<${LessonEditor} key=${edited.value} name=${edited.value} onClose=${() => edit(null)} />` : read && html`<${LessonPage} key=${read.name} lesson=${read} all=${all} onEdit=${() => edit(read.name)} />`}
   </div>`;
 }
 
-/** @param {{all: readonly LessonView[]}} props */
-function List({ all }) {
+/** @param {{all: readonly LessonView[], onNew: () => void}} props */
+function List({ all, onNew }) {
   const words = useSignal("");
   const shown = all.filter((one) =>
-    isSought(words.value, one, lessonTexts.value.get(one.demo)?.text ?? ""),
+    isSought(words.value, one, lessonTexts.value.get(one.name)?.text ?? ""),
   );
   const chapters = [...new Set(shown.map(({ chapter }) => chapter))];
   return html`<div class="operations-list">
@@ -85,12 +90,12 @@ function List({ all }) {
       /** @type {string} */ text,
     ) => {
       words.value = text;
-    }} /></div>
+    }} />${mayManage.value && html`<${IconButton} icon="filePlus" label=${t("lessons.new")} onClick=${onNew} />`}</div>
     <${RunningNow} />
     ${shown.length === 0 && html`<${EmptyState} icon="lessons" title=${t("filter.nothing", { words: words.value })} />`}
     <nav class="scroll lessons-list" aria-label=${t("panel.lessons")}>${chapters.map(
       (chapter) => html`<section key=${chapter}><h3>${t(`lessons.chapter.${chapter}`)}</h3>
-        <ul class="offers">${shown.filter((one) => one.chapter === chapter).map(({ demo }) => html`<${Row} key=${demo} demo=${demo} />`)}</ul></section>`,
+        <ul class="offers">${shown.filter((one) => one.chapter === chapter).map((lesson) => html`<${Row} key=${lesson.name} lesson=${lesson} />`)}</ul></section>`,
     )}</nav>
   </div>`;
 }
@@ -103,16 +108,17 @@ function RunningNow() {
     ${mayManage.value && html`<button type="button" class="button small" onClick=${stopAllDemos}><${Icon} name="stop" size=${12} />${t("lessons.stop_all")}</button>`}</div>`;
 }
 
-/** @param {{demo: string}} props */
-function Row({ demo }) {
-  const runs = isUnderWay(demo) || elsewhere.value.includes(demo);
+/** @param {{lesson: LessonView}} props */
+function Row({ lesson: { name, node, done, steps: count } }) {
+  const runs = node !== "" && (isUnderWay(name) || elsewhere.value.includes(name));
   const choose = () => {
-    chosenLesson.value = demo;
+    chosenLesson.value = name;
   };
-  return html`<li><button type="button" class="offer" data-demo=${demo} aria-pressed=${chosenLesson.value === demo} onClick=${choose}>
-    <span class="lessons-title">${lessonTexts.value.get(demo)?.title || demo}</span>
-    ${runs && html`<span class=${`lessons-dot ${demos.value.get(demo)?.state ?? ""}`} role="img" aria-label=${t("lessons.runs")} title=${t("lessons.runs")}></span>`}
-    <span class="offer-type">${demo}</span></button></li>`;
+  return html`<li><button type="button" class="offer" data-demo=${name} aria-pressed=${chosenLesson.value === name} onClick=${choose}>
+    <span class="lessons-title">${lessonTexts.value.get(name)?.title || name}</span>
+    ${runs && html`<span class=${`lessons-dot ${demos.value.get(name)?.state ?? ""}`} role="img" aria-label=${t("lessons.runs")} title=${t("lessons.runs")}></span>`}
+    ${done > 0 && html`<span class=${`lessons-done ${done === count ? "all" : ""}`} title=${t("lessons.progress", { done, count })}>${done === count ? html`<${Icon} name="check" size=${13} />` : `${done}/${count}`}</span>`}
+    <span class="offer-type">${name}</span></button></li>`;
 }
 
 /** So far from its end a list still counts as scrolled to it. */
@@ -121,27 +127,48 @@ const END_PX = 4;
 /**
  * One lesson: its demo and those that it needs, what it says, and what they print.
  *
- * @param {{lesson: LessonView, all: readonly LessonView[]}} props
+ * @param {{lesson: LessonView, all: readonly LessonView[], onEdit: () => void}} props
  */
-function LessonPage({ lesson, all }) {
-  const { demo } = lesson;
-  const text = lessonTexts.value.get(demo);
-  const needed = (text?.needs ?? []).flatMap((name) => all.find((one) => one.demo === name) ?? []);
-  const parts = [...needed, lesson];
+function LessonPage({ lesson, all, onEdit }) {
+  const { name } = lesson;
+  const text = lessonTexts.value.get(name);
+  const wanted = [...(text?.needs ?? []), name];
+  const parts = wanted.flatMap(
+    (one) => all.find((other) => other.name === one && other.node) ?? [],
+  );
+  useEffect(readOn, [name]);
   const close = () => {
     chosenLesson.value = "";
   };
   return html`<div class="operations-chosen lesson">
     <header class="operation-head lesson-head"><${IconButton} icon="chevronRight" class="operation-back" label=${t("operations.back")} onClick=${close} />
-      <h3>${text?.title || demo}</h3><span class="offer-type">${`studio demos ${demo}`}</span></header>
-    <div class="scroll lesson-scroll" tabindex="0" role="region" aria-label=${text?.title || demo}>
-      <${LessonRuns} parts=${parts} />
+      <h3>${text?.title || name}</h3>${lesson.node && html`<span class="offer-type">${`studio demos ${name}`}</span>`}
+      ${lesson.writable && mayManage.value && html`<span class="lesson-tools"><${IconButton} icon="pencil" label=${t("lessons.edit")} onClick=${onEdit} /><${IconButton} icon="trash" label=${t("lessons.delete")} onClick=${() => askToDelete(name)} /></span>`}</header>
+    <div class="scroll lesson-scroll" tabindex="0" role="region" aria-label=${text?.title || name}>
+      <${Progress} />
+      ${parts.length > 0 && html`<${LessonRuns} parts=${parts} />`}
       ${text?.blocks.length === 0 && html`<p class="note padded">${t("lessons.lost")}</p>`}
-      <article class="help-article lesson-text">${text?.blocks.map((block) => drawnBlock(block, followLink))}</article>
-      ${parts.map((part) => html`<${Code} key=${part.demo} demo=${part.demo} />`)}
+      <article class="help-article lesson-text">${text?.blocks.map((block) =>
+        block.kind === "checks"
+          ? html`<${Step} lines=${block.lines} view=${steps.value[block.step]} />`
+          : drawnBlock(block, followLink),
+      )}</article>
+      ${parts.map((part) => html`<${Code} key=${part.name} demo=${part.name} />`)}
     </div>
-    <${Output} own=${demo} parts=${parts} />
+    <${Output} own=${name} parts=${parts} />
   </div>`;
+}
+
+/** @param {string} name */
+function askToDelete(name) {
+  dialog.value = {
+    kind: "confirm",
+    title: t("lessons.delete.title", { name }),
+    text: t("lessons.delete.text"),
+    action: t("lessons.delete"),
+    danger: true,
+    run: () => void deleteLesson(name),
+  };
 }
 
 /** The source code of a demo, asked for when it is unfolded. @param {{demo: string}} props */
@@ -174,7 +201,7 @@ function Output({ own, parts }) {
   useLayoutEffect(() => {
     if (follows.current) list.current?.scrollTo({ top: list.current.scrollHeight });
   }, [lines]);
-  const started = parts.map(({ demo }) => demo).filter((demo) => demos.value.has(demo));
+  const started = parts.map(({ name }) => name).filter((name) => demos.value.has(name));
   const shown = [chosen.value, own].find((demo) => started.includes(demo)) ?? started[0] ?? "";
   useEffect(() => {
     showOutput(shown);
@@ -206,11 +233,11 @@ function Output({ own, parts }) {
  * @param {{parts: readonly LessonView[]}} props in the order in which they are started
  */
 function LessonRuns({ parts }) {
-  const waiting = parts.map(({ demo }) => demo).filter((demo) => !isThere(demo));
+  const waiting = parts.map(({ name }) => name).filter((name) => !isThere(name));
   const canStart = mayManage.value && !isUnconnected();
   return html`<section class="lesson-runs" aria-label=${t("lessons.demos")}>
     ${isUnconnected() && html`<${Connect} />`}
-    <ul>${parts.map((one) => html`<${Run} key=${one.demo} lesson=${one} />`)}</ul>
+    <ul>${parts.map((one) => html`<${Run} key=${one.name} lesson=${one} />`)}</ul>
     ${canStart && parts.length > 1 && waiting.length > 1 && html`<${StartAll} waiting=${waiting} />`}
     ${!mayManage.value && html`<p class="note">${t("lessons.viewer")}</p>`}
   </section>`;
@@ -244,7 +271,7 @@ function StartAll({ waiting }) {
 
 /** @param {{lesson: LessonView}} props */
 function Run({ lesson }) {
-  const { demo, node, has_keys: hasKeys } = lesson;
+  const { name: demo, node, has_keys: hasKeys } = lesson;
   const view = demos.value.get(demo);
   const isStranger = elsewhere.value.includes(demo) && !isUnderWay(demo);
   return html`<li class="lesson-run"><div class="lesson-run-line">

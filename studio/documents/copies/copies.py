@@ -46,7 +46,7 @@ from studio.protocol.copies import (
 )
 from studio.protocol.documents import Gone, Opened
 from studio.protocol.listeners import send
-from studio.protocol.roles import OWNER, Role, owner_of
+from studio.protocol.roles import OWNER, Role, original_of, owner_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Iterator
@@ -378,7 +378,7 @@ class Copies:
 
     def _folder_of(self, name: str) -> Path:
         assert self._folder is not None
-        return self._folder / owner_of(name) / name.partition(OWNER)[0]
+        return self._folder / owner_of(name) / original_of(name)
 
     async def _keep(self, name: str, record: CopyRecord) -> None:
         self._records[name] = record

@@ -79,6 +79,8 @@ def make_folder(original: Original, folder: Path) -> tuple[str, tuple[str, ...]]
         )
     places = _Places(original.texts, folder / _SOURCE)
     try:
+        for above in (folder.parent.parent, folder.parent, folder):
+            above.mkdir(mode=0o700, exist_ok=True)
         for path, data in original.texts.items():
             _write(places.of(Path(path)), data)
         _write_beside(original, places)

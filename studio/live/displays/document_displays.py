@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
@@ -392,9 +392,13 @@ class DocumentDisplays:
 
 
 COMMANDS: Final = Commands[DocumentDisplays](Scope.DOCUMENT)
-COMMANDS.controller(AddDisplay, lambda displays, c, _: displays.add(c))
-COMMANDS.controller(RemoveDisplay, lambda displays, c, _: displays.remove(c))
-COMMANDS.controller(DuplicateDisplay, lambda displays, c, _: displays.duplicate(c))
+COMMANDS.controller(AddDisplay, lambda displays, c, _: displays.add(c), on_copies=OnCopies.REFUSED)
+COMMANDS.controller(
+    RemoveDisplay, lambda displays, c, _: displays.remove(c), on_copies=OnCopies.REFUSED
+)
+COMMANDS.controller(
+    DuplicateDisplay, lambda displays, c, _: displays.duplicate(c), on_copies=OnCopies.REFUSED
+)
 COMMANDS.controller(ArrangeDisplay, lambda displays, c, _: displays.arrange(c))
 COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))

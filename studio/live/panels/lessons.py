@@ -13,7 +13,7 @@ from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Final
 
-from studio.course.demos import CHAPTERS, LESSONS, Lesson, code_of, find_demo
+from studio.course.demos import LESSONS, Lesson, code_of, find_demo
 from studio.course.processes import AFTER_SIGNAL_S, LEASHED, environment_for
 from studio.errors import CommandError
 from studio.protocol.commands import Commands, Scope
@@ -26,9 +26,6 @@ from studio.protocol.lessons import (
     GetDemoCode,
     GetDemoOutput,
     GetDemos,
-    GetLessons,
-    Lessons,
-    LessonView,
     PressKey,
     StartDemo,
     StopDemo,
@@ -229,17 +226,6 @@ class CourseDemos:
         self._sessions = _Sessions()
         self._closed = False
 
-    def lessons(self, command: GetLessons) -> Lessons:
-        """Return the demos, in the order in which they are taught."""
-        return Lessons(
-            request=command.request,
-            lessons=tuple(
-                LessonView(demo=one.demo, chapter=chapter, node=one.node, has_keys=one.has_keys)
-                for chapter, lessons in CHAPTERS.items()
-                for one in lessons
-            ),
-        )
-
     async def demos(self, command: GetDemos) -> Demos:
         """Return the demos that run, also those started elsewhere."""
         elsewhere = await self._find_others()
@@ -378,7 +364,6 @@ def _sessions_by_node(link: WireLink) -> dict[str, frozenset[str]]:
 
 
 COMMANDS: Final = Commands[CourseDemos](Scope.ROS)
-COMMANDS.viewer(GetLessons, lambda one, c, _: one.lessons(c))
 COMMANDS.viewer(GetDemos, lambda one, c, _: one.demos(c))
 COMMANDS.viewer(GetDemoOutput, lambda one, c, _: one.output(c))
 COMMANDS.viewer(GetDemoCode, lambda one, c, _: one.code(c))

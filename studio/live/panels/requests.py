@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from studio.errors import (
     CallError,
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from studio.live.connection.link import WireLink
-    from studio.protocol.calls import CallService
     from studio.ros.node.task import Future
 
 SHOWN_CHARACTERS: Final = 60_000
@@ -40,6 +39,25 @@ _ROUTER_SEEN_S: Final = 0.5
 """A call ends with its router, whose end is noticed a moment later."""
 
 
+class Asked(Protocol):
+    """What is asked of a service."""
+
+    @property
+    def name(self) -> str:
+        """Of the service."""
+        ...
+
+    @property
+    def service_type(self) -> str:
+        """Its type."""
+        ...
+
+    @property
+    def text(self) -> str:
+        """The request, as YAML."""
+        ...
+
+
 class ServiceRequest:
     """One request, ready to be sent; made and closed in a thread.
 
@@ -48,7 +66,7 @@ class ServiceRequest:
             not fit it.
     """
 
-    def __init__(self, link: WireLink, asked: CallService) -> None:
+    def __init__(self, link: WireLink, asked: Asked) -> None:
         name = wire_name(asked.name)
         why: list[str] = []
         type_name = full_type_name(asked.service_type, "srv")

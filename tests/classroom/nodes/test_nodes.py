@@ -20,12 +20,9 @@ from studio.protocol.classroom import SetMemberRole
 from studio.protocol.roles import Role
 from studio.protocol.student_nodes import GetMyGraph, GetNodeAccess, NodeAccess
 from studio.ros.messages import message
-from studio.ros.node.context import Context
-from studio.ros.node.node import Node
-from studio.ros.wire.session import open_wire
-from studio.ros.wire.settings import wire_settings
 from tests.support.open_documents import Ear
 from tests.support.ros2_peer import real_node
+from tests.support.student_nodes import STRING, OwnNode, variables
 from tests.support.wire import free_endpoint, free_port
 
 if TYPE_CHECKING:
@@ -33,8 +30,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.protocol.student_nodes import MyGraph
-
-STRING = "std_msgs/msg/String"
 
 
 class Page(Ear):
@@ -102,26 +97,6 @@ async def seen(made: Classroom, page: Ear, *nodes: str) -> MyGraph:
             if found.nodes == nodes:
                 return found
             await asyncio.sleep(0.02)
-
-
-def variables(line: str) -> dict[str, str]:
-    """What a shell makes of the line."""
-    assert line.startswith("export ")
-    pairs = line.removeprefix("export ").removesuffix("'").split("' ")
-    return {name: value for name, _, value in (pair.partition("='") for pair in pairs)}
-
-
-class OwnNode:
-    """A node of a student, who has pasted the line."""
-
-    def __init__(self, line: str, name: str) -> None:
-        settings = wire_settings(environment=variables(line))
-        self.context = Context.over(open_wire(settings, "off"), owns_wire=True)
-        self.node = Node(name, context=self.context)
-        self.out = self.node.create_publisher(message(STRING), "/temperature", 10)
-
-    def close(self) -> None:
-        self.context.shutdown()
 
 
 Starting: TypeAlias = "Callable[[str, str], Awaitable[OwnNode]]"

@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import shutil
-from contextlib import asynccontextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.classroom.classroom import Classroom, Reach
 from studio.documents.copies import copies as module
-from studio.documents.engine import COMMANDS, Engine
 from studio.errors import (
     CommandError,
     NotInControlError,
@@ -21,95 +16,23 @@ from studio.errors import (
     UnknownDocumentError,
 )
 from studio.protocol.classroom import GiveControl, ReturnControl
-from studio.protocol.commands import demand
 from studio.protocol.copies import DiscardCopy, HandIn, OpenCopy, SendBack, ShowCopy
 from studio.protocol.displays import AddDisplay
 from studio.protocol.documents import Watch
 from studio.protocol.edits import EditSite, Undo
-from studio.protocol.robot import SetJoints
+from studio.protocol.robot import SetJoints, ZeroJoints
 from studio.protocol.roles import Role, Visitor
 from studio.protocol.saving import Save, UndoTo
 from studio.protocol.texts import EditText, GetText, TextChange
 from studio.protocol.variants import SaveVariant
-from studio.settings import Settings
-from tests.support.open_documents import Ear, until
+from tests.support.class_room import Room, run
+from tests.support.open_documents import until
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator, Callable, Coroutine
+    from collections.abc import Coroutine
+    from pathlib import Path
 
-    from studio.classroom.members import Member
     from studio.documents.document import Document
-    from studio.protocol import Command
-
-MODELS = Path(__file__).resolve().parents[3] / "models"
-
-
-class Page(Ear):
-    """A page of a member, or of the presenter."""
-
-    def __init__(self, who: Member | Visitor) -> None:
-        super().__init__(who.role)
-        self.who, self.person = who, who.person
-
-
-class Room:
-    """An engine with an open rover, a class, and what its people ask through the door."""
-
-    def __init__(self, engine: Engine, shared: Document) -> None:
-        self.engine, self.shared = engine, shared
-        self.classroom = engine.classroom
-        self.presenter = self.page(Visitor(Role.PRESENTER, control=self.classroom.control))
-
-    def page(self, who: Member | Visitor) -> Page:
-        made = Page(who)
-        self.engine.attach(made)
-        return made
-
-    async def student(self, name: str) -> Page:
-        joined = await self.classroom.join(name, self.classroom.admission.code, "", "")
-        return self.page(joined)
-
-    async def ask(self, page: Page, command: Command) -> None:
-        """As the control lane carries a command out."""
-        demand(page.who, COMMANDS[type(command)].permission, command.document)
-        await self.engine.execute(command, page)
-
-    async def copy(self, page: Page) -> Document:
-        """Their copy, open and watched."""
-        await self.ask(page, OpenCopy(document=self.shared.id))
-        name = page.last("opened")["document"]
-        await self.ask(page, Watch(document=name))
-        made = self.engine.document(name)
-        await made.opened()
-        await until(lambda: made.last_run.expansion is not None)
-        return made
-
-
-@asynccontextmanager
-async def room(tmp_path: Path) -> AsyncGenerator[Room]:
-    data = tmp_path / "data"
-    data.mkdir(exist_ok=True)
-    classroom = Classroom(data / "class-1.json", Reach(("http://robots.example/",)))
-    engine = Engine(Settings(data_folder=data), classroom)
-    await classroom.start()
-    rover = tmp_path / "rover_description"
-    if not rover.exists():
-        shutil.copytree(MODELS / "rover_description", rover)
-    try:
-        entry = rover / "urdf/rover.urdf.xacro"
-        shared = engine.document(await engine.open_path(entry, {"wheels": "road"}))
-        await shared.opened()
-        yield Room(engine, shared)
-    finally:
-        await engine.close()
-
-
-def run(tmp_path: Path, work: Callable[[Room], Coroutine[Any, Any, None]]) -> None:
-    async def begin() -> None:
-        async with room(tmp_path) as made:
-            await work(made)
-
-    asyncio.run(begin())
 
 
 def site(document: Document, name: str) -> str:
@@ -242,6 +165,48 @@ def test_who_was_given_control_makes_it_read_no_other_files_until_the_presenter_
         await room.ask(room.presenter, UndoTo(document="rover", position=0, of=2))
         await room.ask(room.presenter, Save(document="rover", files=None))
         await until(lambda: not shared.last_run.failed)
+
+    run(tmp_path, work)
+
+
+def test_what_a_student_wrote_reads_no_more_files_after_a_restart_either(tmp_path: Path):
+    async def before(room: Room) -> None:
+        secret = tmp_path / "rover_description" / "secret.xacro"
+        secret.write_text('<robot><link name="very_secret"/></robot>')
+        ada = await room.student("Ada")
+        await room.ask(room.presenter, GiveControl(person=ada.person, document="rover"))
+        await room.ask(ada, GetText(document="rover", file=room.shared.path))
+        at = text_of(room.shared).decode().index("<!-- Chassis")
+        reading = f'<xacro:include filename="{secret}"/>'
+        edit = EditText(
+            document="rover",
+            file=room.shared.path,
+            version=ada.last("text")["version"],
+            changes=(TextChange(start=at, end=at, text=reading),),
+        )
+        await room.ask(ada, edit)
+        await until(lambda: room.shared.last_run.failed)
+
+    async def after(room: Room) -> None:
+        shared = room.shared
+        assert shared.has_unsaved
+        assert shared.last_run.failed
+        assert b"very_secret" not in repr(shared.last_run.expansion).encode()
+        await room.ask(room.presenter, Save(document="rover", files=None))
+        await until(lambda: not shared.last_run.failed)
+
+    run(tmp_path, before)
+    run(tmp_path, after)
+
+
+def test_control_given_while_a_copy_is_looked_at_is_of_what_it_was_made_of(tmp_path: Path):
+    async def work(room: Room) -> None:
+        ada, bob = await room.student("Ada"), await room.student("Bob")
+        copy = await room.copy(ada)
+        await room.ask(room.presenter, GiveControl(person=bob.person, document=copy.id))
+        assert room.classroom.control.document == room.shared.id
+        zero = ZeroJoints(document=copy.id)
+        assert await refused(room.ask(bob, zero)) == "UnknownDocumentError"
 
     run(tmp_path, work)
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.course.demos import DEMOS
 from studio.errors import CommandError
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels import lessons
@@ -19,7 +18,6 @@ from studio.protocol.lessons import (
     DemoView,
     GetDemoOutput,
     GetDemos,
-    GetLessons,
     PressKey,
     StartDemo,
     StopDemo,
@@ -80,14 +78,6 @@ def is_there(pid: int) -> bool:
     except ProcessLookupError:
         return False
     return True
-
-
-def test_every_demo_is_listed_by_chapters():
-    course = CourseDemos(RosConnection(WireChoice("off")))
-    told = course.lessons(GetLessons(request=4))
-    assert told.request == 4
-    assert {one.demo for one in told.lessons} == {demo.name for demo in DEMOS}
-    assert told.lessons[0].chapter == "nodes"
 
 
 def test_a_demo_is_started_seen_heard_and_stopped(endpoint: str):

@@ -1,0 +1,1 @@
+"""Lessons: pages of Markdown whose steps have checks."""
