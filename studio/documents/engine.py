@@ -122,8 +122,8 @@ class Engine:
     async def close(self) -> None:
         """Close all documents and end all workers."""
         await self._rejoining.close()
-        await self.classroom.close()
         await self.lessons.close()
+        await self.classroom.close()
         await asyncio.gather(self.left_work.close(), self.ros.close())
         await self.copies.close()
         documents, self.documents = tuple(self.documents.values()), {}
