@@ -18,6 +18,7 @@ import {
   startClass,
   you,
 } from "../model/class.js";
+import { startNodes, stopNodes, studentNodes } from "../model/student-nodes.js";
 import { dialog, notify } from "../model/view.js";
 
 /** What is typed in a terminal. */
@@ -98,7 +99,37 @@ function JoinSettings({ state }) {
         ${["student", "guest"].map((one) => html`<option key=${one} value=${one} selected=${one === state.join_as}>${t(`class.role.${one}`)}</option>`)}
       </select></label>
     <${Password} isSet=${state.has_password} />
+    <${StudentNodes} />
   </div>`;
+}
+
+/** Whether nodes of students may join, where, and how many have asked. */
+function StudentNodes() {
+  const nodes = studentNodes.value;
+  if (!nodes) return null;
+  const { state, endpoint, given, limit, trouble } = nodes;
+  const isOn = state === "on" || state === "starting";
+  return html`<div class="class-setting"><span class="class-nodes">${t("class.nodes")}<small>${t("class.nodes.hint")}</small>
+      ${state === "on" && html`<small role="status">${t("class.nodes.on", { endpoint, given, limit })}</small>`}
+      ${state === "on" && nodes.only_here && html`<small>${t("class.nodes.only_here")} <code>${SHARED}</code></small>`}
+      ${trouble && html`<small class="bad" role="alert">${trouble}</small>`}</span>
+    <${Switch} label=${t("class.nodes")} checked=${isOn} disabled=${state === "starting"} onChange=${(/** @type {boolean} */ on) => (on ? startNodes() : askToStopNodes(given))} /></div>`;
+}
+
+/** @param {number} given */
+function askToStopNodes(given) {
+  if (given === 0) {
+    stopNodes();
+    return;
+  }
+  dialog.value = {
+    kind: "confirm",
+    title: t("class.nodes.stop"),
+    text: t("class.nodes.stop.text"),
+    action: t("class.nodes.stop"),
+    danger: true,
+    run: () => void stopNodes(),
+  };
 }
 
 /** @param {{isSet: boolean}} props */

@@ -21,7 +21,9 @@ import {
 import { connection, hasControl, role } from "../model/connection.js";
 import { canCopy, isCopy, openCopy } from "../model/copies.js";
 import { canFollow, comeBack, explore, gatherAll, isFollowing } from "../model/following.js";
+import { mayJoin } from "../model/student-nodes.js";
 import { dialog, isFree } from "../model/view.js";
+import { NodesButton, showNodes } from "./nodes-button.js";
 
 /** Below the bar above: what one may do here, and who has control where that is somebody else. */
 export function ControlBar() {
@@ -31,6 +33,7 @@ export function ControlBar() {
     <span class="control-words">${stateWords()}</span>
     <${ControlButton} />
     ${canCopy.value && html`<button type="button" class="button small" title=${t("copy.open.hint")} onClick=${openCopy}><${Icon} name="fork" size=${14} />${t("copy.open")}</button>`}
+    <${NodesButton} />
     <span class="push"></span>
     <${FollowButton} />
     ${takesPart.value && !leads.value && html`<${HandButton} />`}
@@ -144,6 +147,7 @@ export function classCommands() {
       enabled: () => inClass() && !leads.value,
       run: () => void raiseHand(!you.value.hand),
     },
+    { id: "my_nodes", icon: "node", enabled: () => mayJoin.value && isFree(), run: showNodes },
     { id: "open_copy", icon: "fork", enabled: () => canCopy.value, run: () => void openCopy() },
     {
       id: "gather_all",

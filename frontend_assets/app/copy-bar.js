@@ -19,6 +19,7 @@ import { goTo } from "../model/requests.js";
 import { canCompare } from "../model/variants.js";
 import { dialog } from "../model/view.js";
 import { compareWith } from "./menu-commands.js";
+import { NodesButton } from "./nodes-button.js";
 
 export function CopyBar() {
   if (!isCopy.value) return null;
@@ -43,7 +44,8 @@ function stateWords() {
 
 function OwnButtons() {
   return html`<button type="button" class="button small primary" onClick=${handIn}><${Icon} name="send" size=${14} />${t("copy.hand_in")}</button>
-    <button type="button" class="button small" onClick=${askToDiscard}>${t("copy.discard")}…</button>`;
+    <button type="button" class="button small" onClick=${askToDiscard}>${t("copy.discard")}…</button>
+    <${NodesButton} />`;
 }
 
 function askToDiscard() {

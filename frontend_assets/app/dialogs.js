@@ -23,6 +23,7 @@ const NameDialog = later(async () => (await import("./class-dialog.js")).NameDia
 const KeysDialog = later(async () => (await import("./keys-dialog.js")).KeysDialog);
 const LaunchDialog = later(async () => (await import("./launch-dialog.js")).LaunchDialog);
 const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).LayoutsDialog);
+const NodesDialog = later(async () => (await import("./nodes-dialog.js")).NodesDialog);
 const OpenDialog = later(async () => (await import("./open-dialog.js")).OpenDialog);
 const PackageDialog = later(async () => (await import("./open-dialog.js")).PackageDialog);
 const RosDialog = later(async () => (await import("./ros-dialog.js")).RosDialog);
@@ -63,6 +64,8 @@ function ShownDialog() {
       return html`<${RemarkDialog} document=${shown.document} onClose=${close} />`;
     case "class_name":
       return html`<${NameDialog} onClose=${close} />`;
+    case "nodes":
+      return html`<${NodesDialog} onClose=${close} />`;
     case "graphics":
       return html`<${GraphicsDialog} onClose=${close} />`;
     case "ros":

@@ -147,6 +147,7 @@ export const OF_DIALOG = {
   graphics: "graphics",
   class: "class",
   class_name: "class",
+  nodes: "class",
   remark: "class",
   ros: "ros",
   add_display: "live",

@@ -48,7 +48,7 @@ export const soughtSite = signal(null);
 export const size = signal("wide");
 
 /** @typedef {"recent" | "browse" | "examples" | "new" | "paste" | "ros"} OpenTab */
-/** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "class"} | {kind: "class_name"} | {kind: "remark", document: string} | {kind: "layouts"} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
+/** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "class"} | {kind: "class_name"} | {kind: "nodes"} | {kind: "remark", document: string} | {kind: "layouts"} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
 /** The one window over the page. @type {Signal<Shown | null>} */
 export const dialog = signal(null);
 /** No window waits for an answer; the palette is gone before what it found begins. */

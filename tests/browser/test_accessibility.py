@@ -48,6 +48,7 @@ DIALOGS: Final[dict[str, dict[str, Any]]] = {
     "layouts": {"kind": "layouts"},
     "class": {"kind": "class"},
     "class_name": {"kind": "class_name"},
+    "nodes": {"kind": "nodes"},
     "remark": {"kind": "remark", "document": "x"},
     "keys": {"kind": "keys"},
     "palette": {"kind": "palette"},
