@@ -282,8 +282,10 @@ class Classroom:
     async def log_out(self) -> None:
         """Make all members' cookies invalid: each has to join again, and is another person then.
 
-        What those of before have made is kept, under their names.
+        What those of before have made is kept, under their names. Their own nodes cannot join any
+        more.
         """
+        await self.nodes.stop()
         self.members.renew_key()
         self.control.give("")
         await self._keep_quietly()

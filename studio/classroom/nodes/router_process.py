@@ -56,6 +56,10 @@ class _Process:
     def handle(self, request: OpenRouter | AskWell) -> RouterOpen | Well:
         return self._open(request) if isinstance(request, OpenRouter) else Well()
 
+    def close(self) -> None:
+        if self._router is not None:
+            self._router.close()
+
     def _open(self, request: OpenRouter) -> RouterOpen:
         from studio.ros.wire.endpoints import parse_endpoint  # noqa: PLC0415 - imports zenoh
         from studio.ros.wire.guarded import DomainUser, start_guarded_router  # noqa: PLC0415
@@ -76,5 +80,14 @@ class _Process:
         return RouterOpen(reason=reason)
 
 
+def main() -> None:
+    """Answer until the studio is gone, and hang up on everybody."""
+    process = _Process()
+    try:
+        serve(CODEC, process.handle, MEMORY_BYTES)
+    finally:
+        process.close()
+
+
 if __name__ == "__main__":
-    serve(CODEC, _Process().handle, MEMORY_BYTES)
+    main()

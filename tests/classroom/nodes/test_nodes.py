@@ -272,6 +272,15 @@ def test_the_end_of_the_class_switches_access_off(own_nodes: Starting):
     run(work)
 
 
+def test_who_makes_all_join_again_switches_access_off():
+    async def work(made: Classroom) -> None:
+        await access(made, ADA)
+        await made.log_out()
+        assert made.nodes.event().state == "off"
+
+    run(work)
+
+
 def test_a_studio_that_was_killed_goes_on_with_the_lines_that_were_copied(
     own_nodes: Starting, tmp_path: Path
 ):
