@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
 IDLE_S: Final = 30.0
 """So long a link is kept that nobody asks for."""
+TOKENS_MAX: Final = 5_000
+"""Nodes and endpoints of one domain; a student may declare any number of them."""
+CROWDED_S: Final = 60.0
+"""So long a domain with more is not looked into."""
 _LOOK_EVERY_S: Final = 5.0
 
 
@@ -33,11 +37,15 @@ class DomainLinks:
     """Holds at most one link for each domain; used on the event loop only.
 
     Args:
-        open_link: Opens the link of a domain, in a thread.
+        open_link: Opens the link of a domain, in a thread; what it is given is to be called
+            whenever the graph has changed, from any thread.
     """
 
-    def __init__(self, open_link: Callable[[int], WireLink]) -> None:
+    def __init__(self, open_link: Callable[[int, Callable[[], None]], WireLink]) -> None:
         self._open = open_link
+        self._crowded_s: dict[int, float] = {}
+        """Until when a domain is not looked into."""
+        self._closing: set[asyncio.Task[None]] = set()
         self._held: dict[int, _Held] = {}
         self._sweeping: asyncio.Task[None] | None = None
 
@@ -51,9 +59,14 @@ class DomainLinks:
             StudioError: It cannot be opened, or was closed meanwhile.
         """
         loop = asyncio.get_running_loop()
+        if loop.time() < self._crowded_s.get(domain, 0.0):
+            raise CommandError(
+                f"Domain {domain} has more than {TOKENS_MAX} nodes and endpoints: end some of "
+                "them, and look again in a minute."
+            )
         held = self._held.get(domain)
         if held is None or held.has_failed:
-            opening = asyncio.create_task(asyncio.to_thread(self._open, domain))
+            opening = asyncio.create_task(self._opened(domain))
             held = self._held[domain] = _Held(opening, loop.time())
         if self._sweeping is None or self._sweeping.done():
             self._sweeping = asyncio.create_task(self._sweep())
@@ -68,6 +81,26 @@ class DomainLinks:
         held.used_s = loop.time()
         return link
 
+    async def _opened(self, domain: int) -> WireLink:
+        loop = asyncio.get_running_loop()
+        link: WireLink | None = None
+
+        def changed() -> None:
+            if link is not None and link.graph.token_count > TOKENS_MAX and not loop.is_closed():
+                loop.call_soon_threadsafe(self._leave, domain)
+
+        link = await asyncio.to_thread(self._open, domain, changed)
+        changed()
+        return link
+
+    def _leave(self, domain: int) -> None:
+        """Look no longer into a domain that is crowded."""
+        if domain in self._held:
+            self._crowded_s[domain] = asyncio.get_running_loop().time() + CROWDED_S
+            closing = asyncio.create_task(self.close_one(domain))
+            self._closing.add(closing)
+            closing.add_done_callback(self._closing.discard)
+
     async def close_one(self, domain: int) -> None:
         """End the link of a domain, if there is one."""
         if held := self._held.pop(domain, None):
@@ -81,7 +114,7 @@ class DomainLinks:
             self._sweeping.cancel()
             await asyncio.gather(self._sweeping, return_exceptions=True)
             self._sweeping = None
-        await asyncio.gather(*map(self.close_one, tuple(self._held)))
+        await asyncio.gather(*map(self.close_one, tuple(self._held)), *self._closing)
 
     async def _sweep(self) -> None:
         loop = asyncio.get_running_loop()

@@ -334,7 +334,7 @@ class StudentNodes:
     def _place(self, host: str, port: int) -> str:
         return f"tls/[{host}]:{port}" if ":" in host else f"tls/{host}:{port}"
 
-    def _open_link(self, domain: int) -> WireLink:
+    def _open_link(self, domain: int, changed: Callable[[], None]) -> WireLink:
         from studio.live.connection.link import WireLink  # noqa: PLC0415 - imports zenoh
 
         pool = self._opened()
@@ -344,7 +344,7 @@ class StudentNodes:
             profile=planned_wire(self.choice()).profile,
             overrides=pool.studio.of_session(),
         )
-        return WireLink(WireChoice(router="off"), _nothing, settings)
+        return WireLink(WireChoice(router="off"), changed, settings)
 
 
 def _near(listen: str) -> str:
@@ -356,10 +356,6 @@ def _near(listen: str) -> str:
     if not address.is_unspecified:
         return listen
     return "127.0.0.1" if address.version == 4 else "::1"
-
-
-def _nothing() -> None:
-    """Nobody waits for changes: who looks asks again."""
 
 
 def _graph_of(link: WireLink, request: int) -> MyGraph:

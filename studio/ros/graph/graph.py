@@ -58,6 +58,11 @@ class Graph:
         return self._version
 
     @property
+    def token_count(self) -> int:
+        """The number of nodes and endpoints."""
+        return len(self._table)
+
+    @property
     def malformed(self) -> tuple[int, str | None]:
         """The number of malformed tokens, and what was wrong with the last."""
         with self._changed:

@@ -23,7 +23,7 @@ from studio.ros.messages import message
 from tests.support.open_documents import Ear
 from tests.support.ros2_peer import real_node
 from tests.support.student_nodes import STRING, OwnNode, variables
-from tests.support.wire import free_endpoint, free_port
+from tests.support.wire import free_endpoint, free_port, show_endpoints
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Awaitable, Callable, Generator
@@ -326,6 +326,36 @@ def test_a_link_that_nobody_asks_for_is_closed(monkeypatch: pytest.MonkeyPatch):
         first = await made.nodes.link("ada")
         await until(lambda: made.nodes.link_count == 0)
         assert await made.nodes.link("ada") is not first
+
+    run(work)
+
+
+def test_a_domain_with_thousands_of_endpoints_is_not_looked_into(
+    own_nodes: Starting, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(links_module, "TOKENS_MAX", 300)
+    monkeypatch.setattr(links_module, "CROWDED_S", 0.2)
+
+    async def work(made: Classroom) -> None:
+        ada = await own_nodes((await access(made, ADA)).shell, "ada_talks")
+        await seen(made, ADA, "/ada_talks")
+        many = show_endpoints(ada.context.wire, 400)
+        await until(lambda: made.nodes.link_count == 0)
+        with pytest.raises(CommandError, match="has more than 300 nodes and endpoints: end some"):
+            await graph(made, ADA)
+        assert await made.nodes.link("ada") is None
+        for one in many:
+            one.undeclare()
+
+        async def again() -> bool:
+            try:
+                return (await graph(made, ADA)).nodes == ("/ada_talks",)
+            except CommandError:
+                return False
+
+        async with asyncio.timeout(60):
+            while not await again():  # noqa: ASYNC110 - nothing tells us when
+                await asyncio.sleep(0.02)
 
     run(work)
 
