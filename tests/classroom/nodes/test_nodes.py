@@ -208,6 +208,21 @@ def test_the_same_person_keeps_their_domain_and_each_line_is_of_one_domain():
     run(work)
 
 
+def test_the_line_names_the_address_by_which_others_find_this_machine():
+    async def work() -> None:
+        reach = Reach(("http://robots.example/",), only_here=False, host="robots.example")
+        made = Classroom(None, reach)
+        try:
+            await made.nodes.start()
+            given = await access(made, ADA)
+            assert given.endpoint.startswith("tls/robots.example:")
+            assert f'connect/endpoints=["{given.endpoint}"]' in given.shell
+        finally:
+            await made.close()
+
+    asyncio.run(work())
+
+
 def test_when_all_domains_are_given_out_a_sentence_says_so():
     async def work(made: Classroom) -> None:
         given = [(await access(made, Page(f"person {n}"))).domain for n in range(60)]
