@@ -188,8 +188,12 @@ class Classroom:
         return self.members.add(name, Role(self.admission.join_as))
 
     def _may_be_dropped(self, one: Member) -> bool:
-        """Whether a place may be taken: who was sent out, or helps, is always known again."""
-        return not (one.removed or one.role is Role.HELPER or self.is_here(one.person))
+        """Whether a place may be taken: who was sent out, or helps, is always known again.
+
+        The nodes of who has closed the page may still run.
+        """
+        is_known = one.removed or one.role is Role.HELPER or self.nodes.has_access(one.person)
+        return not (is_known or self.is_here(one.person))
 
     # Pages that come and go
 

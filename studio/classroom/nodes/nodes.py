@@ -272,6 +272,10 @@ class StudentNodes:
             powershell=powershell_line(variables),
         )
 
+    def has_access(self, person: str) -> bool:
+        """Whether a person was given a domain."""
+        return person in self._given
+
     async def revoke(self, person: str) -> None:
         """Take a person's access: the router starts anew without them, and all others come back.
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 
+from studio.classroom import classroom as classroom_module
 from studio.classroom.classroom import Classroom, Reach
 from studio.classroom.nodes import links as links_module
 from studio.classroom.nodes import nodes as nodes_module
@@ -255,6 +256,19 @@ def test_who_is_sent_out_is_cut_off_and_the_others_come_back(own_nodes: Starting
         await made.readmit(ada.person)
         assert variables((await access(made, ada)).shell) != variables(lines[0])
         assert made.nodes.event().given == 3
+
+    run(work)
+
+
+def test_a_full_class_keeps_the_place_of_who_has_nodes(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(classroom_module, "MEMBERS_MAX", 2)
+
+    async def work(made: Classroom) -> None:
+        ada, bob = [await made.join(name, made.admission.code, "", "") for name in ("Ada", "Bob")]
+        await access(made, Page(ada.person))
+        await made.join("Eve", made.admission.code, "", "")
+        assert made.members.find(ada.person) is ada
+        assert made.members.find(bob.person) is None
 
     run(work)
 
