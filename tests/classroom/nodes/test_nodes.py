@@ -16,11 +16,13 @@ from studio.classroom.classroom import Classroom, Reach
 from studio.classroom.nodes import links as links_module
 from studio.classroom.nodes import nodes as nodes_module
 from studio.classroom.nodes.nodes import COMMANDS
+from studio.documents.engine import Engine
 from studio.errors import CommandError, WireError
 from studio.protocol.classroom import SetMemberRole
 from studio.protocol.roles import Role
 from studio.protocol.student_nodes import GetMyGraph, GetNodeAccess, NodeAccess
 from studio.ros.messages import message
+from studio.settings import Settings
 from tests.support.open_documents import Ear
 from tests.support.ros2_peer import real_node
 from tests.support.student_nodes import STRING, OwnNode, variables
@@ -327,6 +329,24 @@ def test_a_studio_that_was_killed_goes_on_with_the_lines_that_were_copied(
     run(copy, file)
     assert file.stat().st_mode & 0o077 == 0
     run(go_on, file)
+
+
+def test_a_studio_that_starts_goes_on_with_the_access_of_before(tmp_path: Path):
+    async def work() -> None:
+        file = tmp_path / "class-1.json"
+        before = Classroom(file, Reach(("http://robots.example/",)))
+        await before.nodes.start()
+        await access(before, ADA)
+        await before.close()
+        made = Engine(Settings(data_folder=tmp_path), Classroom(file))
+        try:
+            await made.start()
+            await until(lambda: made.classroom.nodes.event().state == "on")
+            assert made.classroom.nodes.event().given == 1
+        finally:
+            await made.close()
+
+    asyncio.run(work())
 
 
 def test_when_the_router_dies_it_is_started_again_and_nodes_come_back(
