@@ -61,10 +61,18 @@ const asked = computed(
         .map(({ values }) => values.panel),
     ),
 );
+/** Panels that were opened since the lesson was, also before the studio told what it asks about. */
+const seen = new Set();
+effect(() => {
+  wanted.value;
+  seen.clear();
+});
 effect(() => {
   const panel = activePanel.value;
-  if (panel && asked.value.has(panel))
-    untracked(() => send({ type: "saw_panel", panel }).catch(() => null));
+  if (panel) seen.add(panel);
+  for (const one of asked.value)
+    if (one && seen.has(one))
+      untracked(() => send({ type: "saw_panel", panel: one }).catch(() => null));
 });
 
 /** Who has done which step of the chosen lesson, while a teacher looks. @type {Signal<LessonTable | null>} */

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from PIL import Image
 
 from tests.support.browser import open_browser
+from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage
 from tests.support.wire import running_router
@@ -124,12 +125,72 @@ def take_live(browser: Browser) -> None:
         take(tab, "live-dark")
 
 
+def join(browser: Browser, studio: RunningStudio, name: str) -> StudioPage:
+    """A student's page, without the 3D view, for there are several of them."""
+    context = browser.new_context(viewport={"width": 1200, "height": 800})
+    context.add_cookies([{"name": "without_view", "value": "1", "url": studio.origin}])
+    tab = StudioPage(context.new_page())
+    tab.page.goto(studio.origin)
+    tab.page.get_by_label("Code").fill(studio.class_code)
+    tab.page.get_by_label("Your name").fill(name)
+    tab.page.get_by_role("button", name="Join").click()
+    tab.page.get_by_text("You are looking").wait_for()
+    return tab
+
+
+def find_the_wheel(tab: StudioPage, steps: int) -> None:
+    """Do the first steps of a lesson, on a copy of one's own."""
+    tab.page.get_by_role("button", name="My copy", exact=True).click()
+    tab.page.get_by_text("Your copy: only you").wait_for()
+    tab.page.evaluate(SHOW_PANEL, "lessons")
+    lessons = tab.page.get_by_role("region", name="Lessons", exact=True)
+    lessons.get_by_role("searchbox").fill("find_the_wheel")
+    lessons.get_by_role("button", name="find_the_wheel").click()
+    tab.page.evaluate(SHOW_PANEL, "origin")
+    numbers = {"wheel_radius": "0.2", "wheel_base": "0.5", "wheel_width": "0.06"}
+    for name, text in tuple(numbers.items())[: (0, 1, 3)[steps - 1]]:
+        tab.page.evaluate(SHOW_PANEL, "properties")
+        tab.seek(name)
+        box = tab.box(name)
+        box.fill(text)
+        box.press("Enter")
+    tab.page.evaluate(SHOW_PANEL, "lessons")
+    lessons.get_by_text(f"{steps} of 3 steps done").wait_for()
+
+
+def take_class(browser: Browser) -> None:
+    """A class: who is there, who asks, and who has done which step of a lesson."""
+    words = ["demo", "--share", "--host", "127.0.0.1"]
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        running_studio(words, Path(folder)) as studio,
+        tab_of(browser, studio, "light") as tab,
+    ):
+        students = [
+            join(browser, studio, name) for name in ("Ada", "Emre", "Grace", "Jonas", "Mei")
+        ]
+        students[3].page.get_by_role("button", name="Ask for control").click()
+        students[4].page.get_by_role("button", name="Raise hand").click()
+        for student, steps in zip(students, (3, 1, 2, 0, 1), strict=True):
+            if steps:
+                find_the_wheel(student, steps)
+        students[0].page.get_by_role("button", name="Hand in", exact=True).click()
+        tab.page.evaluate(SHOW_PANEL, "people")
+        tab.page.evaluate(SHOW_PANEL, "lessons")
+        lessons = tab.page.get_by_role("region", name="Lessons", exact=True)
+        lessons.get_by_role("searchbox").fill("find_the_wheel")
+        lessons.get_by_role("button", name="find_the_wheel").click()
+        lessons.get_by_role("button", name="Who has done it").click()
+        lessons.get_by_role("row", name="Mei").wait_for()
+        take(tab, "class-light")
+
+
 def main() -> None:
-    """Take them all anew, or only what is live: `python -m tests.support.readme_pictures live`."""
+    """Take them all anew, or one kind: `python -m tests.support.readme_pictures live`."""
+    kinds = {"all": take_all, "live": take_live, "class": take_class}
     for browser in open_browser():
-        if sys.argv[1:] != ["live"]:
-            take_all(browser)
-        take_live(browser)
+        for kind in sys.argv[1:] or kinds:
+            kinds[kind](browser)
 
 
 def take_all(browser: Browser) -> None:

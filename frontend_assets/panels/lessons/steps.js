@@ -7,7 +7,7 @@ import { saveAsFile } from "../../lib/files.js";
 import { t } from "../../lib/i18n.js";
 import { Icon } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
-import { leads } from "../../model/class.js";
+import { classState, leads } from "../../model/class.js";
 import {
   csvOf,
   doneCount,
@@ -49,14 +49,16 @@ const timeOf = (at_s) =>
 /** How far one is, and for who leads the class, who else. */
 export function Progress() {
   const isShown = useSignal(false);
+  const people = classState.value;
+  const hasClass = leads.value && people !== null && (people.open || people.members.length > 0);
   if (steps.value.length === 0) return null;
   const toggle = () => {
     isShown.value = !isShown.value;
   };
   return html`<div class="lesson-progress"><span role="status">${t("lessons.progress", { done: doneCount.value, count: steps.value.length })}</span>
     <progress max=${steps.value.length} value=${doneCount.value} aria-label=${t("lessons.progress.bar")}></progress>
-    ${leads.value && html`<button type="button" class="button small" aria-expanded=${isShown.value} onClick=${toggle}><${Icon} name="users" size=${13} />${t("lessons.table")}</button>`}</div>
-    ${leads.value && isShown.value && html`<${Table} />`}`;
+    ${hasClass && html`<button type="button" class="button small" aria-expanded=${isShown.value} onClick=${toggle}><${Icon} name="users" size=${13} />${t("lessons.table")}</button>`}</div>
+    ${hasClass && isShown.value && html`<${Table} />`}`;
 }
 
 /** Names by steps. */
