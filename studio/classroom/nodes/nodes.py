@@ -20,7 +20,7 @@ from studio.classroom.nodes.pool import (
 from studio.classroom.nodes.record import NodesRecord
 from studio.classroom.nodes.router_process import CODEC, AskWell, OpenRouter, RouterOpen, Well
 from studio.debounce import Throttle
-from studio.errors import CommandError, StudioError, WireError, WorkerError
+from studio.errors import CommandError, StudioError, WorkerError
 from studio.live.connection.plan import planned_wire
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.student_nodes import (
@@ -298,17 +298,15 @@ class StudentNodes:
     async def link(self, person: str) -> WireLink | None:
         """Return a link into a person's domain, to be asked for anew whenever it is used.
 
-        It is closed once nobody has asked for 30 s. None: they have no domain, or it cannot be
-        reached.
+        It is closed once nobody has asked for 30 s. None: they have no domain.
+
+        Raises:
+            StudioError: It cannot be reached, or has too much in it.
         """
         domain = self._given.get(person)
         if self._state != "on" or domain is None:
             return None
-        try:
-            return await self._links.get(domain)
-        except (CommandError, WireError) as error:
-            _log.warning("The domain %d of a student cannot be looked into: %s", domain, error)
-            return None
+        return await self._links.get(domain)
 
     async def graph(self, asker: Listener, request: int) -> MyGraph:
         """Return what there is in the asker's domain.

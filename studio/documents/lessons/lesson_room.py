@@ -53,6 +53,7 @@ if TYPE_CHECKING:
 
 _LOOK_EVERY_S: Final = 0.5
 _NOTHING: Final = missing("")
+_NO_LINK: Final = missing("ros.none")
 _PANELS_MAX: Final = 100
 """Panels that a page may have told of."""
 _log = logging.getLogger(__name__)
@@ -84,6 +85,8 @@ class _Reader:
     sent: LessonState | None = None
     link: WireLink | None = None
     owns_link: bool = False
+    no_link: Verdict = _NO_LINK
+    """Why there is none."""
 
 
 class LessonRoom:
@@ -222,8 +225,7 @@ class LessonRoom:
     async def look(self) -> None:
         """Look once at all that somebody reads, and tell them what changed."""
         readers = tuple(self._readers.values())
-        for reader in readers:
-            reader.link, reader.owns_link = await self._link_of(reader.page.person)
+        await asyncio.gather(*map(self._find_link, readers))
         graph = await self._look_at_graphs(readers)
         models: dict[tuple[str, str], Verdict] = {}
         has_new = False
@@ -233,6 +235,13 @@ class LessonRoom:
         if has_new:
             self._changed()
             await self._classroom.keep_ticks()
+
+    async def _find_link(self, reader: _Reader) -> None:
+        try:
+            reader.link, reader.owns_link = await self._link_of(reader.page.person)
+            reader.no_link = _NO_LINK
+        except StudioError as error:
+            reader.link, reader.no_link = None, missing("answer.failed", reason=error)
 
     async def _look_at_graphs(
         self, readers: Iterable[_Reader]
@@ -301,7 +310,7 @@ class LessonRoom:
         if check.concern is Concern.PAGE:
             return HOLDS if check.values["panel"] in reader.panels else missing("opened.none")
         if check.concern is Concern.GRAPH:
-            return graph.get(check.line) or missing("ros.none")
+            return graph.get(check.line) or reader.no_link
         known = reader.document, check.line
         if known not in models:
             models[known] = self._of_model(check, reader.document)
