@@ -339,7 +339,7 @@ class Classroom:
         """Raise a hand, or take it down."""
         member = self.members.get(person)
         if raised != (member.hand_s is not None):
-            member.hand_s = now_s() if raised else None
+            member.hand_s = now_s(*(one.hand_s for one in self.members)) if raised else None
             self._tell(person)
 
     def lower_hands(self, person: str) -> None:
@@ -376,7 +376,7 @@ class Classroom:
         member = self.members.get(person)
         if self.control.holder == person or asking == (member.asks_s is not None):
             return
-        member.asks_s = now_s() if asking else None
+        member.asks_s = now_s(*(one.asks_s for one in self.members)) if asking else None
         self._tell(person)
 
     def give_control(self, person: str, document: str = "") -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hmac
+import math
 import secrets
 import time
 from typing import TYPE_CHECKING, Final
@@ -166,6 +167,7 @@ def readable(text: str) -> str:
     return " ".join(shown.split())[:NAME_MAX].strip()
 
 
-def now_s() -> float:
-    """Return the seconds since the epoch."""
-    return time.time_ns() / 1e9
+def now_s(*after: float | None) -> float:
+    """Return the seconds since the epoch; later than `after`, though the clock was set back."""
+    later = [math.nextafter(one, math.inf) for one in after if one is not None]
+    return max([time.time_ns() / 1e9, *later])

@@ -35,7 +35,15 @@ from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
-from studio.protocol.commands import Answer, AtMostOnce, CommandRates, Commands, OnCopies, Scope
+from studio.protocol.commands import (
+    Answer,
+    AtMostOnce,
+    CommandRates,
+    Commands,
+    Limits,
+    OnCopies,
+    Scope,
+)
 from studio.protocol.documents import (
     Arguments,
     CloseDocument,
@@ -70,6 +78,8 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
+_WATCHED = Limits(per_second=30)
+"""Each is answered with a whole document; all tabs of a browser may come back at once."""
 
 
 class Engine:
@@ -202,7 +212,10 @@ class Engine:
             self._check_copy(command.document, entry.on_copies)
         answer = await COMMANDS.carry_out(self, command, asker)
         if entry.reviews and asker.role is Role.PRESENTER:
-            self.document(command.document).free()
+            document, control = self.document(command.document), self.classroom.control
+            # It may have been given while the command was carried out.
+            if not control.holder or control.document != document.id:
+                document.free()
         return answer
 
     async def _system_of(self, person: str) -> tuple[WireLink | None, bool]:
@@ -384,7 +397,7 @@ def _link_to(engine: Engine, command: GetLink) -> Link:
 
 COMMANDS: Final = Commands[Engine](Scope.STUDIO)
 """Every command of the studio."""
-COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(c.document, who))
+COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(c.document, who), limits=_WATCHED)
 COMMANDS.presenter(OpenPath, lambda engine, c, _: engine.open_served(c))
 COMMANDS.presenter(
     CloseDocument,

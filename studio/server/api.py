@@ -1,5 +1,6 @@
 """The routes for scripts: documents, commands, downloads, and logging everybody out."""
 
+import asyncio
 from http import HTTPStatus
 from typing import Any, Final, Literal, Protocol
 from urllib.parse import quote
@@ -31,6 +32,7 @@ _STATUS: Final = {
     "InternalError": HTTPStatus.INTERNAL_SERVER_ERROR,
 }
 """By kind of the error; every other kind is a conflict with the present state."""
+_UNIT_BYTES: Final = 1 << 10
 _TO_SAVE: Final = {"content-disposition": 'attachment; filename="robot.urdf"'}
 _REFUSALS: Final[dict[int | str, dict[str, Any]]] = {
     status.value: {"model": Refused, "description": "Refused, and why"}
@@ -102,6 +104,8 @@ class Api:
     async def command(self, request: Request) -> Response:
         """Carry out one command, as the websocket would."""
         text = await _body(request)
+        # By HTTP nobody sends faster than by the websocket.
+        await asyncio.sleep(connection_of(request.scope).spend(1 + len(text) / _UNIT_BYTES))
         events = await Answers(_visitor(request)).collect(self._engine, text)
         answer = JSONResponse({"events": [event.model_dump(mode="json") for event in events]})
         return _refusal(events) or answer

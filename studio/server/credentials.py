@@ -145,7 +145,7 @@ def _kept_key(path: Path, now_s: float) -> bytes | None:
         if os.name == "posix":
             _check_owner(path, status)
         kept = file.read(_KEY_BYTES + 1)
-    is_young = 0 <= now_s - status.st_mtime < _KEY_LIFE_S
+    is_young = abs(now_s - status.st_mtime) < _KEY_LIFE_S  # the clock may have been set back
     return kept if is_young and len(kept) == _KEY_BYTES else None
 
 

@@ -83,6 +83,10 @@ class StudioConnection(HttpToolsProtocol):
         self._allow_time()
         return True
 
+    def spend(self, units: float) -> float:
+        """Count what came; answers for how many seconds it has to wait."""
+        return self._crowd.spend(self, units)
+
     def end_all(self) -> None:
         """End the connections of all who came with a cookie or a token, this one too."""
         self._crowd.end_all()

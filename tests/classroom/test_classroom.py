@@ -1,11 +1,13 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.classroom import control as control_module
+from studio.classroom import members as members_module
 from studio.classroom.classroom import Classroom, Reach
 from studio.classroom.members import MEMBERS_MAX
 from studio.errors import CommandError, NotJoiningError
@@ -375,5 +377,57 @@ def test_a_name_is_changed_for_all_to_see():
         assert presenter.last("control")["name"] == "Grace <i>"
         with pytest.raises(CommandError):
             await made.rename("nobody", "Eve")
+
+    run(work)
+
+
+class Clock:
+    """The system's clock, which somebody set forth or back by some days."""
+
+    def __init__(self) -> None:
+        self.days = 0
+
+    def time_ns(self) -> int:
+        return time.time_ns() + self.days * 86_400 * 10**9
+
+
+def test_those_who_wait_keep_their_order_though_the_clock_is_set_back(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    clock = Clock()
+    monkeypatch.setattr(members_module, "time", clock)
+
+    async def work(made: Classroom) -> None:
+        people = [await joined(made, f"n{number}") for number in range(5)]
+        for clock.days, one in zip((0, -1, 1, -400, 0), people, strict=True):
+            made.attach(Page(one))
+            made.ask_control(one.person, asking=True)
+            made.raise_hand(one.person, raised=True)
+        for waiting in ([one.asks_s or 0 for one in people], [one.hand_s or 0 for one in people]):
+            assert waiting == sorted(set(waiting))
+
+    run(work)
+
+
+@pytest.mark.parametrize("days", [-1, 1])
+def test_a_clock_that_jumps_neither_takes_control_nor_keeps_it_from_returning(
+    monkeypatch: pytest.MonkeyPatch, days: int
+):
+    monkeypatch.setattr(control_module, "ABSENCE_S", 0.05)
+    now_s, now_ns = time.time, time.time_ns  # noqa: TID251 - they are what jumps
+
+    async def work(made: Classroom) -> None:
+        ada = await joined(made)
+        page, presenter = Page(ada), Ear()
+        for one in (page, presenter):
+            made.attach(one)
+        made.give_control(ada.person)
+        monkeypatch.setattr(time, "time", lambda: now_s() + days * 86_400)
+        monkeypatch.setattr(time, "time_ns", lambda: now_ns() + days * 86_400 * 10**9)
+        await asyncio.sleep(0.1)
+        assert made.control.holder == ada.person
+        assert made.member_of_cookie(made.members.cookie_of(ada)) is ada
+        made.detach(page)
+        await until(lambda: not made.control.holder)
 
     run(work)

@@ -111,6 +111,7 @@ FIELDS: dict[str, object] = {
     "used_by": "topic",
     "operations": "calls",
     "demo": "talker",
+    **dict.fromkeys(("lesson", "panel"), "x"),
     "subject": "graph",
     "pressed": "up",
     "person": "x",

@@ -73,6 +73,19 @@ def test_the_cookie_key_is_kept_for_a_day_and_private(tmp_path: Path):
     assert [one.name for one in tmp_path.iterdir()] == ["cookie.key"]
 
 
+@pytest.mark.parametrize("hours", [-23, -1, 0, 23])
+def test_the_cookie_key_is_kept_though_the_clock_was_set_forth_or_back(tmp_path: Path, hours: int):
+    key = cookie_key(tmp_path, now_s=0)
+    written_s = (tmp_path / "cookie.key").stat().st_mtime
+    assert cookie_key(tmp_path, written_s + hours * 3600) == key
+
+
+def test_no_cookie_key_is_kept_that_seems_to_be_of_a_far_future(tmp_path: Path):
+    key = cookie_key(tmp_path, now_s=0)
+    written_s = (tmp_path / "cookie.key").stat().st_mtime
+    assert cookie_key(tmp_path, written_s - DAY_S - 1) != key
+
+
 @pytest.mark.parametrize("content", [b"", b"short", b"x" * 33])
 def test_a_broken_key_is_made_anew(tmp_path: Path, content: bytes):
     file = tmp_path / "cookie.key"

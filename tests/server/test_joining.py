@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -239,3 +240,64 @@ def test_everybody_has_to_join_again_after_all_were_logged_out(web: RunningWeb):
         ada.join("Ada", admission(web).code)
         assert owner.post("/api/log-out").status_code == 204
         assert ada.client.get("/d/small").headers["location"] == "/join"
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "http://localhost:{port}", "null"])
+def test_a_students_cookie_in_the_page_of_another_site_opens_and_does_nothing(
+    web: RunningWeb, origin: str
+):
+    origin = origin.format(port=web.port)
+    with browser(web) as ada:
+        ada.join("Ada", admission(web).code)
+        before = len(web.engine.executed)
+        for path in ("/control", "/data", "/d/small/viser"):
+            with pytest.raises(InvalidStatus) as refused, ada.websocket(path, origin=origin):
+                pass
+            assert refused.value.response.status_code == 403
+        theirs = {"origin": origin}
+        for path in ("/api/documents", "/api/documents/small/urdf", "/bulk?key=x"):
+            assert ada.client.get(path, headers=theirs).status_code == 403
+        for path in ("/api/commands", "/api/uploads", "/api/log-out"):
+            command = {"type": "raise_hand"}
+            assert ada.client.post(path, json=command, headers=theirs).status_code == 403
+        # A picture or a form of another site says no origin, but that it is of another site.
+        del ada.client.headers["origin"]
+        for site in ("cross-site", "same-site"):
+            embedded = {"sec-fetch-site": site, "sec-fetch-mode": "no-cors"}
+            assert ada.client.get("/api/documents", headers=embedded).status_code == 403
+            assert ada.client.post("/api/commands", headers=embedded).status_code == 403
+        assert ada.client.post("/api/commands").status_code == 403
+        assert len(web.engine.executed) == before
+
+
+def test_who_was_sent_out_is_no_guest_either_where_everybody_may_look(assets_folder: Path):
+    with running_web(assets_folder, guests=True) as web:
+        web.run(classroom(web).start())
+        with browser(web) as ada, browser(web) as other:
+            ada.client.get("/d/small")
+            assert any("guest" in name for name in ada.client.cookies)
+            ada.join("Ada", admission(web).code)
+            (member,) = classroom(web).members
+            web.run(classroom(web).remove(member.person))
+            for one, location in ((ada, "/join"), (other, "/d/small")):
+                assert one.client.get("/d/small").headers["location"] == location
+            other.client.get("/d/small")
+            assert other.client.get("/api/health").status_code == 200
+            assert ada.client.get("/api/health").headers["location"] == "/join"
+            with pytest.raises(InvalidStatus), ada.lane():
+                pass
+
+
+@pytest.mark.parametrize("days", [-1, 1])
+def test_a_clock_that_jumps_gives_nobody_more_tries_and_takes_none(
+    monkeypatch: pytest.MonkeyPatch, days: int
+):
+    tries = joining.Tries(joining.Rate(3, 0.001), joining.Rate(9, 0.001))
+    now_s = time.time  # noqa: TID251 - it is what jumps
+    for _ in range(3):
+        tries.begin("one")
+    monkeypatch.setattr(time, "time", lambda: now_s() + days * 86_400)
+    with pytest.raises(joining.NotJoiningError):
+        tries.begin("one")
+    for _ in range(3):
+        tries.begin("two")

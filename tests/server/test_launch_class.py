@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import base64
 import hashlib
+import io
 import signal
 import socket
 import ssl
-from contextlib import closing
-from typing import TYPE_CHECKING
+import zipfile
+from contextlib import closing, suppress
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -15,12 +18,16 @@ from tests.support.classmates import Classmate
 from tests.support.command_line import studio as command
 from tests.support.nginx import free_port
 from tests.support.server import running_studio
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from tests.support.classmates import Lane
+
 pytestmark = pytest.mark.network
 WORDS = ["demo", "--share", "--host", "127.0.0.1", "--tls", "self"]
+LESSON = "find_the_wheel"
 
 
 def untrusting() -> ssl.SSLContext:
@@ -40,6 +47,7 @@ def test_it_is_encrypted_and_all_come_back_after_the_studio_was_killed(tmp_path:
         assert ada.join("Ada", code).status_code == 303
         with ada.lane() as lane:
             person = lane.until("you")["person"]
+            steps = work_of_a_student(lane, data)
         studio.process.send_signal(signal.SIGKILL)
         studio.process.wait(60)
     with closing(ada), running_studio(WORDS, data, port=port) as studio:
@@ -47,14 +55,76 @@ def test_it_is_encrypted_and_all_come_back_after_the_studio_was_killed(tmp_path:
         with ada.lane() as lane:
             assert lane.until("you", name="Ada")["person"] == person
             assert lane.newest("control")["holder"] == ""
+            (copy,) = lane.until("my_copies")["copies"]
+            assert (copy["document"], copy["changes"]) == (f"rover~{person}", 2)
+            lane.ask("watch", document=copy["document"])
+            assert value_of(lane, "base_length") == "0.777"
+            lane.ask("open_lesson", document=copy["document"], lesson=LESSON)
+            assert done_s(lane) == steps
         owner = Classmate(studio.url, untrusting())
         owner.client.get(f"/?token={studio.token}")
         with closing(owner), owner.lane() as lane:
             names = [one["name"] for one in lane.until("class_state")["members"]]
             assert names == ["Ada"]
+            assert [one["handed_s"] for one in lane.until("copies")["copies"]] == [copy["handed_s"]]
+            zipped = zipfile.ZipFile(io.BytesIO(owner.client.get("/api/copies").content))
+            text = zipped.read("Ada/rover/rover_description/urdf/rover.urdf.xacro")
+            assert b'name="base_length" value="0.777"' in text
+            lane.ask("get_lesson_table", lesson=LESSON)
+            assert [one["done_s"] for one in lane.newest("lesson_table")["rows"]] == [steps]
             assert lane.ask("end_class")["type"] == "done"
         assert not list(data.glob("class-*.json"))
         assert ada.client.get("/d/rover").status_code == 403
+
+
+def work_of_a_student(lane: Lane, data: Path) -> list[float | None]:
+    """Make a copy, do steps of a lesson on it and hand it in; when the steps were done."""
+    assert lane.ask("open_copy", document="rover")["type"] == "done"
+    name = lane.newest("opened")["document"]
+    lane.ask("watch", document=name)
+    lane.ask("open_lesson", document=name, lesson=LESSON)
+    lane.ask("saw_panel", panel="origin")
+    for site, text in (("wheel_radius", "0.2"), ("base_length", "0.777")):
+        edit = {"document": name, "site": site_of(lane, site)["id"], "text": text}
+        assert lane.ask("edit_site", **edit)["type"] == "done"
+    while (done := done_s(lane)).count(None) != 1:
+        lane.until("lesson_state")
+    assert lane.ask("hand_in", document=name)["type"] == "done"
+    # What is not answered is kept soon: a student loses what they did in that moment at most.
+    edited = base64.b64encode(b"0.777")
+    wait_until("the draft", lambda: holds(data / "drafts", edited))
+    wait_until("the ticks", lambda: holds(data, LESSON.encode() + b"/"))
+    return done
+
+
+def holds(folder: Path, what: bytes) -> bool:
+    """Whether a file in a folder has this in it."""
+    with suppress(FileNotFoundError):
+        return any(what in one.read_bytes() for one in folder.glob("*.json*"))
+    return False
+
+
+def site_of(lane: Lane, name: str) -> dict[str, Any]:
+    """A site of the watched document, as it was told last."""
+    while True:
+        told = [
+            one for event in lane.events if event["type"] == "sites" for one in event["changed"]
+        ]
+        if found := [one for one in told if one["name"].endswith(name)]:
+            return found[-1]
+        lane.until("sites")
+
+
+def value_of(lane: Lane, name: str) -> str:
+    """Its text."""
+    return site_of(lane, name)["text"]
+
+
+def done_s(lane: Lane) -> list[float | None]:
+    """When the steps of the lesson were done, as was told last."""
+    if not any(event["type"] == "lesson_state" for event in lane.events):
+        lane.until("lesson_state")
+    return [one["done_s"] for one in lane.newest("lesson_state")["steps"]]
 
 
 def fingerprint_at(port: int) -> str:

@@ -1,12 +1,14 @@
 from __future__ import annotations
 
 import socket
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.protocol.roles import Role
 from tests.support.small_engine import SmallUploads
+from tests.support.strangers import pour, resident_bytes
 from tests.support.studio_page import wait_until
 
 if TYPE_CHECKING:
@@ -57,10 +59,30 @@ def test_a_body_without_its_first_line_is_refused(web: RunningWeb, body: bytes):
         assert "list of files is missing" in answer.json()["reason"]
 
 
-def test_a_viewer_and_a_stranger_send_nothing(web: RunningWeb):
-    for role in (Role.GUEST, None):
-        with web.client(role) as client:
-            assert client.post("/api/uploads", content=b"[]\n").status_code == 403
+@pytest.mark.parametrize("role", [Role.HELPER, Role.STUDENT, Role.GUEST, None])
+def test_nobody_but_the_presenter_sends_anything_though_they_had_control(
+    web: RunningWeb, role: Role | None
+):
+    with web.client(role) as client, web.in_control(role or Role.PRESENTER):
+        assert client.post("/api/uploads", content=b"[]\n").status_code == 403
+    assert web.engine.uploads.taken == []
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+@pytest.mark.parametrize(
+    ("path", "status"), [("/api/uploads", 403), ("/api/commands", 422), ("/join", 200)]
+)
+def test_of_a_students_body_without_end_nothing_is_kept(web: RunningWeb, path: str, status: int):
+    head = (
+        f"POST {path} HTTP/1.1\r\nHost: 127.0.0.1:{web.port}\r\nOrigin: {web.origin}\r\n"
+        f"Cookie: {web.cookie(Role.STUDENT)}\r\nContent-Length: {1 << 40}\r\n\r\n"
+    )
+    before = resident_bytes()
+    with socket.create_connection(("127.0.0.1", web.port), timeout=60) as line:
+        line.sendall(head.encode())
+        pour(line, bytes(1 << 16), 128 << 20)
+        assert line.recv(12) == f"HTTP/1.1 {status}".encode()
+        assert resident_bytes() - before < 32 << 20
     assert web.engine.uploads.taken == []
 
 

@@ -1,7 +1,9 @@
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import json
+import socket
 import sys
 import threading
 import time
@@ -14,7 +16,7 @@ from websockets.frames import Frame, Opcode
 from studio.protocol.roles import Role
 from studio.server.commands import COMMAND_LIMIT_BYTES
 from studio.server.crowd import VIEWER_CONNECTIONS_MAX
-from studio.server.websocket import VIEWER_MESSAGE_LIMIT_BYTES, Framer
+from studio.server.websocket import VIEWER_MESSAGE_LIMIT_BYTES, Framer, hold_little
 from tests.support.strangers import frame, pour, raw_websocket, resident_bytes, until_end
 
 if TYPE_CHECKING:
@@ -40,6 +42,26 @@ def test_of_a_message_to_many_one_frame_is_made():
     assert framer.frame(payload, binary=True) is first
     assert framer.frame(payload, binary=False) != first
     assert framer.frame(b"another", binary=True).endswith(b"another")
+
+
+@pytest.mark.network
+@pytest.mark.skipif(not hasattr(socket, "TCP_NOTSENT_LOWAT"), reason="the system has no such limit")
+def test_what_a_browser_does_not_take_waits_with_us_where_what_is_newer_replaces_it():
+    async def scenario() -> None:
+        arrived: asyncio.Future[asyncio.StreamWriter] = asyncio.Future()
+        listener = await asyncio.start_server(lambda _, to: arrived.set_result(to), "127.0.0.1", 0)
+        deaf = socket.create_connection(listener.sockets[0].getsockname())
+        writer = await arrived
+        hold_little(writer.transport)
+        for _ in range(64):
+            writer.write(bytes(MB // 16))
+            await asyncio.sleep(0)
+        assert writer.transport.get_write_buffer_size() > 3 * MB
+        writer.transport.abort()
+        deaf.close()
+        listener.close()
+
+    asyncio.run(scenario())
 
 
 def closing(code: int) -> bytes:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 import json
 import logging
 import shutil
 import time
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Protocol
 
 import msgspec
 
+from studio.classroom.members import now_s
 from studio.description.editing.merging import hunks_between
 from studio.documents.copies.evaluators import Evaluators
 from studio.documents.copies.folder import (
@@ -31,7 +34,7 @@ from studio.files import write_whole
 from studio.live.displays.display_file import DisplayFile
 from studio.packages.packing import PackedFile, zip_chunks
 from studio.packages.roots import ServedRoots
-from studio.protocol.commands import Commands, Limits, Scope
+from studio.protocol.commands import Commands, Limits, OnCopies, Scope
 from studio.protocol.copies import (
     Copies as CopiesEvent,
 )
@@ -129,6 +132,8 @@ class Copies:
         self._resting: dict[str, asyncio.Task[None]] = {}
         self._unwatched_s: dict[str, float] = {}
         self._making: dict[str, asyncio.Task[None]] = {}
+        self._handing = asyncio.Lock()
+        """Held while one is handed in: a person may do so in two pages at once."""
         self._pages: dict[Listener, None] = {}
         self._watching: asyncio.Task[None] | None = None
         classroom.on_end = self.delete_all
@@ -202,18 +207,18 @@ class Copies:
         """Keep a copy as it is now, for those who lead the class."""
         document = await self.ready(name)
         await document.opened()
-        record = self._known(name)
-        texts, changes = _texts_of(document)
-        joints = document.model.joints.by_name()
-        folder = self._folder_of(name)
-        await asyncio.to_thread(_write_handed, folder, texts, joints)
-        handed = {"handed_s": _now_s(), "changes": changes, "joints": joints}
-        await self._keep(name, msgspec.structs.replace(record, **handed))
+        async with self._handing:
+            texts, changes = _texts_of(document)
+            joints = document.model.joints.by_name()
+            await asyncio.to_thread(_write_handed, self._folder_of(name), texts, joints)
+            record = self._known(name)  # meanwhile it may have been sent back, or given up
+            handed = {"handed_s": now_s(record.remarked_s), "changes": changes, "joints": joints}
+            await self._keep(name, msgspec.structs.replace(record, **handed))
 
     async def send_back(self, command: SendBack) -> None:
         """Send a copy back with a remark."""
         record = self._known(command.document)
-        remark = {"remark": command.remark.strip(), "remarked_s": _now_s()}
+        remark = {"remark": command.remark.strip(), "remarked_s": now_s(record.handed_s)}
         await self._keep(command.document, msgspec.structs.replace(record, **remark))
 
     def show(self, name: str, *, shown: bool) -> None:
@@ -263,15 +268,25 @@ class Copies:
     def handed_files(self) -> list[tuple[str, Path]]:
         """Return all files that were handed in, each with its name in a zip: a folder a person."""
         found: list[tuple[str, Path]] = []
+        people = self._zip_folders()
         for name, record in self._records.items():
             folder = self._folder_of(name) / _HANDED
             if record.handed_s is not None:
-                above = f"{_plain(self._name_of(record.person))}/{_plain(record.of)}"
+                above = f"{people[record.person]}/{_plain(record.of)}"
                 found += [
                     (f"{above}/{path.relative_to(folder).as_posix()}", path)
                     for path in sorted(folder.rglob("*"))
                     if path.is_file() and not path.is_symlink()
                 ]
+        return found
+
+    def _zip_folders(self) -> dict[str, str]:
+        """Return the folder of each person in a zip; names that become one there get a number."""
+        found: dict[str, str] = {}
+        for person in dict.fromkeys(record.person for record in self._records.values()):
+            name, taken = _plain(self._name_of(person)), {one.casefold() for one in found.values()}
+            names = itertools.chain([name], (f"{name} {number}" for number in itertools.count(2)))
+            found[person] = next(one for one in names if one.casefold() not in taken)
         return found
 
     async def delete_all(self) -> None:
@@ -304,6 +319,7 @@ class Copies:
     async def _make(self, name: str, original: Document, person: str) -> None:
         if self._folder is None:
             raise CommandError("This studio keeps no copies.")
+        await original.opened()  # until its first run nobody knows of which files it is made
         sources, files = original.sources, original.last_run.files
         texts = {file: sources.text(file) for file in files if file in sources.files}
         folder = self._folder_of(name)
@@ -323,7 +339,7 @@ class Copies:
                 arguments=dict(sources.arguments),
                 meshes=meshes,
                 joints=original.model.joints.by_name(),
-                made_s=_now_s(),
+                made_s=now_s(),
             ),
         )
 
@@ -337,9 +353,18 @@ class Copies:
         self._awake[name] = document
         document.start()
         document.put_joints(record.joints)
+        if original := self._engine.documents.get(record.of):
+            original.live.on_list = partial(self._mirror_displays, original)
+            document.live.mirror(original.live.kept)
         if self._watching is None or self._watching.done():
             self._watching = asyncio.create_task(self._put_to_rest())
         return document
+
+    def _mirror_displays(self, original: Document) -> None:
+        """Have the copies that are open show what the class sees now."""
+        for name, document in self._awake.items():
+            if original_of(name) == original.id:
+                document.live.mirror(original.live.kept)
 
     async def _put_to_rest(self) -> None:
         """Close what nobody has looked at for a while."""
@@ -427,7 +452,11 @@ def _read_all(folder: Path) -> Iterator[tuple[str, CopyRecord]]:
         except (OSError, msgspec.MsgspecError) as error:
             _log.warning("The copy in %s cannot be read: %s", path.parent, error)
             continue
-        yield f"{record.of}{OWNER}{record.person}", record
+        name = f"{record.of}{OWNER}{record.person}"
+        if path.parent != folder / record.person / record.of or ".." in Path(record.entry).parts:
+            _log.warning("The copy in %s says that it is %r, and is left out.", path.parent, name)
+            continue
+        yield name, record
 
 
 def _texts_of(document: Document) -> tuple[dict[str, bytes], int]:
@@ -436,7 +465,8 @@ def _texts_of(document: Document) -> tuple[dict[str, bytes], int]:
     texts: dict[str, bytes] = {}
     changes = 0
     for file in document.last_run.files:
-        if file in sources.files:
+        # A text may read a mesh, which is the original's and not handed in.
+        if file in sources.files and Path(file).is_relative_to(root):
             texts[Path(file).relative_to(root).as_posix()] = sources.text(file)
             changes += len(hunks_between(sources.saved(file), sources.text(file)))
     return texts, changes
@@ -465,15 +495,16 @@ def _plain(name: str) -> str:
     return kept or "_"
 
 
-def _now_s() -> float:
-    return time.time_ns() / 1e9
-
-
 _OFTEN: Final = Limits(bytes_max=1_000, per_second=2)
 
 COMMANDS: Final = Commands[Copies](Scope.DOCUMENT)
 COMMANDS.student(OpenCopy, lambda copies, c, who: copies.open(c, who), limits=_OFTEN)
 COMMANDS.controller(DiscardCopy, lambda copies, c, _: copies.discard(c.document), limits=_OFTEN)
-COMMANDS.controller(HandIn, lambda copies, c, _: copies.hand_in(c.document), limits=_OFTEN)
+COMMANDS.controller(
+    HandIn,
+    lambda copies, c, _: copies.hand_in(c.document),
+    limits=_OFTEN,
+    on_copies=OnCopies.WITHIN_ROOM,
+)
 COMMANDS.helper(SendBack, lambda copies, c, _: copies.send_back(c))
 COMMANDS.presenter(ShowCopy, lambda copies, c, _: copies.show(c.document, shown=c.shown))

@@ -36,7 +36,7 @@ from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from studio.displays.properties import Value
     from studio.live.connection.ros_connection import RosConnection
@@ -102,6 +102,25 @@ class DocumentDisplays:
         self._states = LastSent[DisplayStates](audience)
         self._settings = LastSent[LiveDisplays](audience)
         self._closed = False
+        self.on_list: Callable[[], object] = lambda: None
+        """Called when displays were added, removed or changed."""
+
+    @property
+    def kept(self) -> KeptDisplays:
+        """All that is kept of them."""
+        return KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+
+    def mirror(self, other: KeptDisplays) -> None:
+        """Have the displays that another document has; how they look here stays as it is."""
+        missing = {(one.kind, one.name, one.topic): one for one in other.displays}
+        before = tuple(self._list)
+        gone = [one for one in before if not missing.pop((one.kind, one.name, one.topic), None)]
+        for one in gone:
+            self._remove(one.id)
+        for spec in missing.values():
+            self._restore_one(spec)
+        if gone or missing:
+            self._changed()
 
     @property
     def _room(self) -> DrawingRoom:
@@ -157,9 +176,12 @@ class DocumentDisplays:
 
     def remove(self, command: RemoveDisplay) -> None:
         """Take a display away."""
-        self._list.remove(command.display)
-        running = self._room.close(command.display)
+        self._remove(command.display)
         self._changed()
+
+    def _remove(self, display: str) -> None:
+        self._list.remove(display)
+        running = self._room.close(display)
         if running is not None:
             running.close()
 
@@ -302,13 +324,14 @@ class DocumentDisplays:
         self._keep()
         self._checked_s = 0.0
         self._go_on()
+        self.on_list()
 
     def _show_and_hide(self) -> None:
         for spec in self._list:
             self._robot.scene.live.show(spec.id, visible=self._list.is_shown(spec))
 
     def _keep(self) -> None:
-        self._unkept = KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        self._unkept = self.kept
         if self._keeping is None or self._keeping.done():
             self._keeping = asyncio.create_task(self._write())
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import shutil
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -17,7 +18,7 @@ from studio.errors import (
 )
 from studio.protocol.classroom import GiveControl, ReturnControl
 from studio.protocol.copies import DiscardCopy, HandIn, OpenCopy, SendBack, ShowCopy
-from studio.protocol.displays import AddDisplay
+from studio.protocol.displays import AddDisplay, RemoveDisplay, SwitchDisplays
 from studio.protocol.documents import Watch
 from studio.protocol.edits import EditSite, Undo
 from studio.protocol.robot import SetJoints, ZeroJoints
@@ -73,6 +74,20 @@ def test_a_copy_begins_with_the_unsaved_robot_and_goes_its_own_way(tmp_path: Pat
         assert not list((tmp_path / "rover_description").rglob("*.variants.yaml"))
         await room.ask(ada, Undo(document=copy.id))
         assert b'"0.7"' not in text_of(copy)
+
+    run(tmp_path, work)
+
+
+def test_a_copy_made_before_the_robot_has_run_waits_for_its_files(tmp_path: Path):
+    async def work(room: Room) -> None:
+        ada = await room.student("Ada")
+        again = shutil.copytree(tmp_path / "rover_description", tmp_path / "again")
+        other = await room.engine.open_path(again / "urdf/rover.urdf.xacro", {})
+        await room.ask(ada, OpenCopy(document=other))
+        copy = room.engine.document(ada.last("opened")["document"])
+        await copy.opened()
+        assert copy.last_run.expansion is not None
+        assert len(copy.sources.files) == len(room.engine.document(other).sources.files)
 
     run(tmp_path, work)
 
@@ -247,6 +262,28 @@ def test_what_belongs_to_all_is_not_for_a_copy(tmp_path: Path):
         for asker in (room.presenter, room.page(Visitor(Role.GUEST, "g"))):
             with pytest.raises(StudioError):
                 await room.ask(asker, OpenCopy(document="rover"))
+
+    run(tmp_path, work)
+
+
+def test_it_shows_the_displays_that_the_class_has_whenever_they_change(tmp_path: Path):
+    def names(document: Document) -> list[str]:
+        return [one.name for one in document.live.kept.displays]
+
+    async def work(room: Room) -> None:
+        shared, add = room.shared, AddDisplay(document="rover", kind="Axes")
+        await room.ask(room.presenter, add)
+        ada = await room.student("Ada")
+        copy = await room.copy(ada)
+        assert names(copy) == names(shared) == ["Axes"]
+        own = copy.live.kept.displays[0].id
+        await room.ask(ada, SwitchDisplays(document=copy.id, display=own, enabled=False))
+        await room.ask(room.presenter, AddDisplay(document="rover", kind="TF"))
+        assert names(copy) == names(shared) == ["Axes", "TF"]
+        assert [one.enabled for one in copy.live.kept.displays] == [False, True]
+        first = shared.live.kept.displays[0].id
+        await room.ask(room.presenter, RemoveDisplay(document="rover", display=first))
+        assert names(copy) == names(shared) == ["TF"]
 
     run(tmp_path, work)
 

@@ -2,15 +2,12 @@ from __future__ import annotations
 
 import asyncio
 import os
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from studio.description.values import OpenRequest, ReadPolicy
 from studio.documents.copies.evaluators import Evaluators, SharedWorker
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 URDF = '<robot name="r"><link name="base"/></robot>'
 
@@ -109,6 +106,8 @@ def test_a_process_goes_behind_all_others_and_its_robot_comes_back_after_it_was_
             assert "base" in str(answer)
             assert worker.pid is not None
             assert os.getpriority(os.PRIO_PROCESS, worker.pid) >= 15
+            group = Path(f"/proc/{worker.pid}/autogroup")
+            assert not group.exists() or group.read_text().rstrip().endswith("nice 15")
         assert (two.pid, two.needs_reopen) == (None, True)
         await one.close()
         await two.close()
