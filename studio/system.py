@@ -7,10 +7,8 @@ import os
 import sys
 import threading
 import time
-from typing import IO, TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from pathlib import Path
+from typing import IO
 
 _WATCH_INTERVAL_S = 0.2
 _DESCRIPTORS = 16_384
@@ -55,10 +53,15 @@ def is_running(pid: int) -> bool:
     return True
 
 
-def let_others_go_first() -> None:
-    """Take the processor only where nobody else wants it."""
-    if hasattr(os, "nice"):
-        os.nice(_NICE)
+def let_others_go_first(pid: int) -> None:
+    """Have a process of ours take the processor only where nobody else wants it."""
+    if sys.platform == "win32":
+        return
+    with contextlib.suppress(OSError):
+        os.setpriority(os.PRIO_PROCESS, pid, _NICE)
+    # Linux may weigh sessions against each other, and by this only the processes of one.
+    with contextlib.suppress(OSError):
+        Path(f"/proc/{pid}/autogroup").write_text(str(_NICE))
 
 
 def raise_descriptor_limit() -> None:

@@ -14,6 +14,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, TypeVar
 
 from studio.errors import WorkerDiedError, WorkerTimeoutError
+from studio.system import let_others_go_first
 from studio.worker_process import FRAME_LENGTH
 
 if TYPE_CHECKING:
@@ -37,8 +38,16 @@ class Worker:
     result of the request before takes the `turn` and asks by `ask_now`.
     """
 
-    def __init__(self, name: str, module: str, codec: Codec, *arguments: str) -> None:
-        self.name, self.generation = name, 0
+    def __init__(
+        self,
+        name: str,
+        module: str,
+        codec: Codec,
+        *arguments: str,
+        others_first: bool = False,
+    ) -> None:
+        """Make one that starts a module; with `others_first` only what nobody else wants is its."""
+        self.name, self.generation, self._others_first = name, 0, others_first
         # -P: the folder that somebody works in, which may be anybody's, gives it no modules.
         self._command = (sys.executable, "-P", "-m", module, *arguments)
         self._codec = codec
@@ -161,7 +170,7 @@ class Worker:
         return process
 
     async def _spawn(self) -> asyncio.subprocess.Process:
-        return await asyncio.create_subprocess_exec(
+        process = await asyncio.create_subprocess_exec(
             *self._command,
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
@@ -169,6 +178,9 @@ class Worker:
             # Ctrl-C reaches a whole group: it would meet the worker before it can ignore it.
             start_new_session=True,
         )
+        if self._others_first:
+            let_others_go_first(process.pid)
+        return process
 
     def _send(self, process: asyncio.subprocess.Process, request: object) -> None:
         assert process.stdin is not None

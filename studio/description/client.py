@@ -39,7 +39,9 @@ class DescriptionWorker:
     def __init__(self, timeout_s: float = EXPANSION_TIMEOUT_S, *, is_shared: bool = False) -> None:
         """Make one with this limit of time; a shared one has less memory, and others go first."""
         more = (SHARED,) if is_shared else ()
-        self._worker = Worker("xacro", "studio.description.worker", CODEC, *more)
+        self._worker = Worker(
+            "xacro", "studio.description.worker", CODEC, *more, others_first=is_shared
+        )
         self._timeout_s = timeout_s
         self._entry = ""
         self._files: tuple[str, ...] = ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
 from studio.description.requests import CODEC, SHARED
@@ -16,7 +17,7 @@ def main() -> None:
     limit_bytes = XACRO_MEMORY_BYTES
     if SHARED in sys.argv[1:]:
         limit_bytes = SHARED_MEMORY_BYTES
-        let_others_go_first()
+        let_others_go_first(os.getpid())  # again: of many at once the system refuses some
     serve(CODEC, OpenSession().answer, limit_bytes)
 
 
