@@ -41,6 +41,11 @@ class Debouncer:
         if self._task is not None:
             self._task.cancel()
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether the work is done that was triggered."""
+        return self._task is None or self._task.done()
+
     async def settled(self) -> None:
         """Wait until the work is done that was triggered."""
         while self._task is not None and not self._task.done():

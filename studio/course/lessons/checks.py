@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import LessonError
+from studio.errors import LessonError, RosNameError
+from studio.ros.names import check_full_name
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -154,11 +155,21 @@ def _completed(kind: str, values: dict[str, str]) -> dict[str, str]:
                 f"{values['type']!r} is no {part} type: write it as `{package}/{part}/{name}`."
             )
         values["type"] = f"{package}/{part}/{name}"
+    for name in (values.get("name", ""), values.get("node", "")):
+        if name.startswith("/"):
+            _check_name(name)
     if kind == "rate":
         values.setdefault("percent", TOLERANCE_PERCENT)
         if not float(values["rate"]):
             raise LessonError("A rate is more than 0 Hz: nothing comes at 0 Hz.")
     return values
+
+
+def _check_name(name: str) -> None:
+    try:
+        check_full_name(name)
+    except RosNameError as error:
+        raise LessonError(str(error)) from None
 
 
 def _nearest(line: str) -> str:

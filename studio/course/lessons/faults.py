@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from studio.course.demos import find_demo
+from studio.course.demos import LESSONS, find_demo
+from studio.course.lessons.shelf import EXERCISES
 from studio.course.lessons.text import Fault, LessonText, read_lesson
 from studio.settings import repository_or_wheel
 
@@ -28,6 +29,9 @@ def faults_of(lesson: Lesson) -> Iterator[FileFault]:
     Raises:
         LessonError: A file cannot be read.
     """
+    if lesson.name in (*LESSONS, *EXERCISES):
+        sentence = f"The course has a lesson {lesson.name}: give the folder another name."
+        yield FileFault(next(iter(lesson.files.values())), Fault(1, sentence))
     first: LessonText | None = None
     for language, path in lesson.files.items():
         written = lesson.text(language)

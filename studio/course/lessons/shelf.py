@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import re
+import threading
+import time
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final
@@ -29,6 +33,7 @@ LESSONS_MAX: Final = 200
 """Of the folders of a teacher."""
 _FILE: Final = re.compile(r"lesson(?:\.([a-z]{2}))?\.md")
 _FALLBACK: Final = "en"
+_LISTED_S: Final = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +70,12 @@ class Lesson:
         """
         return _text_of(self.file(language))
 
+    @property
+    def version(self) -> str:
+        """Changes whenever one of its texts was written."""
+        times = [path.stat().st_mtime_ns for path in self.files.values() if path.exists()]
+        return str(max(times, default=0))
+
     def read(self) -> LessonText:
         """Return its steps; errors as for `text`."""
         return _read(self.text())
@@ -83,11 +94,26 @@ class Shelf:
         self, course: Path | None, folders: Sequence[Path] = (), written: Path | None = None
     ) -> None:
         self._course, self._folders, self._written = course, tuple(folders), written
+        self._lock = threading.Lock()
+        self._listed: dict[str, Lesson] = {}
+        self._listed_s = -math.inf
 
     def lessons(self) -> list[Lesson]:
         """Return all lessons, in the order in which they are taught; of one name only the first."""
-        found = [*self._of_course(), *self._given(), *self._written_here()]
-        return list({one.name: one for one in reversed(found)}.values())[::-1]
+        return list(self._by_name().values())
+
+    def _by_name(self) -> dict[str, Lesson]:
+        """Return them by name; many who ask within a second are answered by one look."""
+        with self._lock:
+            if time.monotonic() - self._listed_s >= _LISTED_S:
+                found = [*self._of_course(), *self._given(), *self._written_here()]
+                unique = {one.name: one for one in reversed(found)}
+                self._listed = dict(reversed(unique.items()))
+                self._listed_s = time.monotonic()
+            return self._listed
+
+    def _forget(self) -> None:
+        self._listed_s = -math.inf
 
     def find(self, name: str) -> Lesson:
         """Return a lesson by its name.
@@ -95,7 +121,7 @@ class Shelf:
         Raises:
             LessonError: There is none.
         """
-        found = next((one for one in self.lessons() if one.name == name), None)
+        found = self._by_name().get(name)
         if found is None:
             raise LessonError(f"No lesson is called {name[:100]!r}: the list in Lessons has all.")
         return found
@@ -123,6 +149,7 @@ class Shelf:
             write_whole(path, text.encode())
         except OSError as error:
             raise DataFolderError(str(path), error.strerror or "not writable") from error
+        self._forget()
         return self.find(name)
 
     def delete(self, name: str) -> None:
@@ -134,9 +161,11 @@ class Shelf:
         try:
             for path in lesson.files.values():
                 path.unlink(missing_ok=True)
-            folder.rmdir()
         except OSError as error:
             raise DataFolderError(str(folder), error.strerror or "not writable") from error
+        self._forget()
+        with suppress(OSError):  # something else lies in it
+            folder.rmdir()
 
     def _own_folder(self, name: str) -> Path:
         if not NAME.fullmatch(name):
@@ -200,9 +229,10 @@ def _text_of(path: Path) -> str:
             data = file.read(4 * TEXT_MAX + 1)
     except OSError as error:
         raise LessonError(f"{path.name} cannot be read: {error.strerror}.") from error
-    return data.decode("utf-8", "replace")
+    text = data.decode("utf-8-sig", "replace")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=512)
 def _read(text: str) -> LessonText:
     return read_lesson(text)

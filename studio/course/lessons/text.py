@@ -18,6 +18,8 @@ TEXT_MAX: Final = 60_000
 STEPS_MAX: Final = 40
 CHECKS_MAX: Final = 20
 """Of one step."""
+FAULTS_MAX: Final = 50
+"""What is wrong beyond these is not told before they are mended."""
 _CHECK: Final = re.compile(r"check:(.*)")
 _TITLE: Final = re.compile(r"# +(\S.*)")
 _NEEDS: Final = re.compile(r"needs:(.*)")
@@ -43,6 +45,8 @@ class Step:
     id: str
     heading: str
     checks: tuple[Check, ...]
+    is_whole: bool = True
+    """Whether all of its lines are checks: else it is never done."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,27 +94,31 @@ def read_lesson(text: str) -> LessonText:
 
 
 def _steps(lines: Iterable[str], faults: list[Fault]) -> Iterator[Step]:
-    heading, block, count = "", list[Check](), 0
+    heading, block, count, is_whole = "", list[Check](), 0, True
     seen: dict[str, int] = {}
     for number, line in enumerate([*lines, ""], 1):
+        if len(faults) >= FAULTS_MAX:
+            return
         if match := _CHECK.fullmatch(line.strip()):
             count += 1
             try:
                 block.append(read_check(match[1]))
             except LessonError as error:
                 faults.append(Fault(number, str(error)))
+                is_whole = False
             continue
         if count > CHECKS_MAX:
             sentence = f"A step has {CHECKS_MAX} checks at most: part them by an empty line."
             faults.append(Fault(number - 1, sentence))
         if count:
-            yield _step(heading, tuple(block[:CHECKS_MAX]), seen)
-        block, count = [], 0
+            yield _step(heading, tuple(block[:CHECKS_MAX]), seen, is_whole=is_whole)
+        block, count, is_whole = [], 0, True
         if line.startswith("## "):
             heading = line[3:].strip()
 
 
-def _step(heading: str, checks: tuple[Check, ...], seen: dict[str, int]) -> Step:
+def _step(heading: str, checks: tuple[Check, ...], seen: dict[str, int], *, is_whole: bool) -> Step:
     name = hashlib.sha256("\n".join(one.line for one in checks).encode()).hexdigest()[:10]
     seen[name] = seen.get(name, 0) + 1
-    return Step(f"{name}-{seen[name]}" if seen[name] > 1 else name, heading, checks)
+    name = f"{name}-{seen[name]}" if seen[name] > 1 else name
+    return Step(name, heading, checks, is_whole)

@@ -42,6 +42,11 @@ class RobotChecks:
         """Check the robot when it has been quiet for a while."""
         self._checking.trigger()
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether the robot as it is now was checked."""
+        return self._checking.is_settled
+
     async def settled(self) -> None:
         """Wait until the robot as it is now has been checked."""
         await self._checking.settled()

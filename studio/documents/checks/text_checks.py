@@ -93,6 +93,11 @@ class TextChecks:
             self._validating.trigger()
         self._checking.trigger()
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether the texts as they are now were checked, by yourdfpy too."""
+        return self._checking.is_settled and self._validating.is_settled
+
     async def settled(self) -> None:
         """Wait until the texts as they are now were checked, by yourdfpy too."""
         await asyncio.gather(self._checking.settled(), self._validating.settled())

@@ -77,7 +77,10 @@ def _joint(values: _Values, document: Document) -> Verdict:
 def _no_errors(document: Document) -> Verdict:
     errors = [one for one in document.findings.all() if one.severity is Severity.ERROR]
     if not errors:
-        return HOLDS if document.last_run.expansion is not None else missing("run.none")
+        if document.last_run.expansion is None:
+            return missing("run.none")
+        is_checked = document.checks.is_settled and document.robot_checks.is_settled
+        return HOLDS if is_checked and not document.last_run.failed else missing("checks.waiting")
     return missing("errors.some", count=len(errors), first=errors[0].sentence[:300])
 
 

@@ -33,7 +33,14 @@ def is_same(wanted: str, found: str) -> bool:
     wanted, found = wanted.strip(), found.strip()
     if wanted == found:
         return True
+    if {wanted.lower(), found.lower()} & {"true", "false"}:
+        return wanted.lower() == found.lower()
     try:
-        return math.isclose(float(wanted), float(found), rel_tol=1e-6, abs_tol=1e-9)
+        return int(wanted) == int(found)
+    except ValueError:
+        pass
+    try:
+        numbers = float(wanted), float(found)
     except ValueError:
         return False
+    return math.isclose(*numbers, rel_tol=1e-6, abs_tol=0.0 if numbers[0] else 1e-9)

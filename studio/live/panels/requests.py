@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from studio.live.connection.link import WireLink
     from studio.ros.node.task import Future
+    from studio.ros.types.library import ServiceType
 
 SHOWN_CHARACTERS: Final = 60_000
 """Limit of a reply, a result and the like: nobody reads more."""
@@ -66,11 +67,13 @@ class ServiceRequest:
             not fit it.
     """
 
-    def __init__(self, link: WireLink, asked: Asked) -> None:
+    def __init__(self, link: WireLink, asked: Asked, kind: ServiceType | None = None) -> None:
+        """`kind` is the type, if it is known: else other nodes may be asked for it."""
         name = wire_name(asked.name)
         why: list[str] = []
         type_name = full_type_name(asked.service_type, "srv")
-        kind = known_service(link.node, name, type_name, why.append)
+        if kind is None:
+            kind = known_service(link.node, name, type_name, why.append)
         self._request = from_yaml(kind.Request, asked.text, now_ns=time.time_ns())
         self._client = link.node.create_client(kind, name)
         self._link = link

@@ -6,8 +6,10 @@ import pytest
 
 from studio.course.demos import LESSONS
 from studio.course.lessons.shelf import Shelf
+from studio.course.lessons.text import TEXT_MAX
 from studio.errors import DataFolderError, LessonError
 from studio.settings import repository_or_wheel
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -49,6 +51,7 @@ def test_a_folder_is_looked_through_anew_each_time(tmp_path: Path):
     lesson(given, "# Another\n")
     assert one.find("given").read().title == "Another"
     (given / "lesson.md").unlink()
+    wait_until("it is gone", lambda: not any(each.own for each in one.lessons()))
     with pytest.raises(LessonError, match="No lesson is called 'given'"):
         one.find("given")
 
@@ -95,3 +98,13 @@ def test_a_disk_that_refuses_is_said(tmp_path: Path):
     (tmp_path / "written").write_text("a file in the place of the folder")
     with pytest.raises(DataFolderError):
         shelf(tmp_path).write("mine", "", "# T\n")
+
+
+def test_a_text_that_is_too_long_is_neither_written_nor_read_to_its_end(tmp_path: Path):
+    here = shelf(tmp_path, lesson(tmp_path / "given", "# T\n" + "x" * (9 * TEXT_MAX)))
+    with pytest.raises(LessonError, match="characters at most"):
+        here.write("mine", "", "# T\n" + "x" * TEXT_MAX)
+    assert not (tmp_path / "written").exists()
+    given = here.find("given")
+    assert len(given.text()) <= 4 * TEXT_MAX + 1
+    assert "characters at most" in given.read().faults[0].sentence

@@ -234,8 +234,9 @@ async def engine_at(endpoint: str, data_folder: Path) -> AsyncGenerator[Engine]:
         await made.close()
 
 
-def missing_in(document: Document, step: Step) -> list[str]:
+async def missing_in(document: Document, step: Step) -> list[str]:
     """The checks of the model that do not hold."""
+    await asyncio.gather(document.checks.settled(), document.robot_checks.settled())
     return [
         one.line
         for one in step.checks
@@ -251,13 +252,14 @@ def test_the_wheels_become_larger_by_the_numbers_that_are_to_be_found(models: Pa
     async def run() -> None:
         async with engine(tmp_path) as made:
             document, ear = await opened(made, file)
-            assert missing_in(document, seen) == []
-            assert missing_in(document, larger) == ["property wheel_radius is 0.2"]
+            assert await missing_in(document, seen) == []
+            assert await missing_in(document, larger) == ["property wheel_radius is 0.2"]
             values = {"wheel_radius": "0.2", "wheel_base": "0.5", "wheel_width": "0.06"}
             for name, value in values.items():
-                assert len(missing_in(document, apart)) > 0
+                assert len(await missing_in(document, apart)) > 0
                 await document.edits.edit_site(ear.site(name)["id"], value, name)
-            assert missing_in(document, larger) == missing_in(document, apart) == []
+            assert await missing_in(document, larger) == []
+            assert await missing_in(document, apart) == []
 
     asyncio.run(run())
 
@@ -275,9 +277,10 @@ def test_r2d2_hangs_in_odom_when_it_does_not_stand_and_is_published(
         ):
             _, hangs, leads = text.steps
             document, ear = await opened(made, file)
-            assert missing_in(document, hangs) == ["argument stands is false"]
+            assert await missing_in(document, hangs) == ["argument stands is false"]
             await document.edits.pass_arguments({"stands": "false"})
-            assert missing_in(document, hangs) == missing_in(document, drives) == []
+            assert await missing_in(document, hangs) == []
+            assert await missing_in(document, drives) == []
             await made.execute(ConnectWire(), ear)
             await made.execute(PublishRobot(document=document.id, running=True), ear)
             await reader.sees(leads)
