@@ -40,6 +40,9 @@ class Outlet:
     Args:
         transport: Where the bytes go.
         gate_bytes: Nothing is written while the transport holds more than this.
+        fresh_bytes: Nothing that could be made late is written while the transport holds more than
+            this and more than the last of its kind: it would be old when it arrives. No event tells
+            that a transport holds less than before: whoever gives this calls `resume` by and by.
         queue_bytes: Keyless bytes that may wait; one more and the client is hopeless.
         on_hopeless: Called once, when the client is given up; close its socket there.
     """
@@ -49,6 +52,7 @@ class Outlet:
         transport: Transport,
         *,
         gate_bytes: int = GATE_BYTES,
+        fresh_bytes: int | None = None,
         queue_bytes: int = QUEUE_BYTES,
         on_hopeless: Callable[[], None] = lambda: None,
     ) -> None:
@@ -56,6 +60,9 @@ class Outlet:
         self._gate_bytes, self._queue_bytes = gate_bytes, queue_bytes
         self._on_hopeless = on_hopeless
         self._waiting: OrderedDict[str | int, bytes | Late] = OrderedDict()
+        self._fresh_bytes = gate_bytes if fresh_bytes is None else fresh_bytes
+        self._late_bytes = 0
+        """Of the last message that could have been made late."""
         self._keyless = itertools.count()
         self._keyless_bytes = 0
         self.closed = False
@@ -75,8 +82,8 @@ class Outlet:
         """
         if self.closed:
             return False
-        if not self._waiting and self._is_open():
-            self._write(data)
+        if not self._waiting and self._is_open(late or data):
+            self._write(data, late)
             return True
         if key is None:
             assert isinstance(data, bytes)
@@ -88,7 +95,7 @@ class Outlet:
 
     def resume(self) -> bool:
         """Write what was held back as far as the gate lets it; True when nothing is left."""
-        while self._waiting and self._is_open():
+        while self._waiting and self._is_open(next(iter(self._waiting.values()))):
             key, data = self._waiting.popitem(last=False)
             if isinstance(key, int) and isinstance(data, bytes):
                 self._keyless_bytes -= len(data)
@@ -101,13 +108,18 @@ class Outlet:
         self._waiting.clear()
         self._keyless_bytes = 0
 
-    def _is_open(self) -> bool:
-        return self._transport.pending_bytes() <= self._gate_bytes
+    def _is_open(self, data: bytes | Late) -> bool:
+        """Whether it may be written now: `data` as it would wait."""
+        pending_bytes = self._transport.pending_bytes()
+        if pending_bytes > self._gate_bytes:
+            return False
+        return isinstance(data, bytes) or pending_bytes <= max(self._fresh_bytes, self._late_bytes)
 
-    def _write(self, data: bytes | Late) -> None:
-        if isinstance(data, bytes):
-            self._transport.write(data)
-        elif made := data():
+    def _write(self, data: bytes | Late, late: Late | None = None) -> None:
+        made = data if isinstance(data, bytes) else data()
+        if not (isinstance(data, bytes) and late is None):
+            self._late_bytes = len(made)
+        if made or isinstance(data, bytes):
             self._transport.write(made)
 
     def _hold(self, data: bytes) -> None:

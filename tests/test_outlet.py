@@ -78,6 +78,27 @@ def test_a_late_message_with_nothing_to_say_writes_nothing():
     assert pipe.pending == []
 
 
+def test_what_can_be_made_late_is_not_written_behind_more_than_a_little():
+    pipe = Pipe()
+    outlet = Outlet(pipe, gate_bytes=GATE, fresh_bytes=10)
+    for number in range(9):
+        outlet.post(b"pose %d" % number, "pose", late=lambda: b"pose of now")
+    outlet.post(b"an answer")
+    assert pipe.pending == [b"pose 0", b"pose 1"]
+    pipe.drain()
+    assert outlet.resume()
+    assert pipe.pending == [b"pose of now", b"an answer"]
+
+
+def test_a_large_message_that_can_be_made_late_is_written_behind_one_as_large():
+    pipe = Pipe()
+    outlet = Outlet(pipe, gate_bytes=GATE, fresh_bytes=10)
+    cloud = bytes(GATE - 20)
+    assert outlet.post(cloud, "cloud", late=lambda: cloud)
+    assert outlet.post(cloud, "cloud", late=lambda: cloud)
+    assert not outlet.post(cloud, "cloud", late=lambda: cloud)
+
+
 def test_a_client_that_owes_too_many_ordered_messages_is_given_up_once_and_forgotten():
     given_up: list[str] = []
     pipe = Pipe()

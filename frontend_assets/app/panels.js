@@ -9,9 +9,10 @@
 
 import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
-import { until, untilIdle, untilViewFetched } from "../lib/loading.js";
+import { courtesyMs, until, untilIdle, untilViewFetched } from "../lib/loading.js";
 import { addIcons, Icon, ProgressBar } from "../lib/ui.js";
 import { asking } from "../model/class.js";
+import { role } from "../model/connection.js";
 import { changedCount, problems, robot } from "../model/document.js";
 import { heldBack } from "../model/source.js";
 import { viewportConnected } from "../model/viewport.js";
@@ -130,9 +131,12 @@ function viewComes() {
 async function fetched(id) {
   const entry = PANELS[id];
   if (entry?.heavy) {
+    const begun = performance.now();
     await others;
     await untilViewFetched();
     await until(() => robot.value !== null && !viewComes(), PATIENCE_MS);
+    const courtesy = role.value === "presenter" ? 0 : courtesyMs(performance.now() - begun);
+    if (courtesy > 0) await new Promise((resolve) => setTimeout(resolve, courtesy));
     await untilIdle();
     return entry.load();
   }

@@ -48,6 +48,8 @@ WINDOW_S = 1 / 60
 """Frames follow each other no faster than this, but for `flush`."""
 _RETRY_S = 1 / 30
 """Between two attempts to send to a page that fell behind."""
+_FRESH_BYTES = 16 << 10
+"""A page whose socket holds more does not follow: on a slow line a second of frames, or less."""
 _MESSAGE_LIMIT_BYTES = 1 << 20
 _WINDOW_SIZE = 1 << 14  # messages: an atomic batch is never split over two frames
 _INVALID, _TOO_BIG = 1007, 1009
@@ -120,7 +122,11 @@ class Seat:
         self.id = seat_id
         self.cursor = -1
         self.replayed = False
-        self.outlet = Outlet(connection, on_hopeless=lambda: connection.close(_TRY_AGAIN_LATER))
+        self.outlet = Outlet(
+            connection,
+            fresh_bytes=_FRESH_BYTES,
+            on_hopeless=lambda: connection.close(_TRY_AGAIN_LATER),
+        )
         self._catch_up = catch_up
 
     def follow(self, frame: bytes, newest: int) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import socket
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from starlette.websockets import WebSocketDisconnect, WebSocketState
@@ -41,6 +42,7 @@ _FRAGMENTS_MAX: Final = 1_024
 """Limit for one message; a browser sends one megabyte in a few dozen."""
 _TURN_UNITS: Final = 256
 """Frames, or KiB, that are parsed before others have their turn: some milliseconds."""
+_UNSENT_BYTES: Final = 16 << 10
 _PONGS_PENDING_BYTES: Final = 64 << 10
 """Limit for a client that pings and reads no answer."""
 _TEXT, _BINARY = 0x81, 0x82  # final frame of a text or a binary message
@@ -74,6 +76,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Count the new connection as a stranger's."""
         super().connection_made(transport)
+        hold_little(transport)
         self._crowd.arrive(self)
 
     def connection_lost(self, exc: Exception | None) -> None:
@@ -218,6 +221,18 @@ class StudioSocket(WebSocketsSansIOProtocol):
     def pending_bytes(self) -> int:
         """Bytes written and not yet taken by the system."""
         return self.transport.get_write_buffer_size()
+
+
+def hold_little(transport: asyncio.BaseTransport) -> None:
+    """Have the system take little before it can be sent.
+
+    What waits with us is replaced by what is newer; what waits there arrives late.
+    """
+    connection: socket.socket | None = transport.get_extra_info("socket")
+    option: int | None = getattr(socket, "TCP_NOTSENT_LOWAT", None)
+    if connection is not None and option is not None:
+        with contextlib.suppress(OSError):
+            connection.setsockopt(socket.IPPROTO_TCP, option, _UNSENT_BYTES)
 
 
 def socket_of(scope: Scope) -> StudioSocket:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
     classroom,
+    copies,
     data_images,
     data_lane,
     displays,
@@ -17,6 +18,7 @@ from tests.benchmarks import (
     edit_to_websocket,
     evaluator,
     fan_out,
+    line,
     live_clouds,
     live_scene,
     loop,
@@ -41,6 +43,8 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "drag": drag.run,
     "fanout": fan_out.run,
     "classroom": classroom.run,
+    "copies": copies.run,
+    "line": line.run,
     "live": live_scene.run,
     "clouds": live_clouds.run,
     "meshes": meshes_to_websocket.run,
