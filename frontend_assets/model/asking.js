@@ -138,6 +138,7 @@ const changes = {
   diagnostics: signal(0),
   goal_statuses: signal(0),
   lessons: signal(0),
+  lesson_list: signal(0),
   ticks: signal(0),
 };
 
@@ -168,6 +169,7 @@ const FOLLOW = {
   diagnostics: followChanges("diagnostics"),
   goal_statuses: followChanges("goal_statuses"),
   lessons: followChanges("lessons"),
+  lesson_list: followChanges("lesson_list"),
   ticks: followChanges("ticks"),
 };
 

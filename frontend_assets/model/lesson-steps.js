@@ -33,12 +33,17 @@ export function readOn() {
 
 subscribe("lesson_state", (event) => {
   told.value = event;
+  const done = event.steps.filter(isDone).length;
+  const all = lessons.peek();
+  if (all?.some((one) => one.name === event.lesson && one.done !== done))
+    lessons.value = all.map((one) => (one.name === event.lesson ? { ...one, done } : one));
 });
 
 /** The lesson that is looked at in the studio; empty: none is, or it has no steps. */
 const wanted = computed(() => {
-  const has = lessons.value?.some(({ name, steps: count }) => name === chosenLesson.value && count);
-  return isReading.value && connection.value === "connected" && has ? chosenLesson.value : "";
+  const listed = lessons.value?.find(({ name }) => name === chosenLesson.value);
+  const mayHave = lessons.value === null || (listed?.steps ?? 0) > 0;
+  return isReading.value && connection.value === "connected" && mayHave ? chosenLesson.value : "";
 });
 let isOpen = false;
 
@@ -64,7 +69,7 @@ const asked = computed(
 /** Panels that were opened since the lesson was, also before the studio told what it asks about. */
 const seen = new Set();
 effect(() => {
-  wanted.value;
+  chosenLesson.value;
   seen.clear();
 });
 effect(() => {

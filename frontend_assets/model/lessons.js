@@ -73,7 +73,7 @@ export const demoCode = signal(new Map());
 /** What the demo that is looked at printed. @type {Signal<Output>} */
 export const output = signal(NOTHING_PRINTED);
 
-/** How often ticks had changed when the list was asked for. */
+/** How often the list had changed when it was asked for. */
 let listedAt = -1;
 
 /** The demo whose output is asked for; empty: none is. */
@@ -86,7 +86,7 @@ export const isUnderWay = (demo) => UNDER_WAY.includes(demos.value.get(demo)?.st
 export const underWay = computed(() => [...demos.value.keys()].filter(isUnderWay));
 
 /** Keep them true while somebody looks; gives the end of looking. */
-export const followLessons = askedWhenChanged(askLessons, "lessons", "graph", "ticks");
+export const followLessons = askedWhenChanged(askLessons, "lessons", "graph", "lesson_list");
 
 /** Ask how all of it stands. */
 export async function askLessons() {
@@ -100,9 +100,9 @@ export async function askLessons() {
   await askOutput();
 }
 
-/** The list, with what is done: once, and whenever a step is done or a lesson was written. */
+/** The list, with what is done: once, and whenever a lesson was written or deleted. */
 async function askList() {
-  const told = changeCount("ticks");
+  const told = changeCount("lesson_list");
   if (lessons.peek() !== null && told === listedAt) return;
   const answer = await askOrKeepWhy({ type: "get_lessons" }, lessonsRefused);
   if (answer?.type !== "lessons") return;
@@ -192,22 +192,36 @@ const known = textFiles(new URL("../lessons/", import.meta.url).href, (text) => 
   text,
 }));
 
+/** Of what is asked for at the same time, the newest counts. */
+let fetches = 0;
+
 /** Have the texts of some lessons in a language. @param {string} language @param {readonly LessonView[]} wanted */
 export async function fetchLessons(language, wanted) {
+  fetches += 1;
+  const fetch = fetches;
   const texts = await Promise.all(
-    wanted.map(({ name, own }) =>
-      own ? ownText(name, language) : known(`${language}/${name}.md`),
+    wanted.map((lesson) =>
+      lesson.own ? ownText(lesson, language) : known(`${language}/${lesson.name}.md`),
     ),
   );
+  if (fetch !== fetches) return;
   lessonTexts.value = new Map(texts.map((text, at) => [wanted[at]?.name ?? "", text]));
 }
 
-/** @param {string} name @param {string} language @returns {Promise<Lesson & {text: string}>} of a lesson that is none of the course */
-async function ownText(name, language) {
+/** Texts that are none of the course's, by name: fetched once, until they are written anew. @type {Map<string, {of: string, text: Lesson & {text: string}}>} */
+const ownTexts = new Map();
+
+/** @param {LessonView} lesson one that is none of the course @param {string} language */
+async function ownText({ name, version }, language) {
+  const of = `${language} ${version}`;
+  const kept = ownTexts.get(name);
+  if (kept?.of === of) return kept.text;
   const command = /** @type {const} */ ({ type: "get_lesson_text", lesson: name });
   const answer = await askOrKeepWhy({ ...command, language }, lessonsRefused);
-  const text = answer?.type === "lesson_text" ? answer.text : "";
-  return { ...readLesson(text), text };
+  if (answer?.type !== "lesson_text") return kept?.text ?? { ...readLesson(""), text: "" };
+  const text = { ...readLesson(answer.text), text: answer.text };
+  ownTexts.set(name, { of, text });
+  return text;
 }
 
 /** Have the code of a demo, once. @param {string} demo */

@@ -204,7 +204,7 @@ export interface ChangeState {
 /** The subject changed, once or several times since the last such event. */
 export interface Changed {
   type: "changed";
-  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "ticks";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "lesson_list" | "ticks";
 }
 
 /** Answer to `get_changes`. */
@@ -858,7 +858,7 @@ export interface FollowChanges {
   document?: string;
   id?: string;
   type: "follow_changes";
-  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "ticks";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "lesson_list" | "ticks";
   following?: boolean;
 }
 
@@ -1556,6 +1556,7 @@ export interface LessonView {
   has_keys: boolean;
   own: boolean;
   writable: boolean;
+  version: string;
   steps: number;
   done: number;
 }

@@ -112,7 +112,7 @@ class Engine:
             self,
             self.classroom,
             self._system_of,
-            partial(self.ros.changes.changed, "ticks"),
+            self.ros.changes.changed,
         )
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
@@ -173,6 +173,10 @@ class Engine:
             return self.documents[name]
         except KeyError:
             raise UnknownDocumentError(name) from None
+
+    def open_now(self, name: str) -> Document | None:
+        """Return the document of that id if it is open; a copy that rests is left to."""
+        return self.copies.awake(name) if owner_of(name) else self.documents.get(name)
 
     def check(self, name: str) -> None:
         """Pass if a document of that id is open, or a copy that rests.

@@ -6,9 +6,11 @@ from typing import Literal, TypeAlias
 
 from studio.protocol.message import Command, Event
 
-Subject: TypeAlias = Literal["graph", "log", "diagnostics", "goal_statuses", "lessons", "ticks"]
+Subject: TypeAlias = Literal[
+    "graph", "log", "diagnostics", "goal_statuses", "lessons", "lesson_list", "ticks"
+]
 """The graph of nodes, topics, services and actions; lines of the log; diagnostics; states of goals;
-demos and their output; steps of lessons that are done."""
+demos and their output; which lessons there are; who reads them and has done which step."""
 
 
 class FollowChanges(Command):

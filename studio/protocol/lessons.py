@@ -42,6 +42,8 @@ class LessonView(Message):
     """Whether its text is asked for by `get_lesson_text`, and is no file of the page."""
     writable: bool
     """Whether it was written in the page."""
+    version: str
+    """Of its text, if that is asked for by `get_lesson_text`: another one when it was written."""
     steps: int
     """Blocks of checks in it."""
     done: int
@@ -106,7 +108,7 @@ class CheckView(Message):
     """One check of a lesson, and how it stands."""
 
     kind: str
-    """Names its form, as `topic_type`."""
+    """Names its form, as `topic_type`; empty: the line is faulty, and its step is never done."""
     line: str
     """As it is written."""
     values: dict[str, str]

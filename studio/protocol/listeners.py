@@ -52,6 +52,9 @@ class Audience:
     def __len__(self) -> int:
         return len(self._listeners)
 
+    def __contains__(self, listener: Listener) -> bool:
+        return listener in self._listeners
+
     def add(self, listener: Listener) -> None:
         """Send it every event from now on."""
         self._listeners.add(listener)

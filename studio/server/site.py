@@ -1,5 +1,6 @@
 """The routes that a browser uses: the page, its files, the 3D view's page, the websockets."""
 
+import asyncio
 from functools import lru_cache
 from http import HTTPStatus
 from typing import Final
@@ -12,7 +13,7 @@ from starlette.websockets import WebSocket
 import studio
 from studio.protocol.commands import may
 from studio.protocol.documents import Hello
-from studio.protocol.roles import Person
+from studio.protocol.roles import Person, owner_of
 from studio.scene import SUBPROTOCOL, viser_page
 from studio.server.access import VISER
 from studio.server.assets import Asset, Assets, Tree, accepted_coding
@@ -24,6 +25,8 @@ from studio.server.policy import SCENE_POLICY, WORKER_POLICY
 from studio.server.surface import OpenDocuments, OpenScene
 from studio.server.websocket import Lane
 
+_LOOK_EVERY_S: Final = 1.0
+
 
 async def serve_scene(
     websocket: WebSocket, scene: OpenScene, visitor: Person, document: str
@@ -34,8 +37,20 @@ async def serve_scene(
     spoken = SUBPROTOCOL if SUBPROTOCOL in offered else next(iter(offered), None)
     await websocket.accept(subprotocol=spoken)
     lane = Lane(websocket)
-    await scene.serve(lane, lambda message: may(visitor, VISER.get(message), document), spoken)
+    watching = asyncio.create_task(_end_with_sight(lane, visitor, document))
+    try:
+        await scene.serve(lane, lambda message: may(visitor, VISER.get(message), document), spoken)
+    finally:
+        watching.cancel()
     await lane.finish()
+
+
+async def _end_with_sight(lane: Lane, visitor: Person, document: str) -> None:
+    """Close the lane once its person may not look at the document any more: a copy is hidden."""
+    while owner_of(document) and visitor.sees(document):  # noqa: ASYNC110 - nobody tells it
+        await asyncio.sleep(_LOOK_EVERY_S)
+    if owner_of(document):
+        lane.close()
 
 
 _FOREVER: Final = "public, max-age=31536000, immutable"

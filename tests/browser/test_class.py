@@ -282,7 +282,7 @@ def test_a_lesson_is_written_turns_green_for_one_and_the_teacher_sees_it(
         lessons.get_by_role("textbox", name="Name").fill("larger-wheel")
         text = lessons.get_by_role("textbox", name="Text")
         text.fill(f"{text.input_value()}check: node talker runs\n<script>alert(1)</script>\n")
-        lessons.get_by_text("write it as `node /NAME runs`").wait_for()
+        lessons.get_by_role("status").get_by_text("write it as `node /NAME runs`").wait_for()
         text.fill(text.input_value().replace("check: node talker runs\n", ""))
         wait_until("no fault", lambda: lessons.locator(".lesson-faults li").count() == 0)
         lessons.get_by_role("button", name="Save").click()

@@ -13,7 +13,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING
 
 import pytest
-from websockets.exceptions import InvalidStatus
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from studio.classroom import control as control_module
 from studio.documents.engine import COMMANDS
@@ -240,6 +240,29 @@ def until_check(lane: Lane, code: str) -> float | None:
         (step,) = lane.until("lesson_state")["steps"]
         if step["checks"][0]["code"] == code:
             return step["done_s"]
+
+
+def test_the_3d_view_of_a_copy_ends_for_others_when_it_is_hidden(served: ServedClass):
+    with (
+        served.presenting() as presenter,
+        served.student("Ada") as (ada, person),
+        served.student("Bob") as (bob, _),
+        ada.lane() as lane,
+    ):
+        assert lane.ask("open_copy", document="rover")["type"] == "done"
+        copy = f"rover~{person}"
+        presenter.ask("show_copy", document=copy)
+        protocol = "viser-v1.1.1"
+        with (
+            ada.websocket(f"/d/{copy}/viser", protocol) as own,
+            bob.websocket(f"/d/{copy}/viser", protocol) as others,
+        ):
+            presenter.ask("show_copy", document=copy, shown=False)
+            with suppress(ConnectionClosed):
+                while True:
+                    others.recv(timeout=30)  # its end, or a TimeoutError
+            own.ping().wait(30)
+        lane.ask("discard_copy", document=copy)
 
 
 IDS_THAT_LEAD_OUT = ("rover~..%2F..%2Fx", "rover~..", "..%2Fx~ada", "rover~", "%2e%2e%2f%2e%2e")

@@ -34,6 +34,10 @@ class Page(Ear):
         super().__init__(who.role)
         self.who, self.person = who, who.person
 
+    def sees(self, document: str) -> bool:
+        """What its person may look at."""
+        return self.who.sees(document)
+
 
 class Room:
     """An engine with an open rover, a class, and what its people ask through the door."""

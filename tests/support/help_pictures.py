@@ -10,7 +10,7 @@ import io
 import json
 import sys
 import tempfile
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ from tests.support.managed_arm import managed_arm
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
 from tests.support.server import running_studio
+from tests.support.student_nodes import OwnNode
 from tests.support.wire import running_router
 from tests.support.wired_tab import add_displays, connect, look_at_odometry
 
@@ -44,8 +45,8 @@ DIALOGS_WINDOW = (720, 640)
 CLASS_WINDOW = (800, 760)
 _CLASS_ADDRESS = "http://robots.example:8765/"
 _NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
-OF_CLASSES = ("people", "class")
-"""The panel and the window about a class, of which the demo has none."""
+OF_CLASSES = ("people", "class", "own_nodes")
+"""The panel and the windows about a class, of which the demo has none."""
 OF_OPERATIONS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
 """Panels whose pictures `operation_pictures` and `field_pictures` take."""
 ON_THE_WIRE = sorted(
@@ -70,6 +71,10 @@ _RUN = """async (id) => {
 _SHOW_DIALOG = """async (kind) => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("../model/view.js", script))).dialog.value = { kind };
+}"""
+_START_NODES = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  await (await import(new URL("../model/student-nodes.js", script))).startNodes();
 }"""
 _DOCK_OF = """(id) => {
   const script = document.querySelector('script[type="module"]').src;
@@ -121,12 +126,12 @@ class Camera:
         with Image.open(io.BytesIO(self.page.screenshot(clip=clip))) as picture:
             path_of(name, self._theme).write_bytes(as_webp(picture))
 
-    def take_part(self, name: str, part: Locator) -> None:
+    def take_part(self, name: str, part: Locator, highest_px: int = _HIGHEST_PX) -> None:
         # It grows while what it shows arrives.
         self.page.wait_for_timeout(_STILL_MS)
         box = part.bounding_box()
         assert box is not None, name
-        self.take(name, box)
+        self.take(name, box, highest_px)
 
 
 def as_webp(picture: Image.Image) -> bytes:
@@ -331,6 +336,19 @@ def take_class(browser: Browser, data: Path) -> None:
                 tab.page.evaluate(_SHOW_DIALOG, "class")
                 tab.page.locator(".class-qr").wait_for()
                 Camera(tab, theme).take("class", box_of(tab.page.locator("dialog")), 500)
+            with tab_of(browser, studio, theme, CLASS_WINDOW) as tab:
+                take_own_nodes(tab, Camera(tab, theme))
+
+
+def take_own_nodes(tab: StudioPage, camera: Camera) -> None:
+    """The line of somebody in a class, and the node that it let join."""
+    tab.page.evaluate(_START_NODES)
+    tab.page.evaluate(_SHOW_DIALOG, "nodes")
+    line = tab.page.get_by_label("Line to paste")
+    line.wait_for()
+    with closing(OwnNode(line.input_value(), "temperature_sensor")):
+        tab.page.get_by_role("listitem").filter(has_text="temperature_sensor").wait_for()
+        camera.take_part("own_nodes", tab.page.locator("dialog"), 500)
 
 
 def box_of(part: Locator) -> FloatRect:

@@ -143,7 +143,7 @@ function LessonPage({ lesson, all, onEdit }) {
   return html`<div class="operations-chosen lesson">
     <header class="operation-head lesson-head"><${IconButton} icon="chevronRight" class="operation-back" label=${t("operations.back")} onClick=${close} />
       <h3>${text?.title || name}</h3>${lesson.node && html`<span class="offer-type">${`studio demos ${name}`}</span>`}
-      ${lesson.writable && mayManage.value && html`<span class="lesson-tools"><${IconButton} icon="pencil" label=${t("lessons.edit")} onClick=${onEdit} /><${IconButton} icon="trash" label=${t("lessons.delete")} onClick=${() => askToDelete(name)} /></span>`}</header>
+      ${lesson.writable && mayManage.value && html`<span class="lesson-tools"><${IconButton} icon="pencil" label=${t("lessons.edit")} disabled=${!text} onClick=${onEdit} /><${IconButton} icon="trash" label=${t("lessons.delete")} onClick=${() => askToDelete(name)} /></span>`}</header>
     <div class="scroll lesson-scroll" tabindex="0" role="region" aria-label=${text?.title || name}>
       <${Progress} />
       ${parts.length > 0 && html`<${LessonRuns} parts=${parts} />`}

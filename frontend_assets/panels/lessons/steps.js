@@ -32,7 +32,7 @@ export function Step({ lines, view }) {
 function CheckLine({ check: { kind, line, values, ok, code, found } }) {
   const state = t(ok ? "lessons.check.holds" : "lessons.check.open");
   return html`<li class=${ok ? "ok" : ""}><span class="lesson-mark" role="img" aria-label=${state} title=${state}>${ok && html`<${Icon} name="check" size=${12} />`}</span>
-    <span><span title=${line}>${t(`lessons.check.${kind}`, wordsOf(values))}</span>${!ok && code && html`<small>${t(`lessons.missing.${code}`, wordsOf(found))}</small>`}</span></li>`;
+    <span><span title=${line}>${kind ? t(`lessons.check.${kind}`, wordsOf(values)) : line}</span>${!ok && code && html`<small>${t(`lessons.missing.${code}`, wordsOf(found))}</small>`}</span></li>`;
 }
 
 /** @param {Record<string, string>} values @returns {Record<string, string | number>} with panels by their titles */
@@ -66,7 +66,9 @@ function Table() {
   const { panel } = useLooking(followTable);
   const all = table.value?.lesson === chosenLesson.value ? table.value : null;
   const rows = all?.rows ?? [];
-  const heads = steps.value.map((step, at) => `${at + 1}. ${step.heading || t("lessons.step")}`);
+  const heads = (all?.steps ?? []).map(
+    (step, at) => `${at + 1}. ${step.heading || t("lessons.step")}`,
+  );
   const save = () =>
     all &&
     saveAsFile(`${all.lesson}.csv`, csvOf(all, [t("lessons.table.name"), ...heads]), "text/csv");

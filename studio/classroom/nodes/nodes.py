@@ -301,11 +301,13 @@ class StudentNodes:
         It is closed once nobody has asked for 30 s. None: they have no domain.
 
         Raises:
-            StudioError: It cannot be reached, or has too much in it.
+            StudioError: It cannot be reached now, or has too much in it.
         """
-        domain = self._given.get(person)
-        if self._state != "on" or domain is None:
+        given = dict(self._kept.given) if self._pool is None else self._given
+        domain = given.get(person)
+        if domain is None:
             return None
+        self._opened()
         return await self._links.get(domain)
 
     async def graph(self, asker: Listener, request: int) -> MyGraph:

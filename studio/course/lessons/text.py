@@ -32,6 +32,13 @@ class Fault(NamedTuple):
     sentence: str
 
 
+class FaultyLine(NamedTuple):
+    """A line that was to be a check."""
+
+    line: str
+    reason: str
+
+
 @dataclass(frozen=True, slots=True)
 class Step:
     """A block of checks.
@@ -45,8 +52,8 @@ class Step:
     id: str
     heading: str
     checks: tuple[Check, ...]
-    is_whole: bool = True
-    """Whether all of its lines are checks: else it is never done."""
+    faulty: tuple[FaultyLine, ...] = ()
+    """While it has such lines it is never done."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,31 +101,33 @@ def read_lesson(text: str) -> LessonText:
 
 
 def _steps(lines: Iterable[str], faults: list[Fault]) -> Iterator[Step]:
-    heading, block, count, is_whole = "", list[Check](), 0, True
+    heading, block, faulty = "", list[Check](), list[FaultyLine]()
     seen: dict[str, int] = {}
     for number, line in enumerate([*lines, ""], 1):
         if len(faults) >= FAULTS_MAX:
             return
         if match := _CHECK.fullmatch(line.strip()):
-            count += 1
             try:
                 block.append(read_check(match[1]))
             except LessonError as error:
                 faults.append(Fault(number, str(error)))
-                is_whole = False
+                faulty.append(FaultyLine(match[1].strip(), str(error)))
             continue
-        if count > CHECKS_MAX:
+        if len(block) > CHECKS_MAX:
             sentence = f"A step has {CHECKS_MAX} checks at most: part them by an empty line."
             faults.append(Fault(number - 1, sentence))
-        if count:
-            yield _step(heading, tuple(block[:CHECKS_MAX]), seen, is_whole=is_whole)
-        block, count, is_whole = [], 0, True
+            faulty.append(FaultyLine(block[CHECKS_MAX].line, sentence))
+        if block or faulty:
+            yield _step(heading, tuple(block[:CHECKS_MAX]), tuple(faulty), seen)
+        block, faulty = [], []
         if line.startswith("## "):
             heading = line[3:].strip()
 
 
-def _step(heading: str, checks: tuple[Check, ...], seen: dict[str, int], *, is_whole: bool) -> Step:
+def _step(
+    heading: str, checks: tuple[Check, ...], faulty: tuple[FaultyLine, ...], seen: dict[str, int]
+) -> Step:
     name = hashlib.sha256("\n".join(one.line for one in checks).encode()).hexdigest()[:10]
     seen[name] = seen.get(name, 0) + 1
     name = f"{name}-{seen[name]}" if seen[name] > 1 else name
-    return Step(name, heading, checks, is_whole)
+    return Step(name, heading, checks, faulty)

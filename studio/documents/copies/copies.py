@@ -166,6 +166,10 @@ class Copies:
             raise CommandError("The copy is being closed: try again in a moment.")
         return self._awake.get(name) or self._wake(name)
 
+    def awake(self, name: str) -> Document | None:
+        """Return a copy that is open; one that rests is left to."""
+        return self._awake.get(name)
+
     def check(self, name: str) -> None:
         """Pass if there is a copy of that id.
 
@@ -198,6 +202,7 @@ class Copies:
     async def discard(self, name: str) -> None:
         """Give a copy up, with all that is kept of it."""
         self._known(name)
+        self.show(name, shown=False)
         await self._rest(name)
         record = self._records.pop(name)
         await asyncio.to_thread(self._delete, name, record)
@@ -222,22 +227,24 @@ class Copies:
         await self._keep(command.document, msgspec.structs.replace(record, **remark))
 
     def show(self, name: str, *, shown: bool) -> None:
-        """Let everybody see a copy, or no longer."""
+        """Let everybody see a copy, or no longer; one at a time is shown."""
         self._known(name)
-        self._classroom.control.shown = name if shown else ""
+        control = self._classroom.control
+        if not shown and control.shown != name:
+            return
+        control.shown = name if shown else ""
+        self._end_sight()
         if shown:
             self._classroom.following.gather(name)
-        else:
-            self._send_away(name)
         self._send()
 
-    def _send_away(self, name: str) -> None:
+    def _end_sight(self) -> None:
         """Have all stop looking who may not any more."""
-        document = self._awake.get(name)
-        for page in tuple(self._pages) if document else ():
-            if document and not page.role.includes(Role.HELPER) and page.person != owner_of(name):
-                document.audience.remove(page)
-                send(page, Gone(document=name))
+        for name, document in self._awake.items():
+            for page in tuple(self._pages):
+                if page in document.audience and not page.sees(name):
+                    document.audience.remove(page)
+                    send(page, Gone(document=name))
 
     def check_room(self, name: str) -> None:
         """Pass if the texts of a copy may still grow.
@@ -370,6 +377,7 @@ class Copies:
         """Close what nobody has looked at for a while."""
         while self._awake:
             await asyncio.sleep(_LOOK_EVERY_S)
+            self._end_sight()  # a helper may have become a student
             now_s = time.monotonic()
             for name, document in tuple(self._awake.items()):
                 if len(document.audience):

@@ -12,26 +12,30 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias, cast
 
+from studio.documents.lessons.frames import Frames
 from studio.documents.lessons.verdict import HOLDS, Verdict, is_same, missing
-from studio.errors import CdrError, FrameError, StudioError, UnknownFrameError
+from studio.errors import StudioError
 from studio.live.panels.requests import ServiceRequest
-from studio.ros.client import DurabilityPolicy, QoSProfile
-from studio.ros.columns.transforms import TransformCodec
 from studio.ros.types.yaml_texts import read_yaml
-from studio.tf.buffer import TransformBuffer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Container, Iterable, Mapping
 
     from studio.course.lessons.checks import Check
     from studio.live.connection.link import WireLink
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.node.subscription import Subscription
     from studio.ros.node.topic_statistics import TopicStatistics
 
 _Values: TypeAlias = "Mapping[str, str]"
-_MEASURED_S: Final = 10.0
-"""A topic whose rate nobody asks for is not measured any longer."""
+_KEPT_S: Final = 10.0
+"""What nobody asks for is not received any longer."""
+_STEADY_S: Final = 2.0
+_STEADY_PERIODS: Final = 4
+"""So long, and for so many periods, a rate must be right: it passes through others as it begins."""
+_OVERDUE_S: Final = 1.0
+_OVERDUE_PERIODS: Final = 2
+_ASKED_KINDS: Final = frozenset({"answers", "parameter"})
+"""Of checks that a node has to answer."""
 _AGAIN_S: Final = 3.0
 """Between two questions to a node that gave another answer than wanted, or none."""
 _AGAIN_WHEN_OK_S: Final = 20.0
@@ -55,6 +59,14 @@ class _Asked:
     task: asyncio.Task[None] | None = None
 
 
+class _Looked(NamedTuple):
+    """What one look at the graph found."""
+
+    verdicts: dict[str, Verdict]
+    servers: dict[str, frozenset[str]]
+    """Tokens of those who could answer a check, by its line."""
+
+
 class _Request(NamedTuple):
     name: str
     service_type: str
@@ -67,26 +79,31 @@ class GraphChecks:
     def __init__(self, link: WireLink) -> None:
         self._link = link
         self._rates: dict[str, TopicStatistics] = {}
-        self._frames: _Frames | None = None
+        self._steady_s: dict[tuple[str, ...], float] = {}
+        """Since when a rate has been right."""
+        self._frames: Frames | None = None
         self._asked: dict[str, _Asked] = {}
 
-    async def verdicts(self, checks: Iterable[Check], *, may_call: bool) -> dict[str, Verdict]:
+    async def verdicts(
+        self, checks: Iterable[Check], *, may_call: Container[str]
+    ) -> dict[str, Verdict]:
         """Return how checks stand, by their lines.
 
         Args:
             checks: Of the graph.
-            may_call: Whether services may be called; else only what can be read is looked at.
+            may_call: Lines of checks for which a service may be called; parameters are only read.
         """
         wanted = {one.line: one for one in checks}
-        for check in wanted.values():
-            if check.kind == "parameter" or (check.kind == "answers" and may_call):
-                self._ask_again(check)
-        looked = [one for one in wanted.values() if one.kind not in {"answers", "parameter"}]
-        found = await asyncio.to_thread(self._look, looked)
-        for check in wanted.values():
-            if check.kind in {"answers", "parameter"}:
-                asked = self._asked.get(check.line)
-                found[check.line] = asked.verdict if asked else missing("control.none")
+        found, servers = await asyncio.to_thread(self._look, wanted.values())
+        for line, there in servers.items():
+            check = wanted[line]
+            may_ask = check.kind == "parameter" or line in may_call
+            if asked := self._compared(line, there, may_ask=may_ask):
+                if may_ask:
+                    self._ask_again(check, asked)
+                found[line] = asked.verdict
+            else:
+                found[line] = missing("control.none")
         return found
 
     async def close(self) -> None:
@@ -105,11 +122,26 @@ class GraphChecks:
 
     # What the graph has
 
-    def _look(self, checks: Iterable[Check]) -> dict[str, Verdict]:
-        """Look at what needs no question to a node; in another thread, for graphs may be large."""
-        if not self._link.is_connected:
-            return {one.line: missing("ros.lost") for one in checks}
-        return {one.line: _FORMS[one.kind](self, one.values) for one in checks}
+    def _look(self, checks: Iterable[Check]) -> _Looked:
+        """Look at all but the answers of nodes; in another thread, for graphs may be large."""
+        looked = _Looked({}, {})
+        is_connected = self._link.is_connected
+        for one in checks:
+            if not is_connected:
+                looked.verdicts[one.line] = missing("ros.lost")
+                continue
+            try:
+                if one.kind in _ASKED_KINDS:
+                    ends = self._link.graph.servers(_service_of(one))
+                    looked.servers[one.line] = frozenset(end.token for end in ends)
+                else:
+                    looked.verdicts[one.line] = _FORMS[one.kind](self, one.values)
+            except StudioError as error:
+                looked.verdicts[one.line] = missing("answer.failed", reason=error)
+        if self._frames is not None and time.monotonic() - self._frames.asked_s > _KEPT_S:
+            self._frames.close()
+            self._frames = None
+        return looked
 
     def node(self, values: _Values) -> Verdict:
         """`node /NAME runs`."""
@@ -175,40 +207,52 @@ class GraphChecks:
             return missing("publishers.none")
         measured = self._rates.get(topic)
         if measured is None or not measured.is_open:
-            try:
-                measured = self._rates[topic] = self._link.measure(topic, _MEASURED_S)
-            except StudioError as error:
-                return missing("answer.failed", reason=error)
-        flow = measured.flow()
+            measured = self._rates[topic] = self._link.measure(topic, _KEPT_S)
+        flow, now_s = measured.flow(), time.monotonic()
+        key = topic, values["rate"], values["percent"]
+        near_hz = wanted_hz * float(values["percent"]) / 100
+        is_near = flow.rate_hz > 0 and abs(flow.rate_hz - wanted_hz) <= near_hz
+        is_due = flow.age_s is not None and (
+            flow.age_s <= max(_OVERDUE_S, _OVERDUE_PERIODS / wanted_hz)
+        )
+        if is_near and is_due:
+            steady_s = now_s - self._steady_s.setdefault(key, now_s)
+            is_long = steady_s >= max(_STEADY_S, _STEADY_PERIODS / wanted_hz)
+            return HOLDS if is_long else missing("rate.waiting")
+        self._steady_s.pop(key, None)
         if flow.is_silent:
             return missing("rate.silent")
-        if not flow.rate_hz:
+        if is_near or not flow.rate_hz:
             return missing("rate.waiting")
-        if abs(flow.rate_hz - wanted_hz) <= wanted_hz * float(values["percent"]) / 100:
-            return HOLDS
         return missing("rate.other", rate=f"{flow.rate_hz:.2f}")
 
     def tf(self, values: _Values) -> Verdict:
         """`tf leads from PARENT to CHILD`."""
         if self._frames is None:
-            self._frames = _Frames(self._link)
-        try:
-            self._frames.buffer.chain(values["parent"], values["child"])
-        except UnknownFrameError as error:
-            return missing("tf.unknown", frame=error.frame)
-        except FrameError:
-            return missing("tf.unconnected")
-        return HOLDS
+            self._frames = Frames(self._link)
+        has_static = bool(self._link.graph.publishers("/tf_static"))
+        ends = values["parent"], values["child"]
+        roots = [self._frames.root_of(one, has_static=has_static) for one in ends]
+        for frame, root in zip(ends, roots, strict=True):
+            if root is None:
+                return missing("tf.unknown", frame=frame)
+        return HOLDS if roots[0] == roots[1] else missing("tf.unconnected")
 
     # What nodes answer
 
-    def _ask_again(self, check: Check) -> None:
-        asked = self._asked.setdefault(check.line, _Asked())
-        servers = frozenset(one.token for one in self._link.graph.servers(_service_of(check)))
-        if servers != asked.servers:
+    def _compared(self, line: str, servers: frozenset[str], *, may_ask: bool) -> _Asked | None:
+        """Return what was asked for a check, as far as it is about those who can answer now."""
+        asked = self._asked.get(line)
+        if asked is None:
+            if may_ask:
+                asked = self._asked[line] = _Asked(servers=servers)
+        elif servers != asked.servers:
             asked.servers, asked.at_s = servers, -math.inf
             if asked.verdict.ok:
                 asked.verdict = missing("answer.waiting")
+        return asked
+
+    def _ask_again(self, check: Check, asked: _Asked) -> None:
         rest_s = _AGAIN_WHEN_OK_S if asked.verdict.ok else _AGAIN_S
         if asked.task is None and time.monotonic() - asked.at_s >= rest_s:
             asked.task = asyncio.create_task(self._ask(check, asked))
@@ -226,7 +270,7 @@ class GraphChecks:
 
     async def _answer(self, values: _Values) -> Verdict:
         """`service /NAME answers RESPONSE to REQUEST`."""
-        types = dict(self._link.graph.services()).get(values["name"])
+        types = dict(await asyncio.to_thread(self._link.graph.services)).get(values["name"])
         if not types:
             return missing("service.none")
         reply = await self._called(values["name"], types[0], values["request"])
@@ -241,12 +285,12 @@ class GraphChecks:
     async def _parameter(self, values: _Values) -> Verdict:
         """`parameter /NODE NAME is VALUE`."""
         node, name = values["node"], values["name"]
-        if node not in self._link.node_names():
+        if node not in await asyncio.to_thread(self._link.node_names):
             return missing("node.none")
         kind, asked = "rcl_interfaces/srv/GetParameters", json.dumps({"names": [name]})
         reply = await self._called(_getter(node), kind, asked)
         found = cast("list[dict[str, Any]]", reply.get("values") or [{}])[0]
-        kept = _VALUE_FIELDS[int(found.get("type", 0))]
+        kept = dict(enumerate(_VALUE_FIELDS)).get(int(found.get("type", 0)))
         if not kept:
             return missing("parameter.none")
         value = found.get(kept)
@@ -255,8 +299,10 @@ class GraphChecks:
         return HOLDS if is_same(wanted, text) else missing("parameter.other", value=text[:_SHOWN])
 
     async def _called(self, name: str, type_name: str, text: str) -> dict[str, Any]:
+        """Raises: StudioError: Its type is not known here: no student's node is asked for it."""
         asked = _Request(name, type_name, text)
-        request = await asyncio.to_thread(ServiceRequest, self._link, asked)
+        kind = self._link.types.service(type_name)
+        request = await asyncio.to_thread(ServiceRequest, self._link, asked, kind)
         try:
             return json.loads(await request.answer(_CALL_S))
         finally:
@@ -304,36 +350,6 @@ def _with_qos(values: _Values, ends: list[GraphEndpoint], none: str) -> Verdict:
     ):
         return HOLDS
     return missing("qos.other", qos=" ".join(found[0]))
-
-
-class _Frames:
-    """The transforms of a system, received while a check asks for them."""
-
-    def __init__(self, link: WireLink) -> None:
-        self.buffer, self._codec, self._node = TransformBuffer(), TransformCodec(), link.node
-        node, kind = link.node, link.types.message("tf2_msgs/msg/TFMessage")
-        kept = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self._subscriptions: list[Subscription] = [
-            node.create_subscription(kind, "/tf_static", self._take_static, kept, raw=True),
-            node.create_subscription(kind, "/tf", self._take, 100, raw=True),
-        ]
-
-    def _take_static(self, data: bytes) -> None:
-        self._put(data, static=True)
-
-    def _take(self, data: bytes) -> None:
-        self._put(data, static=False)
-
-    def _put(self, data: bytes, *, static: bool) -> None:
-        try:
-            self.buffer.put(self._codec.decode(data), static=static)
-        except CdrError:
-            return  # the Frames panel says so
-
-    def close(self) -> None:
-        """Receive no more."""
-        for one in self._subscriptions:
-            self._node.destroy_subscription(one)
 
 
 _FORMS: Final[dict[str, Callable[[GraphChecks, _Values], Verdict]]] = {

@@ -9,11 +9,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.classroom.members import now_s
-from studio.course.demos import LESSONS
 from studio.course.lessons.checks import Concern
 from studio.course.lessons.text import LessonText, read_lesson
+from studio.documents.lessons.graphs import Graphs, Questions
 from studio.documents.lessons.model_checks import model_verdict
 from studio.documents.lessons.verdict import HOLDS, Verdict, missing
+from studio.documents.lessons.views import check_views, lesson_view, step_view, tick_of
 from studio.errors import StudioError
 from studio.protocol import lessons as protocol
 from studio.protocol.commands import Commands, Limits, Scope
@@ -30,30 +31,29 @@ from studio.protocol.lessons import (
     Lessons,
     LessonState,
     LessonTable,
-    LessonView,
     OpenLesson,
     ReadLesson,
     SaveLesson,
     SawPanel,
-    StepView,
 )
 from studio.protocol.listeners import send
+from studio.protocol.roles import owner_of
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Iterable
+    from collections.abc import Awaitable, Callable, Hashable, Iterable, Mapping
 
     from studio.classroom.classroom import Classroom
     from studio.course.lessons.checks import Check
     from studio.course.lessons.shelf import Lesson, Shelf
-    from studio.course.lessons.text import Step
     from studio.documents.document import Document
-    from studio.documents.lessons.graph_checks import GraphChecks
     from studio.live.connection.link import WireLink
+    from studio.protocol.changes import Subject
     from studio.protocol.listeners import Listener
 
 _LOOK_EVERY_S: Final = 0.5
-_NOTHING: Final = missing("")
+_LINK_S: Final = 3.0
 _NO_LINK: Final = missing("ros.none")
+_WAITING: Final = missing("answer.waiting")
 _PANELS_MAX: Final = 100
 """Panels that a page may have told of."""
 _log = logging.getLogger(__name__)
@@ -62,12 +62,8 @@ _log = logging.getLogger(__name__)
 class OpenDocuments(Protocol):
     """The engine."""
 
-    def document(self, name: str) -> Document:
-        """Return the open document of that id.
-
-        Raises:
-            StudioError: There is none.
-        """
+    def open_now(self, name: str) -> Document | None:
+        """Return the document of that id if it is open; a copy that rests is left to."""
         ...
 
 
@@ -82,11 +78,28 @@ class _Reader:
     panels: set[str] = field(default_factory=set[str])
     ticks: dict[str, float] = field(default_factory=dict[str, float])
     """Of who only looks: nothing is kept of them."""
-    sent: LessonState | None = None
+    sent: tuple[_Standing, tuple[float | None, ...]] | None = None
     link: WireLink | None = None
     owns_link: bool = False
     no_link: Verdict = _NO_LINK
     """Why there is none."""
+
+    @property
+    def asks_graph(self) -> bool:
+        """Whether a check of the lesson is about the ROS system."""
+        return any(one.concern is Concern.GRAPH for one in _checks_of(self.text))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Standing:
+    """How the checks of a lesson stand, for all who see the same."""
+
+    text: LessonText
+    verdicts: dict[str, Verdict]
+    checks: tuple[tuple[CheckView, ...], ...]
+    """Of each step."""
+    held: tuple[bool, ...]
+    """Which steps are done if they were not before."""
 
 
 class LessonRoom:
@@ -99,7 +112,7 @@ class LessonRoom:
         engine: Has the documents.
         classroom: Has the people, and keeps what they have done.
         link_of: Returns the ROS system of a person, and whether it is theirs alone.
-        changed: Called when somebody has done a step, or reads another lesson.
+        changed: Called with what changed: the list of lessons, or who reads and has done what.
     """
 
     def __init__(
@@ -108,12 +121,16 @@ class LessonRoom:
         engine: OpenDocuments,
         classroom: Classroom,
         link_of: Callable[[str], Awaitable[tuple[WireLink | None, bool]]],
-        changed: Callable[[], object],
+        changed: Callable[[Subject], object],
     ) -> None:
         self._shelf, self._engine, self._classroom = shelf, engine, classroom
         self._link_of, self._changed = link_of, changed
         self._readers: dict[Listener, _Reader] = {}
-        self._graphs: dict[WireLink, GraphChecks] = {}
+        self._opening: dict[Listener, object] = {}
+        """What a page opens now; an older one that is found later counts no more."""
+        self._graphs = Graphs()
+        self._standings: dict[Hashable, _Standing] = {}
+        """Of the last look."""
         self._looking: asyncio.Task[None] | None = None
         self._closed = False
 
@@ -123,12 +140,13 @@ class LessonRoom:
         if self._looking is not None:
             self._looking.cancel()
             await asyncio.gather(self._looking, return_exceptions=True)
-        await self._let_go(set())
+        await self._graphs.close()
 
     def detach(self, page: Listener) -> None:
         """Forget a page; it need not read."""
+        self._opening.pop(page, None)
         if self._readers.pop(page, None):
-            self._changed()
+            self._changed("ticks")
 
     # Texts
 
@@ -138,7 +156,7 @@ class LessonRoom:
         ticks = self._kept_ticks(asker) or {}
         return Lessons(
             request=command.request,
-            lessons=tuple(_view(lesson, text, ticks) for lesson, text in found),
+            lessons=tuple(lesson_view(lesson, text, ticks) for lesson, text in found),
         )
 
     def _read_all(self) -> list[tuple[Lesson, LessonText]]:
@@ -172,20 +190,20 @@ class LessonRoom:
         for reader in self._readers.values():
             if reader.lesson == lesson.name:
                 reader.text = text
-        self._changed()
+        self._changed("lesson_list")
 
     async def delete(self, command: DeleteLesson) -> None:
         """Delete a lesson that was written in the page; errors as for `save`."""
         await asyncio.to_thread(self._shelf.delete, command.lesson)
-        self._changed()
+        self._changed("lesson_list")
 
-    def read(self, command: ReadLesson) -> LessonRead:
+    async def read(self, command: ReadLesson) -> LessonRead:
         """Return what is faulty in a text, and its steps."""
-        text = read_lesson(command.text)
+        text = await asyncio.to_thread(read_lesson, command.text)
         return LessonRead(
             request=command.request,
             faults=tuple(LessonFault(line=one.line, sentence=one.sentence) for one in text.faults),
-            steps=tuple(_step_view(step, {}, None) for step in text.steps),
+            steps=tuple(step_view(step) for step in text.steps),
         )
 
     # Reading
@@ -196,14 +214,22 @@ class LessonRoom:
         Raises:
             LessonError: There is none, or it cannot be read.
         """
-        lesson = await asyncio.to_thread(self._shelf.find, command.lesson)
-        text = await asyncio.to_thread(lesson.read)
+        this = self._opening[page] = object()
+        try:
+            lesson = await asyncio.to_thread(self._shelf.find, command.lesson)
+            text = await asyncio.to_thread(lesson.read)
+        finally:
+            is_newest = self._opening.get(page) is this
+            if is_newest:
+                del self._opening[page]
+        if not is_newest:  # another one was opened meanwhile, or none any more
+            return
         before = self._readers.get(page)
         reader = _Reader(page, lesson.name, text, command.document)
         if before is not None and before.lesson == lesson.name:
             reader.panels, reader.ticks = before.panels, before.ticks
         self._readers[page] = reader
-        self._changed()
+        self._changed("ticks")
         if self._looking is None or self._looking.done():
             self._looking = asyncio.create_task(self._keep_looking())
 
@@ -220,108 +246,133 @@ class LessonRoom:
             except Exception:  # noqa: BLE001 - what fails once must not end it for all
                 _log.exception("The checks of a lesson failed.")
             await asyncio.sleep(_LOOK_EVERY_S)
-        await self._let_go(set())
+            if not self._readers:
+                await self._graphs.close()
 
     async def look(self) -> None:
         """Look once at all that somebody reads, and tell them what changed."""
         readers = tuple(self._readers.values())
-        await asyncio.gather(*map(self._find_link, readers))
-        graph = await self._look_at_graphs(readers)
+        await asyncio.gather(*(self._find_link(one) for one in readers if one.asks_graph))
+        graphs = await self._graphs.look(self._questions(readers))
+        standings: dict[Hashable, _Standing] = {}
         models: dict[tuple[str, str], Verdict] = {}
         has_new = False
         for reader in readers:
-            if self._readers.get(reader.page) is reader:
-                has_new |= self._tell(reader, graph.get(reader.link, {}), models)
+            if self._readers.get(reader.page) is not reader:
+                continue
+            group = self._group(reader)
+            if group not in standings:
+                verdicts = self._verdicts(reader, graphs, models)
+                standings[group] = self._standing(group, reader.text, verdicts)
+            has_new |= self._tell(reader, standings[group])
+        self._standings = standings
         if has_new:
-            self._changed()
+            self._changed("ticks")
             await self._classroom.keep_ticks()
 
     async def _find_link(self, reader: _Reader) -> None:
         try:
-            reader.link, reader.owns_link = await self._link_of(reader.page.person)
+            async with asyncio.timeout(_LINK_S):
+                reader.link, reader.owns_link = await self._link_of(reader.page.person)
             reader.no_link = _NO_LINK
+        except TimeoutError:
+            reader.link, reader.no_link = None, _WAITING
         except StudioError as error:
             reader.link, reader.no_link = None, missing("answer.failed", reason=error)
+        except Exception:  # noqa: BLE001 - of one person: the others' lessons go on
+            _log.exception("The ROS system of %s could not be found.", reader.page.person)
+            reader.link, reader.no_link = None, _WAITING
 
-    async def _look_at_graphs(
-        self, readers: Iterable[_Reader]
-    ) -> dict[WireLink | None, dict[str, Verdict]]:
-        """Return how the checks of the graph stand, by system and line."""
-        wanted: dict[WireLink, dict[str, Check]] = defaultdict(dict)
-        callers: set[WireLink] = set()
+    def _questions(self, readers: Iterable[_Reader]) -> dict[WireLink, Questions]:
+        asked: dict[WireLink, Questions] = defaultdict(Questions)
         for reader in readers:
-            checks = [one for one in _checks_of(reader.text) if one.concern is Concern.GRAPH]
-            if reader.link is not None and checks:
-                wanted[reader.link] |= {one.line: one for one in checks}
-                if self._may_call(reader):
-                    callers.add(reader.link)
-        await self._let_go(set(wanted))
-        found: dict[WireLink | None, dict[str, Verdict]] = {}
-        for link, checks in wanted.items():
-            looking = self._graphs.get(link) or self._graphs.setdefault(link, _graph_checks(link))
-            try:
-                found[link] = await looking.verdicts(checks.values(), may_call=link in callers)
-            except StudioError as error:  # the connection ended meanwhile
-                found[link] = dict.fromkeys(checks, missing("answer.failed", reason=error))
-        return found
+            if reader.link is None or not reader.asks_graph:
+                continue
+            checks = {
+                one.line: one for one in _checks_of(reader.text) if one.concern is Concern.GRAPH
+            }
+            asked[reader.link].checks |= checks
+            # It is theirs alone, or they have control of the class's.
+            if reader.owns_link or self._classroom.has_control(reader.page):
+                asked[reader.link].may_call |= checks.keys()
+        return asked
 
-    def _may_call(self, reader: _Reader) -> bool:
-        """Whether a service may be called for a reader: it is theirs, or they have control."""
-        return reader.owns_link or self._classroom.has_control(reader.page)
+    def _group(self, reader: _Reader) -> Hashable:
+        """Return what is the same for all who see the same."""
+        why = None if reader.link else (reader.no_link.code, *reader.no_link.found.values())
+        document = self._document_of(reader)
+        name = "" if document is None else document.id
+        asked = {one.values.get("panel") for one in _checks_of(reader.text)}
+        return id(reader.text), name, reader.link, why, frozenset(reader.panels & asked)
 
-    async def _let_go(self, kept: set[WireLink]) -> None:
-        for link in self._graphs.keys() - kept:
-            await self._graphs.pop(link).close()
+    def _document_of(self, reader: _Reader) -> Document | None:
+        """Return what is checked: nothing that its page may not see, and no copy that rests."""
+        is_seen = reader.page.sees(reader.document)
+        return self._engine.open_now(reader.document) if is_seen else None
 
-    def _tell(
-        self, reader: _Reader, graph: dict[str, Verdict], models: dict[tuple[str, str], Verdict]
-    ) -> bool:
-        """Send a page how its lesson stands, if that changed; return whether a step is new."""
-        verdicts = {
-            one.line: self._verdict(one, reader, graph, models) for one in _checks_of(reader.text)
-        }
-        ticks = self._ticks(reader)
-        new = [
-            key
-            for step in reader.text.steps
-            if step.checks and (key := _key(reader.lesson, step)) not in ticks
-            if all(verdicts[one.line].ok for one in step.checks)
-        ]
-        ticks.update(dict.fromkeys(new, now_s()))
-        state = LessonState(
-            lesson=reader.lesson,
-            steps=tuple(
-                _step_view(step, verdicts, ticks.get(_key(reader.lesson, step)))
-                for step in reader.text.steps
+    def _standing(
+        self, group: Hashable, text: LessonText, verdicts: dict[str, Verdict]
+    ) -> _Standing:
+        """Return how a lesson stands; the same as at the last look if nothing changed."""
+        last = self._standings.get(group)
+        if last is not None and last.verdicts == verdicts:
+            return last
+        return _Standing(
+            text,
+            verdicts,
+            tuple(check_views(step, verdicts) for step in text.steps),
+            tuple(
+                bool(step.checks)
+                and not step.faulty
+                and all(verdicts[one.line].ok for one in step.checks)
+                for step in text.steps
             ),
         )
-        if state != reader.sent:
-            reader.sent = state
+
+    def _tell(self, reader: _Reader, standing: _Standing) -> bool:
+        """Send a page how its lesson stands, if that changed; return whether a step is new."""
+        ticks = self._ticks(reader)
+        keys = [tick_of(reader.lesson, step) for step in reader.text.steps]
+        new = [
+            key
+            for key, holds in zip(keys, standing.held, strict=True)
+            if holds and key not in ticks
+            if owner_of(reader.document) in {"", reader.page.person}  # what they did themselves
+        ]
+        ticks.update(dict.fromkeys(new, now_s()))
+        done_s = tuple(map(ticks.get, keys))
+        if reader.sent is None or reader.sent[0] is not standing or reader.sent[1] != done_s:
+            reader.sent = standing, done_s
+            steps = zip(reader.text.steps, standing.checks, done_s, strict=True)
+            state = LessonState(
+                lesson=reader.lesson, steps=tuple(step_view(*step) for step in steps)
+            )
             send(reader.page, state)
         return bool(new)
 
-    def _verdict(
+    def _verdicts(
         self,
-        check: Check,
         reader: _Reader,
-        graph: dict[str, Verdict],
+        graphs: Mapping[WireLink, dict[str, Verdict]],
         models: dict[tuple[str, str], Verdict],
-    ) -> Verdict:
-        if check.concern is Concern.PAGE:
-            return HOLDS if check.values["panel"] in reader.panels else missing("opened.none")
-        if check.concern is Concern.GRAPH:
-            return graph.get(check.line) or reader.no_link
-        known = reader.document, check.line
-        if known not in models:
-            models[known] = self._of_model(check, reader.document)
-        return models[known]
-
-    def _of_model(self, check: Check, name: str) -> Verdict:
-        try:
-            document = self._engine.document(name)
-        except StudioError:
-            return missing("document.none")
-        return model_verdict(check.kind, check.values, document)
+    ) -> dict[str, Verdict]:
+        graph = graphs.get(reader.link, {}) if reader.link else {}
+        document = self._document_of(reader)
+        found: dict[str, Verdict] = {}
+        for one in _checks_of(reader.text):
+            if one.concern is Concern.PAGE:
+                is_seen = one.values["panel"] in reader.panels
+                found[one.line] = HOLDS if is_seen else missing("opened.none")
+            elif one.concern is Concern.GRAPH:
+                found[one.line] = graph.get(one.line, reader.no_link)
+            elif document is None:
+                found[one.line] = missing("document.none")
+            else:
+                known = document.id, one.line
+                if known not in models:
+                    models[known] = model_verdict(one.kind, one.values, document)
+                found[one.line] = models[known]
+        return found
 
     # What is done
 
@@ -340,12 +391,12 @@ class LessonRoom:
         """
         lesson = await asyncio.to_thread(self._shelf.find, command.lesson)
         steps = (await asyncio.to_thread(lesson.read)).steps
-        keys = [_key(lesson.name, step) for step in steps]
+        keys = [tick_of(lesson.name, step) for step in steps]
         reading = {one.page.person for one in self._readers.values() if one.lesson == lesson.name}
         return LessonTable(
             request=command.request,
             lesson=lesson.name,
-            steps=tuple(_step_view(step, {}, None) for step in steps),
+            steps=tuple(step_view(step) for step in steps),
             rows=tuple(
                 LessonRow(
                     person=one.person,
@@ -360,60 +411,18 @@ class LessonRoom:
         )
 
 
-def _graph_checks(link: WireLink) -> GraphChecks:
-    from studio.documents.lessons.graph_checks import GraphChecks  # noqa: PLC0415 - imports zenoh
-
-    return GraphChecks(link)
-
-
 def _checks_of(text: LessonText) -> Iterable[Check]:
     return (check for step in text.steps for check in step.checks)
 
 
-def _key(lesson: str, step: Step) -> str:
-    return f"{lesson}/{step.id}"
-
-
-def _step_view(step: Step, verdicts: dict[str, Verdict], done_s: float | None) -> StepView:
-    return StepView(
-        id=step.id,
-        heading=step.heading,
-        done_s=done_s,
-        checks=tuple(_check_view(one, verdicts.get(one.line, _NOTHING)) for one in step.checks),
-    )
-
-
-def _check_view(check: Check, verdict: Verdict) -> CheckView:
-    return CheckView(
-        kind=check.kind,
-        line=check.line,
-        values=dict(check.values),
-        ok=verdict.ok,
-        code=verdict.code,
-        found=verdict.found,
-    )
-
-
-def _view(lesson: Lesson, text: LessonText, ticks: dict[str, float]) -> LessonView:
-    demo = LESSONS.get(lesson.name)
-    return LessonView(
-        name=lesson.name,
-        chapter=lesson.chapter,
-        node=demo.node if demo and not lesson.own else "",
-        has_keys=bool(demo and demo.has_keys and not lesson.own),
-        own=lesson.own,
-        writable=lesson.writable,
-        steps=len(text.steps),
-        done=sum(_key(lesson.name, step) in ticks for step in text.steps),
-    )
-
-
 _READ: Final = Limits(bytes_max=400_000, per_second=5)
 _OFTEN: Final = Limits(bytes_max=1_000, per_second=10)
+_TEXTS: Final = Limits(bytes_max=1_000, per_second=100)
+"""A page asks for all texts of a teacher's folder at once."""
 
 COMMANDS: Final = Commands[LessonRoom](Scope.STUDIO)
 COMMANDS.viewer(GetLessons, lambda room, c, who: room.lessons(c, who), limits=_OFTEN)
-COMMANDS.viewer(GetLessonText, lambda room, c, _: room.text(c))
+COMMANDS.viewer(GetLessonText, lambda room, c, _: room.text(c), limits=_TEXTS)
 COMMANDS.viewer(OpenLesson, lambda room, c, who: room.open(c, who), limits=_OFTEN)
 COMMANDS.viewer(CloseLesson, lambda room, _, who: room.detach(who), limits=_OFTEN)
 COMMANDS.viewer(SawPanel, lambda room, c, who: room.saw(c, who), limits=_OFTEN)

@@ -20,6 +20,7 @@ _PAUSES_S: Final[dict[Subject, float]] = {
     "diagnostics": 0.5,
     "goal_statuses": 0.5,
     "lessons": 0.2,
+    "lesson_list": 0.5,
     "ticks": 0.5,
 }
 

@@ -88,7 +88,10 @@ def test_what_is_no_check_is_refused_with_the_form_that_it_is_most_like(line: st
     assert FAULTS[line] in str(refused.value)
 
 
-@given(st.text(max_size=500))
+NEARLY = st.one_of([st.from_regex(form.pattern) for form in FORMS])
+
+
+@given(st.text(max_size=500) | NEARLY)
 def test_any_line_is_a_check_or_refused(line: str):
     try:
         check = read_check(line)

@@ -16,7 +16,7 @@ from studio.errors import (
     StudioError,
     UnknownDocumentError,
 )
-from studio.protocol.classroom import GiveControl, ReturnControl
+from studio.protocol.classroom import GiveControl, ReturnControl, SetMemberRole
 from studio.protocol.copies import DiscardCopy, HandIn, OpenCopy, SendBack, ShowCopy
 from studio.protocol.displays import AddDisplay, RemoveDisplay, SwitchDisplays
 from studio.protocol.documents import Watch
@@ -26,7 +26,7 @@ from studio.protocol.roles import Role, Visitor
 from studio.protocol.saving import Save, UndoTo
 from studio.protocol.texts import EditText, GetText, TextChange
 from studio.protocol.variants import SaveVariant
-from tests.support.class_room import Room, run
+from tests.support.class_room import Page, Room, run
 from tests.support.open_documents import until
 
 if TYPE_CHECKING:
@@ -109,6 +109,38 @@ def test_it_is_its_owners_alone_until_it_is_shown(tmp_path: Path):
             await room.ask(bob, edit)
         await room.ask(room.presenter, ShowCopy(document=copy.id, shown=False))
         assert await refused(room.ask(bob, Watch(document=copy.id))) == "UnknownDocumentError"
+
+    run(tmp_path, work)
+
+
+def test_one_copy_at_a_time_is_shown_and_who_may_not_look_any_more_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(module, "_LOOK_EVERY_S", 0.05)
+
+    def looks(page: Page, copy: Document) -> bool:
+        return page in copy.audience
+
+    async def work(room: Room) -> None:
+        ada, bob, eve = [await room.student(name) for name in ("Ada", "Bob", "Eve")]
+        of_ada, of_bob = await room.copy(ada), await room.copy(bob)
+        for owner, copy in ((ada, of_ada), (bob, of_bob)):
+            await room.ask(owner, Watch(document=copy.id))
+        await room.ask(room.presenter, ShowCopy(document=of_ada.id))
+        await room.ask(eve, Watch(document=of_ada.id))
+        await room.ask(room.presenter, ShowCopy(document=of_bob.id, shown=False))
+        assert looks(eve, of_ada)  # another one was hidden
+        await room.ask(room.presenter, ShowCopy(document=of_bob.id))
+        assert not looks(eve, of_ada)
+        assert looks(ada, of_ada)
+        assert eve.last("gone")["document"] == of_ada.id
+        await room.ask(room.presenter, SetMemberRole(role="helper", person=eve.person))
+        await room.ask(eve, Watch(document=of_ada.id))
+        await room.ask(room.presenter, SetMemberRole(role="student", person=eve.person))
+        await until(lambda: not looks(eve, of_ada))
+        await room.ask(bob, DiscardCopy(document=of_bob.id))
+        again = await room.copy(bob)
+        assert await refused(room.ask(eve, Watch(document=again.id))) == "UnknownDocumentError"
 
     run(tmp_path, work)
 

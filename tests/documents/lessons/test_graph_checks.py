@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.course.lessons.checks import read_check
+from studio.documents.lessons import frames
 from studio.documents.lessons import graph_checks as module
 from studio.documents.lessons.graph_checks import GraphChecks
 from studio.live.connection.link import WireLink
 from studio.ros.client import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.messages import message, service
+from studio.ros.types.library import TypeLibrary
 from studio.settings import WireChoice
 from tests.support.demos import node_at
 from tests.support.wire import PATIENCE_S, free_endpoint, router_at
@@ -38,7 +40,8 @@ class Looking:
         self.checks = checks
 
     async def now(self, line: str, *, may_call: bool = True) -> Verdict:
-        return (await self.checks.verdicts([read_check(line)], may_call=may_call))[line]
+        lines = {line} if may_call else set[str]()
+        return (await self.checks.verdicts([read_check(line)], may_call=lines))[line]
 
     async def until(self, line: str, code: str = "") -> Verdict:
         async with asyncio.timeout(PATIENCE_S):
@@ -59,7 +62,7 @@ async def looking(endpoint: str) -> AsyncGenerator[Looking]:
         await asyncio.to_thread(link.close)
 
 
-def with_node(work: Callable[[Looking, Node], Any]) -> None:
+def with_node(work: Callable[[Looking, Node], Any], types: TypeLibrary | None = None) -> None:
     """Look at the graph of a router with one node."""
 
     async def begin(endpoint: str, node: Node) -> None:
@@ -67,7 +70,7 @@ def with_node(work: Callable[[Looking, Node], Any]) -> None:
             await work(checks, node)
 
     endpoint = free_endpoint()
-    with router_at(endpoint), node_at(endpoint, "sensor") as node:
+    with router_at(endpoint), node_at(endpoint, "sensor", types) as node:
         asyncio.run(begin(endpoint, node))
 
 
@@ -169,14 +172,87 @@ def test_a_parameter_has_its_value(monkeypatch: pytest.MonkeyPatch):
     with_node(work)
 
 
-def test_frames_lead_from_one_to_another():
-    kind, stamped = message("tf2_msgs/msg/TFMessage"), message("geometry_msgs/msg/TransformStamped")
+def test_a_rate_that_is_right_for_a_moment_only_is_not_right():
+    async def work(checks: Looking, node: Node) -> None:
+        line = "topic /temperature comes at 20 Hz ± 50 %"
+        publisher = node.create_publisher(TEMPERATURE, "/temperature", 10)
+        await checks.until(line, "rate.waiting")
+        timer = node.create_timer(0.05, lambda: publisher.publish(TEMPERATURE()))
+        rate = node_rate(checks, "/temperature")
+        while not 15 < rate() < 25:
+            assert not (await checks.now(line)).ok
+        timer.cancel()
+        codes: set[str] = set()
+        while "rate.silent" not in codes:
+            codes.add((await checks.now(line)).code)
+        assert "" not in codes
 
-    def transform(parent: str, child: str) -> Any:  # noqa: ANN401 - made at run time
-        made = stamped(child_frame_id=child)
-        made.header.frame_id = parent
-        made.transform.rotation.w = 1.0
-        return made
+    with_node(work)
+
+
+def node_rate(checks: Looking, topic: str) -> Callable[[], float]:
+    """What the studio measures."""
+    link = checks.checks._link  # pyright: ignore[reportPrivateUsage]
+    measured = link.measure(topic, 60.0)
+    return lambda: measured.flow().rate_hz
+
+
+def test_the_type_of_a_service_that_is_not_known_is_asked_of_nobody(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    monkeypatch.setattr(module, "_AGAIN_S", 0.1)
+    library = TypeLibrary("jazzy")
+    library.add_texts({"odd_msgs/srv/Odd": "int64 a\n---\nint64 sum\n"})
+
+    async def work(checks: Looking, node: Node) -> None:
+        node.create_service(library.service("odd_msgs/srv/Odd"), "/odd", lambda _, answer: answer)
+        line = "service /odd answers {sum: 0} to {a: 1}"
+        found = await checks.until(line, "answer.failed")
+        assert "odd_msgs/srv/Odd" in found.found["reason"]
+
+    with_node(work, library)
+
+
+def transform(parent: str, child: str) -> Any:  # noqa: ANN401 - made at run time
+    made = message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    made.header.frame_id = parent
+    made.transform.rotation.w = 1.0
+    return made
+
+
+def test_a_frame_is_gone_when_nobody_sends_it_any_more(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(frames, "_GONE_S", 0.3)
+    monkeypatch.setattr(module, "_KEPT_S", 0.3)
+    monkeypatch.setattr(frames, "FRAMES_MAX", 3)
+    kind = message("tf2_msgs/msg/TFMessage")
+    moving, still = "tf leads from odom to base_link", "tf leads from map to odom"
+
+    async def work(checks: Looking, node: Node) -> None:
+        kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        static = node.create_publisher(kind, "/tf_static", kept)
+        static.publish(kind(transforms=[transform("map", "/odom")]))
+        publisher = node.create_publisher(kind, "/tf", 10)
+        many = [transform("a", f"b{number}") for number in range(9)]
+        sent = kind(transforms=[transform("/odom", "base_link"), *many])
+        timer = node.create_timer(0.05, lambda: publisher.publish(sent))
+        await checks.until(moving)
+        await checks.until(still)
+        await checks.until("tf leads from a to b8", "tf.unknown")
+        timer.cancel()
+        await checks.until(moving, "tf.unknown")
+        await checks.until(still)
+        node.destroy_publisher(static)
+        await checks.until(still, "tf.unknown")
+        await checks.until("topic /tf has 0 subscriptions")
+        subscribed = node.count_subscribers
+        while subscribed("/tf") > 0:  # the studio lets go, too
+            await checks.now("node /sensor runs")
+
+    with_node(work)
+
+
+def test_frames_lead_from_one_to_another():
+    kind = message("tf2_msgs/msg/TFMessage")
 
     async def work(checks: Looking, node: Node) -> None:
         line = "tf leads from odom to base_link"

@@ -158,7 +158,8 @@ class Reader:
         try:
             async with asyncio.timeout(PATIENCE_S):
                 while True:
-                    found = await self._checks.verdicts(checks, may_call=True)
+                    lines = {one.line for one in checks}
+                    found = await self._checks.verdicts(checks, may_call=lines)
                     left = {line: one.code for line, one in found.items() if not one.ok}
                     if left.keys() == set(missing):
                         return

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.course.lessons.shelf import Shelf
 from studio.documents.lessons import lesson_room as module
 from studio.errors import CommandError, LessonError, StudioError
 from studio.protocol.classroom import EndClass
+from studio.protocol.copies import ShowCopy
+from studio.protocol.documents import Watch
 from studio.protocol.edits import EditSite, Undo
 from studio.protocol.lessons import (
     CloseLesson,
@@ -30,6 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
+    from studio.course.lessons.shelf import Lesson
     from studio.documents.document import Document
     from studio.documents.lessons.verdict import Verdict
 
@@ -224,7 +229,11 @@ def test_the_faults_of_a_text_are_told_before_it_is_saved(tmp_path: Path):
         await room.ask(room.presenter, ReadLesson(text=text))
         read = room.presenter.last("lesson_read")
         assert [one["line"] for one in read["faults"]] == [1, 3]
-        assert [len(one["checks"]) for one in read["steps"]] == [1]
+        (step,) = read["steps"]
+        assert [(one["kind"], one["line"], one["code"]) for one in step["checks"]] == [
+            ("no_errors", "no errors", ""),
+            ("", "node talker runs", "check.faulty"),
+        ]
 
     run(tmp_path, work)
 
@@ -264,6 +273,110 @@ def test_all_who_read_the_same_cost_one_look(tmp_path: Path, monkeypatch: pytest
         sent = [len(page.events) for page in pages]
         await room.engine.lessons.look()  # nothing changed, so nothing is sent
         assert [len(page.events) for page in pages] == sent
+
+    run(tmp_path, work, lesson_folders=(given(tmp_path),))
+
+
+def test_of_a_copy_that_is_shown_all_see_how_it_stands_and_only_its_owner_has_done_it(
+    tmp_path: Path,
+):
+    async def work(room: Room) -> None:
+        ada, bob = await room.student("Ada"), await room.student("Bob")
+        copy = await room.copy(ada)
+        await room.ask(ada, Watch(document=copy.id))
+        radius = site(copy, "wheel_radius")
+        await room.ask(ada, EditSite(document=copy.id, site=radius, text="0.15"))
+        open_it = OpenLesson(document=copy.id, lesson="wheel")
+        await room.ask(room.presenter, ShowCopy(document=copy.id))
+        for page in (ada, bob):
+            await room.ask(page, open_it)
+        await until(lambda: codes(bob)[:2] == ["", ""] and done(ada)[0])
+        assert done(bob) == [False, False, False]
+        await room.ask(room.presenter, ShowCopy(document=copy.id, shown=False))
+        await until(lambda: codes(bob)[0] == "document.none")
+        assert codes(ada)[0] == ""
+
+    run(tmp_path, work, lesson_folders=(given(tmp_path),))
+
+
+def test_a_copy_that_rests_is_not_woken_by_who_reads(tmp_path: Path):
+    async def work(room: Room) -> None:
+        ada = await room.student("Ada")
+        copy = await room.copy(ada)
+        await room.ask(ada, OpenLesson(document=copy.id, lesson="wheel"))
+        await until(lambda: codes(ada)[:1] == ["property.other"])
+        await room.engine.copies._rest(copy.id)  # pyright: ignore[reportPrivateUsage]
+        await until(lambda: codes(ada)[0] == "document.none")
+        assert room.engine.copies.awake(copy.id) is None
+
+    run(tmp_path, work, lesson_folders=(given(tmp_path),))
+
+
+def test_the_lesson_that_was_opened_last_is_read_though_another_is_found_later(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    given(tmp_path, "# Slow\n\ncheck: link mast is there\n", "slow")
+
+    async def work(room: Room) -> None:
+        ada = await room.student("Ada")
+        find, may_find = Shelf.find, threading.Event()
+
+        def slowly(shelf: Shelf, name: str) -> Lesson:
+            assert name != "slow" or may_find.wait(60)
+            return find(shelf, name)
+
+        monkeypatch.setattr(Shelf, "find", slowly)
+        slow = OpenLesson(document=room.shared.id, lesson="slow")
+        for newer in (OpenLesson(document=room.shared.id, lesson="wheel"), CloseLesson()):
+            may_find.clear()
+            opening = asyncio.create_task(room.ask(ada, slow))
+            await asyncio.sleep(0)  # it is under way
+            await room.ask(ada, newer)
+            may_find.set()
+            await opening
+            await until(lambda: len(steps(ada)) == 3)
+        ada.events.clear()
+        await room.engine.lessons.look()
+        assert ada.events == []
+
+    run(tmp_path, work, lesson_folders=(given(tmp_path),))
+
+
+def test_a_step_with_a_line_that_is_no_check_is_never_done_and_says_so(tmp_path: Path):
+    async def work(room: Room) -> None:
+        ada = await room.student("Ada")
+        await room.ask(ada, OpenLesson(document=room.shared.id, lesson="faulty"))
+        await until(lambda: len(codes(ada)) == 2 and is_told(ada))
+        assert codes(ada) == ["", "check.faulty"]
+        assert done(ada) == [False]
+
+    text = "# Faulty\n\ncheck: link mast is there\ncheck: link mast is here\n"
+    run(tmp_path, work, lesson_folders=(given(tmp_path, text, "faulty"),))
+
+
+def test_one_whose_system_cannot_be_found_keeps_nobody_else_waiting(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(module, "_LINK_S", 0.1)
+
+    async def work(room: Room) -> None:
+        ada, bob, eve = [await room.student(name) for name in ("Ada", "Bob", "Eve")]
+
+        async def system_of(person: str) -> tuple[None, bool]:
+            if person == ada.person:
+                await asyncio.Event().wait()
+            if person == bob.person:
+                raise RuntimeError
+            return None, False
+
+        monkeypatch.setattr(room.engine.lessons, "_link_of", system_of)
+        for page in (ada, bob, eve):
+            await room.ask(page, OpenLesson(document=room.shared.id, lesson="wheel"))
+        await until(lambda: all(map(is_told, (ada, bob, eve))))
+        assert [codes(one)[-1] for one in (ada, bob, eve)] == [
+            *("answer.waiting", "answer.waiting"),
+            "ros.none",
+        ]
 
     run(tmp_path, work, lesson_folders=(given(tmp_path),))
 
