@@ -12,7 +12,7 @@ from typing import IO
 
 _WATCH_INTERVAL_S = 0.2
 _DESCRIPTORS = 16_384
-_NICE = 15
+_NICE = 10
 
 
 def limit_memory(limit_bytes: int) -> None:

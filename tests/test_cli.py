@@ -141,10 +141,9 @@ def test_every_mistake_is_one_sentence(tmp_path: Path):
     assert "name:=value" in one_sentence(run("open", str(ROBOT), "a:=b:=c", *data))
     unusable = str(tmp_path / "file" / "data")
     assert "choose --data-dir" in one_sentence(run("demo", "--data-dir", unusable))
-    beyond = one_sentence(run("demo", "--no-token", "--host", "0.0.0.0", *data))
-    assert "--no-token is only for this machine" in beyond
-    trusting = one_sentence(run("demo", "--trust", "--host", "0.0.0.0", *data))
-    assert "--trust is only for this machine" in trusting
+    for words in (("--no-token",), ("--host", "0.0.0.0"), ("--share", "--host", "127.0.0.1")):
+        refused = one_sentence(run("demo", "--trust", *words, *data))
+        assert "--trust is for you alone" in refused
 
 
 def test_a_taken_port_is_one_sentence(tmp_path: Path):

@@ -105,9 +105,9 @@ def test_a_process_goes_behind_all_others_and_its_robot_comes_back_after_it_was_
             answer = await worker.open(OpenRequest(str(file), {}, policy, {}))
             assert "base" in str(answer)
             assert worker.pid is not None
-            assert os.getpriority(os.PRIO_PROCESS, worker.pid) >= 15
+            assert os.getpriority(os.PRIO_PROCESS, worker.pid) >= 10
             group = Path(f"/proc/{worker.pid}/autogroup")
-            assert not group.exists() or group.read_text().rstrip().endswith("nice 15")
+            assert not group.exists() or group.read_text().rstrip().endswith("nice 10")
         assert (two.pid, two.needs_reopen) == (None, True)
         await one.close()
         await two.close()
