@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from typing import TYPE_CHECKING, Final
+from weakref import WeakSet
 
 from studio.description.language.questions import CompletionQuery, LookUpQuery
 from studio.description.origins.origin_values import PartOriginQuery
@@ -79,7 +80,7 @@ class QuestionQueue:
 
     def __init__(self) -> None:
         self._waiting: list[Waiting] = []
-        self._served: set[Listener] = set()
+        self._served: WeakSet[Listener] = WeakSet()
         """Askers of the last answer: the next one goes to another viewer, if one waits."""
 
     def __len__(self) -> int:
@@ -104,9 +105,9 @@ class QuestionQueue:
         ready = [one for one in self._waiting if not (is_held and _is_long(one.query))]
         if not ready:
             return None
-        taken = min(ready, key=lambda one: (_is_viewers(one), one.askers <= self._served))
+        taken = min(ready, key=lambda one: (_is_viewers(one), self._served.issuperset(one.askers)))
         self._waiting.remove(taken)
-        self._served = taken.askers
+        self._served = WeakSet(taken.askers)
         return taken
 
     def cancel(self) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 from typing import TYPE_CHECKING
+from weakref import ref
 
 import pytest
 
@@ -173,5 +175,18 @@ def test_strangers_without_a_number_keep_no_more_than_the_limit_waiting():
         assert presenters.result() == NoReply(str(effects("mine")))
         for answer in asked[:4]:
             answer.exception()
+
+    on_a_loop(story)
+
+
+def test_who_has_gone_is_held_by_nothing():
+    def story() -> None:
+        queue, asker = QuestionQueue(), Ear()
+        gone = ref(asker)
+        queue.add(effects("a"), asker)
+        assert len(taken(queue)) == 1
+        del asker
+        gc.collect()
+        assert gone() is None
 
     on_a_loop(story)

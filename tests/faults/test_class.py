@@ -48,20 +48,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
 def _as_if_new(served: ServedClass, caplog: pytest.LogCaptureFixture) -> Iterator[None]:
     """Nobody is left of the test before, and nothing went wrong that only the log tells."""
     yield
-    try:
-        wait_until("all to be gone", lambda: not lanes(), 12)
-    except Exception:
-        import asyncio as _a
-        def dump():
-            out=open("/tmp/dump.txt","a")
-            for t in _a.all_tasks():
-                out.write(repr(t)+"\n")
-                for f in t.get_stack(): out.write("   "+str(f)+"\n")
-            for l in lanes():
-                out.write("LANE "+repr(l)+"\n")
-                for r in gc.get_referrers(l): out.write("   ref "+repr(type(r))+repr(r)[:300]+"\n")
-        served.look(dump)
-        raise
+    wait_until("all to be gone", lambda: not lanes())
     served.look(lambda: served.classroom.control.give(""))
     served.look(served.classroom.members.clear)
     assert caplog.messages == []
