@@ -83,7 +83,7 @@ def shows(tab: StudioPage, name: str, value: float) -> None:
     wait_until(f"{name} to be {value:g}", lambda: abs(value_of(tab, name) - value) < 1e-9)
 
 
-@pytest.mark.parametrize("way", ["directly", "nginx"])
+@pytest.mark.parametrize("way", ["directly", pytest.param("nginx", marks=pytest.mark.sweep)])
 def test_students_join_ask_for_control_drag_what_all_see_and_hand_it_back(
     browser: Browser, served: Served, way: str
 ):

@@ -174,6 +174,7 @@ def test_a_students_certificate_is_no_routers():
         open_wire(settings(endpoint.text, ADA), "off")
 
 
+@pytest.mark.sweep
 def test_who_connects_and_says_nothing_is_let_go_and_keeps_nobody_out():
     with guarded() as endpoint:
         place = parse_endpoint(endpoint)
