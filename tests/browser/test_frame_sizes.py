@@ -163,6 +163,7 @@ def test_where_the_processor_draws_it_is_said_once_and_drawn_lightly(
         assert note.count() == 0
 
 
+@pytest.mark.sweep
 def test_a_view_that_proves_slow_is_drawn_lightly_until_one_undoes_it(
     browser: Browser, studio: RunningStudio
 ):

@@ -95,6 +95,7 @@ def sleep_a_while(tab: StudioPage, camera: RunningDemo) -> None:
     hears(["studio-bulk-1"])
 
 
+@pytest.mark.sweep
 def test_a_camera_of_1080p_at_30_hz_is_seen_picture_after_picture(browser: Browser, tmp_path: Path):
     with (
         running_router() as endpoint,

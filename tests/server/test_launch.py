@@ -272,6 +272,7 @@ def descriptors(limit: int) -> Generator[None]:
         resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
 
 
+@pytest.mark.sweep
 @linux
 def test_with_more_silent_strangers_than_descriptors_the_presenter_gets_in_and_works(
     tmp_path: Path,

@@ -126,7 +126,7 @@ class Copies:
         self, folder: Path | None, engine: SharedDocuments, services: Services, classroom: Classroom
     ) -> None:
         self._folder, self._engine, self._classroom = folder, engine, classroom
-        self._services = CopyServices(services)
+        self.services = CopyServices(services)
         self._records: dict[str, CopyRecord] = dict(_read_all(folder)) if folder else {}
         self._awake: dict[str, Document] = {}
         self._resting: dict[str, asyncio.Task[None]] = {}
@@ -309,7 +309,7 @@ class Copies:
 
     def _delete(self, name: str, record: CopyRecord) -> None:
         """Delete all that is kept of a copy; in another thread."""
-        folder, data_folder = self._folder_of(name), self._services.settings.data_folder
+        folder, data_folder = self._folder_of(name), self.services.settings.data_folder
         forget_drafts(data_folder, folder.rglob("*"))
         DisplayFile(data_folder, folder / record.entry).delete()
         shutil.rmtree(folder, ignore_errors=True)
@@ -333,8 +333,8 @@ class Copies:
         size = await asyncio.to_thread(size_of, folder.parent)
         copied = Original(original.entry, texts, original.mesh_files, original.location, size)
         entry, meshes = await asyncio.to_thread(make_folder, copied, folder)
-        shared = DisplayFile(self._services.settings.data_folder, original.entry)
-        own = DisplayFile(self._services.settings.data_folder, folder / entry)
+        shared = DisplayFile(self.services.settings.data_folder, original.entry)
+        own = DisplayFile(self.services.settings.data_folder, folder / entry)
         await asyncio.to_thread(lambda: own.write(shared.read()))
         await self._keep(
             name,
@@ -351,12 +351,12 @@ class Copies:
         )
 
     def _wake(self, name: str) -> Document:
-        record, settings = self._records[name], self._services.settings
+        record, settings = self._records[name], self.services.settings
         assert self._folder is not None
         location = location_of(
             self._folder_of(name), record.entry, record.meshes, settings.data_folder
         )
-        document = Document(name, location, record.arguments, self._services)
+        document = Document(name, location, record.arguments, self.services)
         self._awake[name] = document
         document.start()
         document.put_joints(record.joints)

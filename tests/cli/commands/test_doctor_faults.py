@@ -133,6 +133,7 @@ def test_a_faulty_text_of_the_workspace_is_found(
     assert ran.out.endswith("single underscores: write speed.\n")
 
 
+@pytest.mark.sweep
 def test_reports_say_that_the_nodes_are_in_another_domain(node: Node, endpoint: str):
     at = ("--connect", endpoint, "--domain", "77")
     said = "No node is in domain 77, but 1 node is in domain "

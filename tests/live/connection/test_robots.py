@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError, NoRouterError, NotServedError, WireSettingsError
+from studio.live.connection import robots
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.connection import (
     ConnectWire,
@@ -97,7 +98,11 @@ def test_a_robot_opens_from_the_parameter_of_a_node_and_follows_its_changes(
     asyncio.run(run())
 
 
-def test_a_topic_on_which_nobody_tells_a_robot_is_said(endpoint: str, tmp_path: Path):
+def test_a_topic_on_which_nobody_tells_a_robot_is_said(
+    endpoint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(robots, "_FIRST_PATIENCE_S", 0.2)
+
     async def run() -> None:
         async with studio(endpoint, tmp_path) as one:
             with pytest.raises(CommandError, match="No description came from /nobody"):

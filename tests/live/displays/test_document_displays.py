@@ -184,8 +184,10 @@ def test_the_robot_goes_where_its_root_link_is_in_the_fixed_frame(
 
 
 def test_tf_is_heard_as_long_as_somebody_asks_for_frames(
-    endpoint: str, tester: Node, tmp_path: Path
+    endpoint: str, tester: Node, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
+    monkeypatch.setattr(document_displays, "_ASKED_FOR_S", 0.5)
+
     async def run() -> None:
         tf = tester.create_publisher(message(TF), "/tf", 100)
         async with studio(endpoint, tmp_path) as one:
