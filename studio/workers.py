@@ -184,7 +184,10 @@ class Worker:
 
     def _send(self, process: asyncio.subprocess.Process, request: object) -> None:
         assert process.stdin is not None
-        process.stdin.write(self._codec.pack(request))
+        try:
+            process.stdin.write(self._codec.pack(request))
+        except RuntimeError as error:  # uvloop's word for a pipe whose other end has just gone
+            raise ConnectionResetError(str(error)) from error
 
     async def _receive(self, process: asyncio.subprocess.Process) -> bytes:
         assert process.stdin is not None

@@ -38,6 +38,28 @@ def test_a_worker_that_ended_is_started_anew_by_the_next_request():
     asyncio.run(run())
 
 
+def test_a_worker_whose_pipe_has_just_closed_has_died_on_every_loop():
+    uvloop = pytest.importorskip("uvloop")  # the loop of the server, where there is one
+
+    async def run() -> None:
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        await worker.warm()
+        process = worker._process  # pyright: ignore[reportPrivateUsage]
+        assert process is not None
+        assert process.stdin is not None
+        process.stdin.transport.abort()
+        await until(process.stdin.is_closing)
+        await asyncio.sleep(0)
+        with pytest.raises(WorkerDiedError):
+            await worker.ask(REQUEST, Failure, 30)
+        assert isinstance(await worker.ask(REQUEST, Failure, 30), Failure)
+        await worker.close()
+
+    for loops in (asyncio.new_event_loop, uvloop.new_event_loop):
+        with asyncio.Runner(loop_factory=loops) as runner:
+            runner.run(run())
+
+
 def test_a_worker_that_is_closed_while_it_starts_leaves_no_process():
     async def run() -> None:
         worker = Worker("xacro", "studio.description.worker", CODEC)

@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Final
 
 from studio.description.client import DescriptionWorker
+from studio.errors import WorkerDiedError
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
@@ -67,8 +68,11 @@ class Evaluators:
                 await self._make_room()
             self._holders[worker] = self._holders.get(worker, 0) + 1
             self._holders.move_to_end(worker)
-        finally:
+        except BaseException:
             self._entering -= 1
+            self._admit()
+            raise
+        self._entering -= 1
 
     async def _wait(self) -> None:
         place: asyncio.Future[None] = asyncio.get_running_loop().create_future()
@@ -118,8 +122,9 @@ class SharedWorker(DescriptionWorker):
             return await super().open(request)
 
     async def rest(self) -> None:
-        """End the process; the robot is opened again with the next turn."""
-        await super().close()
+        """End the process; the next turn, for which some may wait, opens the robot again."""
+        self.needs_reopen = True
+        await self._worker.close()
 
     async def close(self) -> None:
         """End the process for good."""
@@ -132,4 +137,6 @@ class SharedWorker(DescriptionWorker):
 
     async def _question(self, query: Query) -> Reply:
         async with self._evaluators.turn(self):
+            if self.needs_reopen:
+                raise WorkerDiedError("xacro", None)  # the asker opens it, and asks again
             return await super()._question(query)

@@ -6,8 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from studio.description.language.questions import OutlineQuery
 from studio.description.values import OpenRequest, ReadPolicy
 from studio.documents.copies.evaluators import Evaluators, SharedWorker
+from studio.errors import WorkerDiedError
 
 URDF = '<robot name="r"><link name="base"/></robot>'
 
@@ -109,6 +111,26 @@ def test_a_process_goes_behind_all_others_and_its_robot_comes_back_after_it_was_
             group = Path(f"/proc/{worker.pid}/autogroup")
             assert not group.exists() or group.read_text().rstrip().endswith("nice 10")
         assert (two.pid, two.needs_reopen) == (None, True)
+        await one.close()
+        await two.close()
+
+    asyncio.run(run())
+
+
+def test_a_question_that_waits_while_its_process_is_given_up_is_asked_again(tmp_path: Path):
+    files = [tmp_path / f"{name}.urdf" for name in ("one", "two")]
+    for file in files:
+        file.write_text(URDF)
+
+    async def run() -> None:
+        pool = Evaluators(1)
+        one, two = pool.worker(), pool.worker()
+        policy = ReadPolicy(roots=(str(tmp_path),), packages={}, environment={}, trusted=False)
+        await one.open(OpenRequest(str(files[0]), {}, policy, {}))
+        with pytest.raises(WorkerDiedError):  # a document opens its robot again, and asks again
+            await asyncio.gather(
+                one.query(OutlineQuery()), two.open(OpenRequest(str(files[1]), {}, policy, {}))
+            )
         await one.close()
         await two.close()
 
