@@ -174,6 +174,7 @@ def said_of(tab: StudioPage, name: str) -> str:
     return " ".join(row(tab, name).all_inner_texts())
 
 
+@pytest.mark.sweep
 def test_frames_of_others_stand_in_the_tree_with_who_tells_of_them(
     browser: Browser, tmp_path: Path
 ):

@@ -133,6 +133,7 @@ def downloaded(tab: StudioPage, name: str) -> tuple[str, bytes]:
     return download.value.suggested_filename, Path(download.value.path()).read_bytes()
 
 
+@pytest.mark.sweep
 def test_the_robot_is_exported_as_files_and_as_pictures(
     browser: Browser, tmp_path: Path, mast: Path
 ):

@@ -187,6 +187,7 @@ def driven(node: Node) -> Callable[[], None]:
     return timer.cancel
 
 
+@pytest.mark.sweep
 def test_r2d2_goes_its_round_and_the_scan_of_the_rover_lies_on_the_walls(
     browser: Browser, studio: RunningStudio, endpoint: str, tmp_path: Path
 ):

@@ -198,6 +198,7 @@ def test_no_notice_covers_an_error_of_the_3d_view(tab: StudioPage):
     slow.wait_for(state="detached")
 
 
+@pytest.mark.sweep
 def test_the_3d_view_is_never_white_while_it_opens_in_the_dark_theme(
     browser: Browser, opened: StudioPage, demo: SharedDemo
 ):

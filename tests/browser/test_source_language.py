@@ -143,6 +143,7 @@ def test_a_word_shows_its_value_and_leads_to_its_definition_in_another_file(tab:
     assert tab.errors == []
 
 
+@pytest.mark.sweep
 def test_letters_stand_as_they_were_typed_while_marks_come_and_go(tab: StudioPage):
     point_at(tab, FRONT, "front", click=True)
     keyboard = tab.page.keyboard

@@ -175,6 +175,7 @@ def j1_jerry_follows_a_command_and_the_distance_is_right(tab: StudioPage) -> Non
     panel.get_by_text("exact", exact=True).wait_for()
 
 
+@pytest.mark.sweep
 def test_turtles_and_jerry_are_drawn_and_do_what_their_panels_say(browser: Browser, tmp_path: Path):
     with (
         running_router() as router,

@@ -260,6 +260,7 @@ def do(tab: StudioPage, command: str) -> str:
     return tab.page.evaluate(_SEND, {"type": command, **DOING[command]})
 
 
+@pytest.mark.sweep
 def test_each_fault_is_said_in_a_sentence_and_heals(
     tab: StudioPage, robot: FaultyRobot, router: RunningDemo, endpoint: str
 ):
