@@ -44,8 +44,8 @@ class Following:
         """Forget a page."""
         self._everybody.remove(listener)
         self._followers.pop(listener, None)
-        if self._leader is listener:
-            self._leader = None
+        if self._leader is listener:  # who comes now is not taken to where it was
+            self._view, self._focus, self._leader = b"", None, None
 
     def lead(self, *, leading: bool) -> None:
         """Show others what the presenter looks at, or no longer."""

@@ -54,6 +54,18 @@ def test_who_comes_later_sees_at_once_where_the_presenter_is():
     }
 
 
+def test_who_comes_after_the_presenters_page_went_is_not_taken_to_where_it_was():
+    made, presenter, _ = pair()
+    made.show_view(presenter, "rover", PLACE, POINTER)
+    made.show_focus(presenter, Focus(document="rover", part="link:mast", site="", panel="joints"))
+    made.detach(presenter)
+    late = Ear(Role.STUDENT)
+    made.attach(late)
+    made.follow(late, following=True)
+    assert late.frames == []
+    assert all(event["type"] != "focus" for event in late.events)
+
+
 def test_who_explores_sees_nothing_until_they_come_back():
     made, presenter, student = pair()
     assert made.follow(student, following=False)
