@@ -1,23 +1,21 @@
 /** The window of one's own ROS nodes: the line by which they join, and what is in one's own domain. */
 
-/** @import { MyGraph, NodeAccess } from "../types/wire.d.ts" */
+/** @import { NodeAccess } from "../types/wire.d.ts" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, EmptyState, Icon, ProgressBar } from "../lib/ui.js";
-import { useLooking } from "../model/asking.js";
 import {
   accessRefused,
   askForAccess,
-  followMyGraph,
-  graphRefused,
   mayJoin,
   myGraph,
   nodeAccess,
   studentNodes,
 } from "../model/student-nodes.js";
 import { notify } from "../model/view.js";
+import { OwnGraph } from "./own-graph.js";
 
 /** What is typed where nodes cannot do TLS. */
 const OWN_ROUTER = "studio router --join";
@@ -63,25 +61,3 @@ function Access({ access }) {
 
 /** @returns {boolean} */
 const isWindows = () => navigator.userAgent.includes("Windows");
-
-function OwnGraph() {
-  const { panel } = useLooking(followMyGraph);
-  const graph = myGraph.value;
-  return html`<section ref=${panel} class="nodes-graph" aria-label=${t("nodes.graph", { domain: nodeAccess.value?.domain ?? 0 })}>
-    <h3>${t("nodes.graph", { domain: nodeAccess.value?.domain ?? 0 })}</h3>
-    ${graphRefused.value ? html`<p class="note bad" role="alert">${graphRefused.value}</p>` : graph && html`<${Graph} graph=${graph} />`}</section>`;
-}
-
-/** @param {{graph: MyGraph}} props */
-function Graph({ graph }) {
-  if (graph.nodes.length === 0)
-    return html`<${EmptyState} icon="node" title=${t("nodes.none")}><p>${t("nodes.none.hint")}</p><//>`;
-  return html`<ul class="nodes-names">${graph.nodes.map((name) => html`<li key=${name}><${Icon} name="node" size=${14} />${name}</li>`)}</ul>
-    <div class="nodes-topics"><table><thead><tr><th scope="col">${t("nodes.topic")}</th>
-      <th scope="col" class="number">${t("nodes.publishers")}</th><th scope="col" class="number">${t("nodes.subscriptions")}</th></tr></thead>
-      <tbody>${graph.topics.map(
-        (one) => html`<tr key=${one.name}><td>${one.name}<small>${one.types.join(", ")}</small></td>
-          <td class="number">${one.publishers}</td><td class="number">${one.subscriptions}</td></tr>`,
-      )}</tbody></table></div>
-    ${graph.more > 0 && html`<p class="note">${t("nodes.more", { count: graph.more })}</p>`}`;
-}

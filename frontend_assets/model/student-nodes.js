@@ -44,5 +44,5 @@ export const followMyGraph = polled(
     if (answer?.type === "my_graph") myGraph.value = answer;
   },
   EVERY_MS,
-  () => nodeAccess.value !== null,
+  () => mayJoin.value,
 );

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.classmates import Classmate
+from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.server import running_studio
 from tests.support.student_nodes import OwnNode
 from tests.support.studio_page import StudioPage, studio_context
@@ -15,7 +16,7 @@ from tests.support.studio_page import StudioPage, studio_context
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Locator
 
     from tests.support.server import RunningStudio
 
@@ -39,6 +40,17 @@ def student(held: ExitStack, browser: Browser, studio: RunningStudio, name: str)
     return tab
 
 
+def graph_of_copy(tab: StudioPage) -> Locator:
+    """The panel of the graph, on a copy of one's own."""
+    tab.page.keyboard.press("Escape")
+    tab.page.get_by_role("button", name="My copy", exact=True).click()
+    tab.page.wait_for_url("**/d/rover~*")
+    tab.page.locator(".scene").wait_for()
+    tab.page.wait_for_load_state()
+    tab.page.evaluate(SHOW_PANEL, "graph")
+    return tab.page.get_by_role("region", name="Node graph", exact=True)
+
+
 def test_two_students_copy_a_line_and_each_sees_the_nodes_of_their_own(
     browser: Browser, tmp_path: Path
 ):
@@ -60,6 +72,9 @@ def test_two_students_copy_a_line_and_each_sees_the_nodes_of_their_own(
         ada.page.get_by_role("listitem").filter(has_text="/ada_talks").wait_for()
         ada.page.get_by_role("row").filter(has_text="/temperature").wait_for()
         bob.page.get_by_text("No node yet").wait_for()
+        graph = graph_of_copy(ada)
+        graph.get_by_role("listitem").filter(has_text="/ada_talks").wait_for()
+        ada.page.get_by_role("button", name="My ROS nodes").click()
         switch.click()
         presenter.page.get_by_role("button", name="Switch access off").click()
         for one in (ada, bob):

@@ -14,6 +14,7 @@ import {
   useRef,
   useSignal,
 } from "vendor/preact.js";
+import { OwnGraph } from "../../app/own-graph.js";
 import { copyText } from "../../lib/clipboard.js";
 import { commandById } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
@@ -21,7 +22,9 @@ import { remembered } from "../../lib/remembered.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
 import { askedWhenChanged, askOrKeepWhy, useLooking } from "../../model/asking.js";
 import { session } from "../../model/connection.js";
+import { isOwnCopy } from "../../model/copies.js";
 import { showInterface } from "../../model/interfaces.js";
+import { mayJoin } from "../../model/student-nodes.js";
 import { useTopicRates } from "../../model/topics.js";
 import { notify } from "../../model/view.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../parts.js";
@@ -189,6 +192,15 @@ const options = computed(() => {
 });
 
 export function GraphPanel() {
+  return isOwnCopy.value && mayJoin.value ? html`<${OwnPanel} />` : html`<${SharedPanel} />`;
+}
+
+/** On a copy of one's own, while own nodes may join: their domain alone. */
+function OwnPanel() {
+  return html`<section class="panel-body graph scroll" tabindex="0" aria-label=${t("panel.graph")}><${OwnGraph} /></section>`;
+}
+
+function SharedPanel() {
   const { panel, looking } = useLooking(followGraph);
   return html`<section ref=${panel} class="panel-body graph" aria-label=${t("panel.graph")}>
     <${RouterAway} />
