@@ -42,7 +42,7 @@ class Outlet:
         gate_bytes: Nothing is written while the transport holds more than this.
         fresh_bytes: Nothing that could be made late is written while the transport holds more than
             this and more than the last of its kind: it would be old when it arrives. No event tells
-            that a transport holds less than before: whoever gives this calls `resume` by and by.
+            that a transport holds less than before: whoever gives this calls `resume` regularly.
         queue_bytes: Keyless bytes that may wait; one more and the client is hopeless.
         on_hopeless: Called once, when the client is given up; close its socket there.
     """

@@ -46,7 +46,7 @@ class Worker:
         *arguments: str,
         others_first: bool = False,
     ) -> None:
-        """Make one that starts a module; with `others_first` only what nobody else wants is its."""
+        """Make one that starts a module, at low priority with `others_first`."""
         self.name, self.generation, self._others_first = name, 0, others_first
         # -P: the folder that somebody works in, which may be anybody's, gives it no modules.
         self._command = (sys.executable, "-P", "-m", module, *arguments)

@@ -93,6 +93,9 @@ function takeView({ eye, target, pointer }) {
 /** The panel that is open, as far as this page was told of it. @type {string | null | undefined} */
 let opened;
 
+/** Shows something to those who lead the class, and to nobody who follows. */
+const OF_LEADERS = "people";
+
 /** @param {Focus} focus */
 function takeFocus({ document, part: key, site, panel }) {
   if (document && document !== documentId.value) {
@@ -104,7 +107,7 @@ function takeFocus({ document, part: key, site, panel }) {
     else selection.value = null;
   }
   hoverSite(site || null);
-  if (panel && panel !== activePanel.peek()) {
+  if (panel && panel !== OF_LEADERS && panel !== activePanel.peek()) {
     opened = panel; // not by a hand on this page
     commandById(`panel.${panel}`)?.run();
   }

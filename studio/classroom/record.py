@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from studio.classroom.nodes.record import NodesRecord
 from studio.errors import DataFolderError
 from studio.files import write_whole
 from studio.protocol.classroom import JoinRole
@@ -47,6 +46,18 @@ class MemberRecord(_Kept):
     removed: bool = False
     ticks: dict[str, float] = Field(default_factory=dict)
     """When steps of lessons were done, in seconds since the epoch, by `lesson/step`."""
+
+
+class NodesRecord(_Kept):
+    """Students' own nodes: what the pool is made from; without a secret, access is off."""
+
+    secret: str = Field(default="", pattern=r"^([0-9a-f]{64})?$")
+    domains: tuple[int, ...] = ()
+    port: int = 0
+    given: dict[str, int] = Field(default_factory=dict)
+    """The domains, by person."""
+    revoked: tuple[int, ...] = ()
+    """Domains of those who were sent out."""
 
 
 class ClassRecord(_Kept):

@@ -17,7 +17,7 @@ def main() -> None:
     limit_bytes = XACRO_MEMORY_BYTES
     if SHARED in sys.argv[1:]:
         limit_bytes = SHARED_MEMORY_BYTES
-        let_others_go_first(os.getpid())  # again: of many at once the system refuses some
+        let_others_go_first(os.getpid())  # again: Linux refuses some of many at once
     serve(CODEC, OpenSession().answer, limit_bytes)
 
 

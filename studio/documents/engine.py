@@ -175,7 +175,7 @@ class Engine:
             raise UnknownDocumentError(name) from None
 
     def open_now(self, name: str) -> Document | None:
-        """Return the document of that id if it is open; a copy that rests is left to."""
+        """Return the document of that id if it is open; a resting copy is not woken."""
         return self.copies.awake(name) if owner_of(name) else self.documents.get(name)
 
     def check(self, name: str) -> None:

@@ -37,20 +37,22 @@ async def serve_scene(
     spoken = SUBPROTOCOL if SUBPROTOCOL in offered else next(iter(offered), None)
     await websocket.accept(subprotocol=spoken)
     lane = Lane(websocket)
-    watching = asyncio.create_task(_end_with_sight(lane, visitor, document))
+    watching = None
+    if owner_of(document):
+        watching = asyncio.create_task(_end_with_sight(lane, visitor, document))
     try:
         await scene.serve(lane, lambda message: may(visitor, VISER.get(message), document), spoken)
     finally:
-        watching.cancel()
+        if watching is not None:
+            watching.cancel()
     await lane.finish()
 
 
-async def _end_with_sight(lane: Lane, visitor: Person, document: str) -> None:
-    """Close the lane once its person may not look at the document any more: a copy is hidden."""
-    while owner_of(document) and visitor.sees(document):  # noqa: ASYNC110 - nobody tells it
+async def _end_with_sight(lane: Lane, visitor: Person, copy: str) -> None:
+    """Close the lane once its person may not look at a copy any more."""
+    while visitor.sees(copy):  # noqa: ASYNC110 - nobody tells it
         await asyncio.sleep(_LOOK_EVERY_S)
-    if owner_of(document):
-        lane.close()
+    lane.close()
 
 
 _FOREVER: Final = "public, max-age=31536000, immutable"

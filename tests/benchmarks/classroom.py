@@ -203,18 +203,26 @@ def _watch(
         seen["hz"],
         seen["bytes_per_s"],
         seen["ages_ms"],
-        _after(sent_s, seen["built_s"]),
+        _after(sent_s, seen["built_s"], seen["since_s"]),
         joined_s,
     )
 
 
-def _after(sent_s: list[float], built_s: list[float]) -> list[float]:
-    """How long after the newest edit before it each was told, ms."""
-    return [
-        (at_s - max(before)) * 1e3
-        for at_s in built_s
-        if (before := [one for one in sent_s if one <= at_s])
-    ]
+def _after(sent_s: list[float], lanes_s: list[list[float]], since_s: float) -> list[float]:
+    """How long after its edit each lane was told of each run in the window, ms.
+
+    The runs of a lane belong to the edits in their order: the lanes were there before the first.
+    """
+    took_ms: list[float] = []
+    for built_s in lanes_s:
+        runs_s = [at_s for at_s in built_s if sent_s and at_s >= sent_s[0]]
+        assert len(runs_s) <= len(sent_s), "a run that no edit began"
+        took_ms += [
+            (at_s - edit_s) * 1e3
+            for edit_s, at_s in zip(sent_s, runs_s, strict=False)
+            if at_s >= since_s
+        ]
+    return took_ms
 
 
 def _machine_s() -> tuple[float, float]:

@@ -17,8 +17,8 @@ from studio.classroom.nodes.pool import (
     powershell_line,
     shell_line,
 )
-from studio.classroom.nodes.record import NodesRecord
 from studio.classroom.nodes.router_process import CODEC, AskWell, OpenRouter, RouterOpen, Well
+from studio.classroom.record import NodesRecord
 from studio.debounce import Throttle
 from studio.errors import CommandError, StudioError, WorkerError
 from studio.live.connection.plan import planned_wire
@@ -82,10 +82,9 @@ class StudentNodes:
         self._state: _State = "off"
         self._trouble = ""
         self._pool: Pool | None = None
-        self._port = kept.port
-        self._given = dict(kept.given)
-        self._revoked = set(kept.revoked)
-        self._kept = kept
+        """Made of the record, while nodes may join."""
+        self.record = kept
+        """What is to be kept."""
         self.choice: Callable[[], WireChoice] = WireChoice
         """The connection of the class's own ROS system, whose domain is left to it."""
         self._worker = Worker("nodes", "studio.classroom.nodes.router_process", CODEC)
@@ -94,19 +93,6 @@ class StudentNodes:
         self._watching: asyncio.Task[None] | None = None
         self._resuming: asyncio.Task[None] | None = None
         self._told = Throttle(self._send, first_s=_SOON_S, pause_s=_PAUSE_S)
-
-    @property
-    def record(self) -> NodesRecord:
-        """What is to be kept."""
-        if self._pool is None:
-            return self._kept
-        return NodesRecord(
-            secret=self._pool.secret,
-            domains=self._pool.domains,
-            port=self._port,
-            given=self._given,
-            revoked=tuple(sorted(self._revoked)),
-        )
 
     @property
     def router_pid(self) -> int | None:
@@ -124,7 +110,7 @@ class StudentNodes:
             state=self._state,
             endpoint=self._endpoint(self._name) if self._state == "on" else "",
             only_here=self._listen in LOOPBACK_HOSTS,
-            given=len(self._given) + len(self._revoked),
+            given=len(self.record.given) + len(self.record.revoked),
             limit=POOL_SIZE,
             trouble=self._trouble,
         )
@@ -133,12 +119,12 @@ class StudentNodes:
 
     def resume(self) -> None:
         """Go on where the studio was when it ended: lines that were copied before are valid."""
-        if self._kept.secret and self._pool is None and self._resuming is None:
+        if self.record.secret and self._pool is None and self._resuming is None:
             self._resuming = asyncio.create_task(self._resume())
 
     async def _resume(self) -> None:
         try:
-            await self._begin(self._kept)
+            await self._begin()
         except StudioError as error:
             _log.warning("Students' own nodes cannot join any more: %s", error)
 
@@ -150,17 +136,15 @@ class StudentNodes:
         """
         if self._state in {"off", "failed"}:
             domains = pool_domains(planned_wire(self.choice()).domain)
-            await self._begin(NodesRecord(secret=new_secret(), domains=domains))
+            self.record = NodesRecord(secret=new_secret(), domains=domains)
+            await self._begin()
             await self._keep()
 
     async def stop(self) -> None:
         """Let no nodes join; what was given out is worth nothing any more."""
         async with self._turn:
             await self._end()
-            self._pool = None
-            self._given.clear()
-            self._revoked.clear()
-            self._kept = NodesRecord()
+            self._pool, self.record = None, NodesRecord()
             self._set("off")
         await self._keep()
 
@@ -172,16 +156,16 @@ class StudentNodes:
         await self._told.close()
         await self._end()
 
-    async def _begin(self, record: NodesRecord) -> None:
+    async def _begin(self) -> None:
         async with self._turn:
+            await self._end()  # what is left of a router that failed
             self._set("starting")
             try:
+                record = self.record
                 self._pool = await asyncio.to_thread(Pool, record.secret, record.domains)
-                self._port = record.port
-                self._given, self._revoked = dict(record.given), set(record.revoked)
                 await self._open()
-            except BaseException:
-                self._pool, self._kept = None, NodesRecord()
+            except Exception:
+                self._pool, self.record = None, NodesRecord()
                 if self._state == "starting":
                     self._set("off")
                 raise
@@ -191,9 +175,9 @@ class StudentNodes:
         """Open the router anew, without those whose access was taken; the turn is ours."""
         assert self._pool is not None
         pool = self._pool
-        left = [one for one in pool.domains if one not in self._revoked]
+        left = [one for one in pool.domains if one not in self.record.revoked]
         users = [(pool.studio_name, pool.domains), *((pool.name_of(one), (one,)) for one in left)]
-        ports = dict.fromkeys((*((self._port,) if self._port else ()), *_PORTS))
+        ports = dict.fromkeys((*((self.record.port,) if self.record.port else ()), *_PORTS))
         places = tuple(self._place(self._listen, port) for port in ports)
         request = OpenRouter(places, pool.router, tuple(users))
         try:
@@ -204,7 +188,8 @@ class StudentNodes:
         if opened.reason:
             self._set("failed", f"Nodes of students cannot join. {opened.reason}")
             raise CommandError(self._trouble)
-        self._port = int(opened.endpoint.rpartition(":")[2])
+        port = int(opened.endpoint.rpartition(":")[2])
+        self.record = self.record.model_copy(update={"port": port})
         self._set("on")
 
     async def _end(self) -> None:
@@ -249,16 +234,18 @@ class StudentNodes:
             CommandError: Access is off, or all domains are given out.
         """
         pool = self._opened()
-        domain = self._given.get(asker.person)
+        record = self.record
+        domain = record.given.get(asker.person)
         if domain is None:
-            used = {*self._given.values(), *self._revoked}
+            used = {*record.given.values(), *record.revoked}
             domain = next((one for one in pool.domains if one not in used), None)
             if domain is None:
                 raise CommandError(
                     f"All {POOL_SIZE} domains are given out: share one with a neighbour, or ask "
                     "the presenter to switch access for nodes off and on, which gives new ones."
                 )
-            self._given[asker.person] = domain
+            given = {**record.given, asker.person: domain}
+            self.record = record.model_copy(update={"given": given})
             self._changed()
             await self._keep()
         credentials = await asyncio.to_thread(pool.of, domain)
@@ -274,17 +261,19 @@ class StudentNodes:
 
     def has_access(self, person: str) -> bool:
         """Whether a person was given a domain."""
-        return person in self._given
+        return person in self.record.given
 
     async def revoke(self, person: str) -> None:
         """Take a person's access: the router starts anew without them, and all others come back.
 
         Their domain is given to nobody else.
         """
-        domain = self._given.pop(person, None)
+        given = dict(self.record.given)
+        domain = given.pop(person, None)
         if domain is None:
             return
-        self._revoked.add(domain)
+        revoked = (*self.record.revoked, domain)
+        self.record = self.record.model_copy(update={"given": given, "revoked": revoked})
         async with self._turn:
             await self._links.close_one(domain)
             if self._state == "on":
@@ -303,8 +292,7 @@ class StudentNodes:
         Raises:
             StudioError: It cannot be reached now, or has too much in it.
         """
-        given = dict(self._kept.given) if self._pool is None else self._given
-        domain = given.get(person)
+        domain = self.record.given.get(person)
         if domain is None:
             return None
         self._opened()
@@ -317,7 +305,7 @@ class StudentNodes:
             StudioError: They have none, or it cannot be reached.
         """
         self._opened()
-        domain = self._given.get(asker.person)
+        domain = self.record.given.get(asker.person)
         if domain is None:
             raise CommandError("Your nodes have no domain yet: ask for the line to copy first.")
         link = await self._links.get(domain)
@@ -333,7 +321,7 @@ class StudentNodes:
     # Where
 
     def _endpoint(self, host: str) -> str:
-        return self._place(host, self._port)
+        return self._place(host, self.record.port)
 
     def _place(self, host: str, port: int) -> str:
         return f"tls/[{host}]:{port}" if ":" in host else f"tls/{host}:{port}"

@@ -34,7 +34,7 @@ class Check:
 
     Attributes:
         line: As it is written, less `check:`.
-        kind: Names the form that it has, such as `topic_rate`.
+        kind: Names the form that it has, such as `topic_type`.
         concern: What it looks at.
         values: The words that fill the form, by name.
     """
@@ -87,7 +87,7 @@ def _filled(usage: str) -> str:
 
 
 def _plain(word: str) -> str:
-    """Return a pattern for a word; of one it is a singular."""
+    """Return a pattern for a word; `(s)` and `ren` may be left out."""
     if word == "children":
         return "child(?:ren)?"
     return re.escape(word).replace(r"\(s\)", "s?")

@@ -73,8 +73,11 @@ class Lesson:
     @property
     def version(self) -> str:
         """Changes whenever one of its texts was written."""
-        times = [path.stat().st_mtime_ns for path in self.files.values() if path.exists()]
-        return str(max(times, default=0))
+        times = [0]
+        for path in self.files.values():
+            with suppress(OSError):  # it has just gone
+                times.append(path.stat().st_mtime_ns)
+        return str(max(times))
 
     def read(self) -> LessonText:
         """Return its steps; errors as for `text`."""

@@ -66,10 +66,6 @@ class LessonText:
     steps: tuple[Step, ...]
     faults: tuple[Fault, ...]
 
-    def step(self, name: str) -> Step | None:
-        """Return the step of an id."""
-        return next((step for step in self.steps if step.id == name), None)
-
 
 def read_lesson(text: str) -> LessonText:
     """Read a lesson of any text.

@@ -167,7 +167,7 @@ class Copies:
         return self._awake.get(name) or self._wake(name)
 
     def awake(self, name: str) -> Document | None:
-        """Return a copy that is open; one that rests is left to."""
+        """Return a copy that is open; a resting one is not woken."""
         return self._awake.get(name)
 
     def check(self, name: str) -> None:
@@ -378,11 +378,11 @@ class Copies:
         while self._awake:
             await asyncio.sleep(_LOOK_EVERY_S)
             self._end_sight()  # a helper may have become a student
-            now_s = time.monotonic()
+            at_s = time.monotonic()
             for name, document in tuple(self._awake.items()):
                 if len(document.audience):
                     self._unwatched_s.pop(name, None)
-                elif now_s - self._unwatched_s.setdefault(name, now_s) >= _REST_AFTER_S:
+                elif at_s - self._unwatched_s.setdefault(name, at_s) >= _REST_AFTER_S:
                     await self._rest(name)
 
     async def _rest(self, name: str) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.classroom.members import now_s
 from studio.course.lessons.checks import Concern
+from studio.course.lessons.shelf import LESSONS_MAX
 from studio.course.lessons.text import LessonText, read_lesson
 from studio.documents.lessons.graphs import Graphs, Questions
 from studio.documents.lessons.model_checks import model_verdict
@@ -31,6 +32,7 @@ from studio.protocol.lessons import (
     Lessons,
     LessonState,
     LessonTable,
+    LessonView,
     OpenLesson,
     ReadLesson,
     SaveLesson,
@@ -40,11 +42,11 @@ from studio.protocol.listeners import send
 from studio.protocol.roles import owner_of
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Hashable, Iterable, Mapping
+    from collections.abc import Awaitable, Callable, Container, Hashable, Iterable, Mapping
 
     from studio.classroom.classroom import Classroom
     from studio.course.lessons.checks import Check
-    from studio.course.lessons.shelf import Lesson, Shelf
+    from studio.course.lessons.shelf import Shelf
     from studio.documents.document import Document
     from studio.live.connection.link import WireLink
     from studio.protocol.changes import Subject
@@ -63,7 +65,7 @@ class OpenDocuments(Protocol):
     """The engine."""
 
     def open_now(self, name: str) -> Document | None:
-        """Return the document of that id if it is open; a copy that rests is left to."""
+        """Return the document of that id if it is open; a resting copy is not woken."""
         ...
 
 
@@ -95,6 +97,7 @@ class _Standing:
     """How the checks of a lesson stand, for all who see the same."""
 
     text: LessonText
+    """Held while its `id` names it among those that are looked at."""
     verdicts: dict[str, Verdict]
     checks: tuple[tuple[CheckView, ...], ...]
     """Of each step."""
@@ -152,18 +155,16 @@ class LessonRoom:
 
     async def lessons(self, command: GetLessons, asker: Listener) -> Lessons:
         """Return all lessons, with the asker's progress."""
-        found = await asyncio.to_thread(self._read_all)
-        ticks = self._kept_ticks(asker) or {}
-        return Lessons(
-            request=command.request,
-            lessons=tuple(lesson_view(lesson, text, ticks) for lesson, text in found),
-        )
+        ticks = frozenset(self._kept_ticks(asker) or ())
+        found = await asyncio.to_thread(self._views, ticks)
+        return Lessons(request=command.request, lessons=tuple(found))
 
-    def _read_all(self) -> list[tuple[Lesson, LessonText]]:
-        found: list[tuple[Lesson, LessonText]] = []
+    def _views(self, ticks: Container[str]) -> list[LessonView]:
+        """Return all lessons; in another thread, for it reads files."""
+        found: list[LessonView] = []
         for lesson in self._shelf.lessons():
             try:
-                found.append((lesson, lesson.read()))
+                found.append(lesson_view(lesson, lesson.read(), ticks))
             except StudioError as error:  # it went, or may not be read: the others are there
                 _log.warning("%s", error)
         return found
@@ -417,8 +418,8 @@ def _checks_of(text: LessonText) -> Iterable[Check]:
 
 _READ: Final = Limits(bytes_max=400_000, per_second=5)
 _OFTEN: Final = Limits(bytes_max=1_000, per_second=10)
-_TEXTS: Final = Limits(bytes_max=1_000, per_second=100)
-"""A page asks for all texts of a teacher's folder at once."""
+_TEXTS: Final = Limits(bytes_max=1_000, per_second=2 * LESSONS_MAX)
+"""A page asks for all texts of a teacher's folders at once, in two tabs perhaps."""
 
 COMMANDS: Final = Commands[LessonRoom](Scope.STUDIO)
 COMMANDS.viewer(GetLessons, lambda room, c, who: room.lessons(c, who), limits=_OFTEN)
