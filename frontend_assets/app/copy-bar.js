@@ -36,7 +36,9 @@ const back = () => goTo(documentId.value.split("~")[0] ?? "");
 /** @returns {string} */
 function stateWords() {
   const copy = shownCopy.value;
-  const whose = isOwnCopy.value ? t("copy.yours") : t("copy.of", { name: copy?.name ?? "…" });
+  // Only those who lead are told whose the copies are.
+  if (!isOwnCopy.value && !copy) return t("copy.shown");
+  const whose = isOwnCopy.value ? t("copy.yours") : t("copy.of", { name: copy?.name ?? "" });
   if (!copy?.handed_s) return whose;
   const time = new Date(copy.handed_s * 1000).toLocaleTimeString([], { timeStyle: "short" });
   return `${whose} · ${t(isHandedIn(copy) ? "copy.handed_at" : "copy.sent_back", { time, count: copy.changes })}`;

@@ -5,6 +5,7 @@ import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { Icon } from "../lib/ui.js";
 import { connection, mayManage, role, version } from "../model/connection.js";
+import { isCopy } from "../model/copies.js";
 import {
   built,
   documentState,
@@ -88,7 +89,7 @@ function ProblemsLink() {
 
 function Unsaved() {
   const { unsaved_count: count, unsaved_files: files } = history.value;
-  if (count === 0) return null;
+  if (count === 0 || isCopy.value) return null;
   return html`<span class="amber" title=${files.join("\n")}><span class="dot"></span>${t("unsaved.count", { count })}</span>`;
 }
 

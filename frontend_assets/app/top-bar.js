@@ -33,6 +33,7 @@ export function TopBar() {
     <${DocumentMenu} />
     ${
       unsaved.value &&
+      !isCopy.value && // it is handed in, not saved
       html`<span class="unsaved" title=${t("unsaved.count", { count })}><span class="dot"></span>
       <span class="wide-only">${t("unsaved.count", { count })}</span></span>`
     }

@@ -250,7 +250,7 @@ def test_a_copy_is_tried_on_handed_in_compared_shown_and_sent_back(
         table = presenter.page.get_by_role("region", name="Variants")
         table.get_by_text("mast_height").first.wait_for()
         press(presenter, "Show to all")
-        copy_bar(bob).get_by_text("Copy of").wait_for()
+        copy_bar(bob).get_by_text("A copy that the presenter shows to all").wait_for()
         shows(bob, "mast_height", changed)
         assert bob.slider("mast_height").is_disabled()
         press(presenter, "Send back…")

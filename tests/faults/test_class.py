@@ -18,8 +18,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from studio.classroom import control as control_module
 from studio.documents.engine import COMMANDS
 from studio.documents.lessons import lesson_room
+from studio.live.panels import driving
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.roles import Role
+from studio.ros.messages import message
 from studio.server.commands import ControlLane
 from tests.support.demos import node_at
 from tests.support.patience import Stopwatch
@@ -93,6 +95,82 @@ def test_the_presenter_whose_browser_dies_in_a_drag_finds_all_and_takes_it_back_
             ]
             assert back.ask("undo", document="rover")["type"] == "done"
         assert text_of(served) == before
+
+
+def test_a_drag_whose_holder_vanishes_is_undone_in_one_step_once_control_is_back(
+    served: ServedClass, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(control_module, "ABSENCE_S", 0.2)
+    radius, before = served.site("wheel_radius"), text_of(served)
+    with served.presenting() as presenter:
+        member, cookie = served.member("Ada")
+        page = RawLane(served.port, cookie)
+        presenter.ask("give_control", person=member.person, document="rover")
+        for text in ("0.11", "0.12"):
+            page.say("edit_site", document="rover", site=radius, text=text, gesture="drag")
+        wait_until("the drag to be there", lambda: b'"0.12"' in text_of(served))
+        break_off(page.socket)
+        presenter.until("control", holder="")
+        assert b'"0.12"' in text_of(served)
+        assert presenter.ask("undo", document="rover")["type"] == "done"
+        assert text_of(served) == before
+
+
+def test_a_copy_is_its_owners_at_every_door_until_it_is_shown(served: ServedClass):
+    with (
+        served.presenting() as presenter,
+        served.student("Ada") as (ada, person),
+        served.student("Bob") as (bob, _),
+        ada.lane() as lane,
+    ):
+        assert lane.ask("open_copy", document="rover")["type"] == "done"
+        copy, protocol = f"rover~{person}", "viser-v1.1.1"
+        wait_until("its robot", lambda: ada.client.get(f"/api/documents/{copy}/urdf").is_success)
+        doors = [f"/api/documents/{copy}/{one}" for one in ("urdf", "export/urdf", "export/page")]
+        for door in doors:
+            assert bob.client.get(door).status_code in {403, 404}, door
+        with pytest.raises(InvalidStatus), bob.websocket(f"/d/{copy}/viser", protocol):
+            pass
+        presenter.ask("show_copy", document=copy)
+        assert bob.client.get(doors[0]).is_success
+        with bob.websocket(f"/d/{copy}/viser", protocol):
+            pass
+        presenter.ask("show_copy", document=copy, shown=False)
+        assert bob.client.get(doors[0]).status_code in {403, 404}
+        lane.ask("discard_copy", document=copy)
+
+
+def test_a_stop_of_anybody_and_the_end_of_control_stop_what_is_driven(
+    served: ServedClass, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(driving, "_SILENCE_S", 600.0)  # nothing else stops it
+    endpoint, speeds = free_endpoint(), list[float]()
+    with (
+        served.presenting() as presenter,
+        served.student("Ada") as (ada, person),
+        served.student("Bob") as (bob, _),
+        ada.lane() as driver,
+        bob.lane() as other,
+        router_at(endpoint),
+        node_at(endpoint, "robot") as node,
+    ):
+        twist = message("geometry_msgs/msg/Twist")
+        node.create_subscription(twist, "/cmd_vel", lambda one: speeds.append(one.linear.x), 10)
+        assert presenter.ask("connect_wire", address=endpoint)["type"] == "done"
+        for stop in (lambda: driver.ask("return_control"), lambda: other.ask("stop_robot")):
+            presenter.ask("give_control", person=person, document="rover")
+            driver.until("you", has_control=True)
+            wait_until("it to be driven", lambda: is_driven(driver, speeds))
+            assert stop()["type"] == "done"
+            wait_until("it to be stopped", lambda: speeds[-1] == 0.0)
+            presenter.ask("take_control", document="rover")
+        presenter.ask("disconnect_wire")
+
+
+def is_driven(lane: Lane, speeds: list[float]) -> bool:
+    """Ask for half a metre per second; whether that comes."""
+    lane.ask("drive", topic="/cmd_vel", x=0.5)
+    return speeds[-1:] == [0.5]
 
 
 def test_who_has_control_keeps_it_while_the_presenters_browser_is_dead(served: ServedClass):
