@@ -23,7 +23,6 @@ import { canCopy, isCopy, openCopy } from "../model/copies.js";
 import { canFollow, comeBack, explore, gatherAll, isFollowing } from "../model/following.js";
 import { mayJoin } from "../model/student-nodes.js";
 import { dialog, isFree } from "../model/view.js";
-import { NodesButton, showNodes } from "./nodes-button.js";
 
 /** Below the bar above: what one may do here, and who has control where that is somebody else. */
 export function ControlBar() {
@@ -164,4 +163,14 @@ export function classCommands() {
       },
     },
   ];
+}
+
+/** The way to the window of one's own ROS nodes, while nodes may join. */
+export function NodesButton() {
+  if (!mayJoin.value) return null;
+  return html`<button type="button" class="button small" title=${t("nodes.open.hint")} onClick=${showNodes}><${Icon} name="node" size=${14} />${t("nodes.open")}</button>`;
+}
+
+function showNodes() {
+  dialog.value = { kind: "nodes" };
 }

@@ -18,8 +18,8 @@ import {
 import { goTo } from "../model/requests.js";
 import { canCompare } from "../model/variants.js";
 import { dialog } from "../model/view.js";
+import { NodesButton } from "./control.js";
 import { compareWith } from "./menu-commands.js";
-import { NodesButton } from "./nodes-button.js";
 
 export function CopyBar() {
   if (!isCopy.value) return null;

@@ -4,6 +4,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, effect, signal, untracked } from "vendor/preact.js";
+import { csvCell } from "../lib/csv.js";
 import { askedWhenChanged, askOrKeepWhy } from "./asking.js";
 import { leads } from "./class.js";
 import { connection, documentId } from "./connection.js";
@@ -92,12 +93,6 @@ async function askTable() {
   if (answer?.type === "lesson_table") table.value = answer;
 }
 
-/** A cell that a spreadsheet takes for text, whatever a student is called. @param {string} text */
-function cell(text) {
-  const plain = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
-  return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
-}
-
 /**
  * @param {LessonTable} all
  * @param {readonly string[]} head the words above name and steps
@@ -105,9 +100,11 @@ function cell(text) {
  */
 export function csvOf({ rows }, head) {
   const lines = rows.map(({ name, done_s: done }) =>
-    [name, ...done.map((one) => (one == null ? "" : new Date(one * 1000).toISOString()))].map(cell),
+    [name, ...done.map((one) => (one == null ? "" : new Date(one * 1000).toISOString()))].map(
+      csvCell,
+    ),
   );
-  return [head.map(cell), ...lines].map((line) => `${line.join(",")}\r\n`).join("");
+  return [head.map(csvCell), ...lines].map((line) => `${line.join(",")}\r\n`).join("");
 }
 
 /** @param {string} lesson its name @param {string} text @returns {Promise<boolean>} it was written */

@@ -8,6 +8,7 @@
 /** @import { Pose, Triple } from "../lib/kinematics.js" */
 
 import { signal } from "vendor/preact.js";
+import { csvCell, tsvCell } from "../lib/csv.js";
 import { moved } from "../lib/kinematics.js";
 import { askOrKeepWhy, askWhenBuilt, sharedFollowing } from "./asking.js";
 
@@ -166,16 +167,3 @@ export function massText(rows, form) {
   const between = form === "csv" ? "," : "\t";
   return `${[HEADS, ...lines].map((line) => line.map(write).join(between)).join("\n")}\n`;
 }
-
-/** @param {string | number} value @returns {string} a name never begins a formula of a spreadsheet */
-const harmless = (value) =>
-  typeof value === "string" && /^[=+\-@\t\r]/.test(value) ? `'${value}` : String(value);
-
-/** @param {string | number} value @returns {string} */
-function csvCell(value) {
-  const text = harmless(value);
-  return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-}
-
-/** @param {string | number} value @returns {string} */
-const tsvCell = (value) => harmless(value).replace(/[\t\n\r]+/g, " ");

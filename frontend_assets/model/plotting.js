@@ -8,6 +8,7 @@
 
 import { signal } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
+import { csvCell } from "../lib/csv.js";
 import { t } from "../lib/i18n.js";
 import { remembered } from "../lib/remembered.js";
 import { trace } from "./data-lane.js";
@@ -211,15 +212,9 @@ export function csvOf(all, from_s, to_s) {
   for (const { topic, path, samples } of all)
     for (let n = samples.at(from_s); n < samples.end && (samples.times[n] ?? 0) <= to_s; n += 1)
       lines.push(
-        `${quoted(topic)},${quoted(path)},${samples.times[n]?.toFixed(6)},${samples.values[n]}`,
+        `${csvCell(topic)},${csvCell(path)},${samples.times[n]?.toFixed(6)},${samples.values[n]}`,
       );
   return `${lines.join("\n")}\n`;
-}
-
-/** @param {string} text as it stands in a cell; what begins as a formula does is none */
-function quoted(text) {
-  const safe = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
-  return /[",\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 }
 
 /** By key. @type {Map<string, Samples>} */

@@ -62,7 +62,8 @@ def test_it_is_encrypted_and_all_come_back_after_the_studio_was_killed(tmp_path:
             lane.ask("open_lesson", document=copy["document"], lesson=LESSON)
             assert done_s(lane) == steps
         owner = Classmate(studio.url, untrusting())
-        owner.client.get(f"/?token={studio.token}")
+        owned = owner.client.get(f"/?token={studio.token}")
+        assert {"Secure", "HttpOnly"} <= set(owned.headers["set-cookie"].split("; "))
         with closing(owner), owner.lane() as lane:
             names = [one["name"] for one in lane.until("class_state")["members"]]
             assert names == ["Ada"]

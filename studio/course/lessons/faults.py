@@ -36,8 +36,7 @@ def faults_of(lesson: Lesson) -> Iterator[FileFault]:
     for language, path in lesson.files.items():
         written = lesson.text(language)
         text = read_lesson(written)
-        lines = written.splitlines()
-        yield from (FileFault(path, fault) for fault in (*text.faults, *_names(text, lines)))
+        yield from (FileFault(path, fault) for fault in faults_in(text, written))
         if not text.steps:
             yield FileFault(path, Fault(1, "No step has a check: write a line `check: ...`."))
         first = first or text
@@ -46,7 +45,9 @@ def faults_of(lesson: Lesson) -> Iterator[FileFault]:
             yield FileFault(path, Fault(1, sentence))
 
 
-def _names(text: LessonText, lines: list[str]) -> Iterator[Fault]:
+def faults_in(text: LessonText, written: str) -> Iterator[Fault]:
+    """Yield what is wrong with a text that was read, with demos and panels that there are not."""
+    yield from text.faults
     for name in text.needs:
         if find_demo(name) is None:
             yield Fault(2, f"No demo is called {name}: `studio demos` lists them.")
@@ -54,7 +55,8 @@ def _names(text: LessonText, lines: list[str]) -> Iterator[Fault]:
     for step in text.steps:
         for check in step.checks:
             if check.kind == "opened" and check.values["panel"] not in panels:
-                number = next((at for at, line in enumerate(lines, 1) if check.line in line), 1)
+                lines = enumerate(written.splitlines(), 1)
+                number = next((at for at, line in lines if check.line in line), 1)
                 known = ", ".join(sorted(panels))
                 yield Fault(
                     number, f"No panel is called {check.values['panel']}: they are {known}."

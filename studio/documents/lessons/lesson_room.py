@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.classroom.members import now_s
 from studio.course.lessons.checks import Concern
+from studio.course.lessons.faults import faults_in
 from studio.course.lessons.shelf import LESSONS_MAX
 from studio.course.lessons.text import LessonText, read_lesson
 from studio.documents.lessons.graphs import Graphs, Questions
@@ -200,12 +201,7 @@ class LessonRoom:
 
     async def read(self, command: ReadLesson) -> LessonRead:
         """Return what is faulty in a text, and its steps."""
-        text = await asyncio.to_thread(read_lesson, command.text)
-        return LessonRead(
-            request=command.request,
-            faults=tuple(LessonFault(line=one.line, sentence=one.sentence) for one in text.faults),
-            steps=tuple(step_view(step) for step in text.steps),
-        )
+        return await asyncio.to_thread(_read, command)
 
     # Reading
 
@@ -410,6 +406,16 @@ class LessonRoom:
                 if not one.removed
             ),
         )
+
+
+def _read(command: ReadLesson) -> LessonRead:
+    text = read_lesson(command.text)
+    faults = faults_in(text, command.text)
+    return LessonRead(
+        request=command.request,
+        faults=tuple(LessonFault(line=one.line, sentence=one.sentence) for one in faults),
+        steps=tuple(step_view(step) for step in text.steps),
+    )
 
 
 def _checks_of(text: LessonText) -> Iterable[Check]:

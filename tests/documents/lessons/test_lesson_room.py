@@ -225,11 +225,12 @@ def test_a_lesson_is_written_in_the_page_and_who_reads_it_sees_the_change(tmp_pa
 
 def test_the_faults_of_a_text_are_told_before_it_is_saved(tmp_path: Path):
     async def work(room: Room) -> None:
-        text = "No title\n\ncheck: node talker runs\ncheck: no errors\n"
+        text = "No title\n\ncheck: node talker runs\ncheck: no errors\n\ncheck: opened nothing\n"
         await room.ask(room.presenter, ReadLesson(text=text))
         read = room.presenter.last("lesson_read")
-        assert [one["line"] for one in read["faults"]] == [1, 3]
-        (step,) = read["steps"]
+        assert [one["line"] for one in read["faults"]] == [1, 3, 6]
+        assert "No panel is called nothing" in read["faults"][-1]["sentence"]
+        step, _ = read["steps"]
         assert [(one["kind"], one["line"], one["code"]) for one in step["checks"]] == [
             ("no_errors", "no errors", ""),
             ("", "node talker runs", "check.faulty"),
