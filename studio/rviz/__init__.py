@@ -1,0 +1,1 @@
+"""What RViz has beside displays, as values: its tools, its views and its config files."""
