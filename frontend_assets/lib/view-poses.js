@@ -260,7 +260,7 @@ export function viewOf(kind, pose, before, size) {
   }
   const values = { ...standingValues(pose.turn), ...tripleValues("Position", eyeOf(pose)) };
   const Scale = size.height / (pose.distance * tallOf(view));
-  const stands = withValues(view, { ...values, Scale });
+  const stands = withValues(view, isFlat(view) ? { ...values, Scale } : values);
   return { ...(kind === "FrameAligned" ? pointed(stands) : stands), reach: pose.distance };
 }
 

@@ -2840,8 +2840,9 @@ export interface ShowFocus {
 /**
  * Where the presenter's camera and pointer are; they go to who follows as a binary frame.
  *
- * The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the camera's
- * eye, what it looks at, and the pointer, which is NaN where there is none.
+ * The frame is the byte 2, a byte that is 1 without perspective, six bytes of nothing, and
+ * thirteen little-endian float32: the camera's eye, what it looks at, the pointer, which is NaN
+ * where there is none, where the top of the picture points, and the angle that it sees.
  */
 export interface ShowView {
   request?: number;
@@ -2851,6 +2852,9 @@ export interface ShowView {
   eye: [number, number, number];
   target: [number, number, number];
   pointer?: [number, number, number] | null;
+  up?: [number, number, number];
+  flat?: boolean;
+  field?: number;
 }
 
 /** A state to compare: the present robot, the one on disk, or a variant. */
