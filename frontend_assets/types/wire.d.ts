@@ -429,6 +429,15 @@ export interface DeleteVariant {
   name: string;
 }
 
+/** Delete a saved view. */
+export interface DeleteView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "delete_view";
+  view: string;
+}
+
 /** Answer to `get_demo_code`: the file that is run first, then those of its own package. */
 export interface DemoCode {
   type: "demo_code";
@@ -1293,6 +1302,14 @@ export interface GetUrdfChanges {
   type: "get_urdf_changes";
 }
 
+/** Ask for the kinds of views. */
+export interface GetViewKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_view_kinds";
+}
+
 /** Give control to a person who is there. */
 export interface GiveControl {
   request?: number;
@@ -1823,6 +1840,16 @@ export interface Misfit {
   subscriber: string;
   reasons: string[];
   heard: boolean;
+}
+
+/** Put a saved view before another; empty: at the end. */
+export interface MoveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "move_view";
+  view: string;
+  before?: string;
 }
 
 /** Your own copies, to all pages of a person. */
@@ -2481,6 +2508,16 @@ export interface RenameVariant {
   note?: string;
 }
 
+/** Give a saved view another name. */
+export interface RenameView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_view";
+  view: string;
+  name: string;
+}
+
 /** Answer to `get_renaming`: the first of `count` places, in `files` files. */
 export interface RenamingAnswer {
   type: "renaming";
@@ -2643,10 +2680,36 @@ export interface SaveVariant {
   note?: string;
 }
 
+/** Save a view with the document, for all who look at it. */
+export interface SaveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_view";
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+  before?: string;
+}
+
 /** These files were written. */
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** A view that is saved with the document. */
+export interface SavedView {
+  id: string;
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All views that are saved with a document, in order. */
+export interface SavedViews {
+  type: "saved_views";
+  views: SavedView[];
 }
 
 /** A panel was opened in the page, which checks of the page ask about. */
@@ -3241,6 +3304,20 @@ export interface Variants {
   trouble: string;
 }
 
+/** A kind of view. */
+export interface ViewKindView {
+  kind: string;
+  doc: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_view_kinds`, in RViz's order. */
+export interface ViewKinds {
+  type: "view_kinds";
+  request: number;
+  kinds: ViewKindView[];
+}
+
 /** Volume of all visuals or all collisions of a link, m3; an upper bound. */
 export interface VolumeView {
   volume_m3: number;
@@ -3364,6 +3441,7 @@ export type Command =
   | DeleteLesson
   | DeletePose
   | DeleteVariant
+  | DeleteView
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3422,6 +3500,7 @@ export type Command =
   | GetTopics
   | GetUrdf
   | GetUrdfChanges
+  | GetViewKinds
   | GiveControl
   | HandIn
   | Lead
@@ -3435,6 +3514,7 @@ export type Command =
   | LookUp
   | LowerHand
   | MendAll
+  | MoveView
   | NewRobot
   | NewUntitled
   | OpenCopy
@@ -3461,6 +3541,7 @@ export type Command =
   | Rename
   | RenamePose
   | RenameVariant
+  | RenameView
   | RenewCode
   | ReplaceTexts
   | ResetSite
@@ -3472,6 +3553,7 @@ export type Command =
   | SaveLesson
   | SavePose
   | SaveVariant
+  | SaveView
   | SawPanel
   | SendBack
   | SendGoal
@@ -3585,6 +3667,7 @@ export type Event =
   | Restored
   | RobotState
   | Saved
+  | SavedViews
   | Services
   | Sites
   | Stopped
@@ -3603,6 +3686,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Variants
+  | ViewKinds
   | WireFeed
   | WireReport
   | WireRobots
