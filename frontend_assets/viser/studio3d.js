@@ -16,6 +16,7 @@ import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
 import { RobotView } from "./robot.js";
+import { FIRST } from "../lib/view-poses.js";
 
 /**
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
@@ -123,6 +124,11 @@ class Studio3d {
   /** @param {string} name @param {Value} value */
   setViewValue(name, value) {
     this.#camera.setValue(name, value);
+  }
+
+  /** What the values of a view are at first, by its kind. */
+  firstValues() {
+    return FIRST;
   }
 
   /** RViz's Zero of the view. */
