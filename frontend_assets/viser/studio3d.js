@@ -131,6 +131,11 @@ class Studio3d {
     return FIRST;
   }
 
+  /** A hand is on the camera, from outside of the picture. */
+  touch() {
+    this.#tell("touch", {});
+  }
+
   /** RViz's Zero of the view. */
   zero() {
     this.#camera.zero();

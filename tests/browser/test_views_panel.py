@@ -126,7 +126,7 @@ def use_the_cube(views: Views) -> None:
     for _ in range(2):
         views.page.keyboard.press("ArrowDown")
     views.looks_from(0, -1, 0)
-    assert "Right" in (cube.get_attribute("aria-label") or "")
+    cube.and_(views.page.get_by_role("group", name="seen from “Right”")).wait_for()
     box = cube.bounding_box()
     assert box
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

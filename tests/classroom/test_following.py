@@ -3,8 +3,8 @@ from __future__ import annotations
 import math
 import struct
 
-from studio.classroom.following import Following
-from studio.protocol.classroom import Focus, ShowView
+from studio.classroom.following import Following, Seen
+from studio.protocol.classroom import Focus
 from studio.protocol.roles import Role
 from tests.support.open_documents import Ear
 
