@@ -2,7 +2,7 @@
 
 import { effect, html, render } from "vendor/preact.js";
 import { documentOf } from "../lib/address.js";
-import { addCommands, matches, onKey, takesText } from "../lib/commands.js";
+import { addCommands, commandById, matches, onKey, takesText } from "../lib/commands.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { anyUnderWay } from "../lib/latest.js";
@@ -29,7 +29,7 @@ import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
 import { followGraphics } from "./graphics.js";
 import { helpCommands, helpTitle, openHelp } from "./help.js";
-import { addLayoutCommands } from "./layout-commands.js";
+import { addLayoutCommands, openPanelMenu } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
@@ -51,6 +51,16 @@ function startDock(element) {
     restoreLabel: () => t("restore"),
     helpLabel: (id) => t("help.of", { page: helpTitle(id) }),
     onHelp: openHelp,
+    floatLabel: (id) => t("panel.float", { panel: panelTitle(id) }),
+    dockLabel: (id) => t("panel.dock", { panel: panelTitle(id) }),
+    closeLabel: (id) => t("panel.close_named", { panel: panelTitle(id) }),
+    menuLabel: (id) => t("panel.menu", { panel: panelTitle(id) }),
+    alonePanel: () => "scene",
+    aloneLabel: () => t("command.fullscreen"),
+    onAlone: () => commandById("fullscreen")?.run(),
+    onFloat: (id) => dock.toggleFloating(id),
+    onClose: (id) => dock.close(id),
+    onMenu: (id, button) => openPanelMenu(dock, id, button),
     icon: iconElement,
     onChange: () => arrangement?.keep(),
     onActive: (id) => {
