@@ -14,6 +14,7 @@ import { followPresenter } from "../model/following.js";
 import { addMeasuring } from "../model/measuring.js";
 import {
   clearSelection,
+  isGoing,
   redo,
   save,
   toggleAnimation,
@@ -57,6 +58,7 @@ function startDock(element) {
     menuLabel: (id) => t("panel.menu", { panel: panelTitle(id) }),
     alonePanel: () => "scene",
     aloneLabel: () => t("command.fullscreen"),
+    onKey: onKeyDown,
     onAlone: () => commandById("fullscreen")?.run(),
     onFloat: (id) => dock.toggleFloating(id),
     onClose: (id) => dock.close(id),
@@ -147,14 +149,26 @@ function show(shown) {
   dialog.value = shown;
 }
 
-function listenToKeys() {
-  addEventListener("keydown", (event) => {
-    if (event.defaultPrevented || belongsToWindow(event)) return;
-    const inText = takesText(event.target);
-    if (onKey(event, { inText })) event.preventDefault();
-    else if (!inText && matches("Mod+A", event)) selectAllOf(event);
+/** @param {KeyboardEvent} event */
+function onKeyDown(event) {
+  if (event.defaultPrevented || belongsToWindow(event)) return;
+  const inText = takesText(event.target);
+  if (onKey(event, { inText })) event.preventDefault();
+  else if (!inText && matches("Mod+A", event)) selectAllOf(event);
+}
+
+/**
+ * Who leaves the studio with unsaved edits is asked, as by RViz. The studio keeps them, but one who
+ * closes a tab may have meant to save; the way to another document of the studio asks nothing.
+ */
+function askBeforeLeaving() {
+  const ask = (/** @type {Event} */ event) => {
+    if (!isGoing()) event.preventDefault();
+  };
+  effect(() => {
+    if (unsaved.value && mayEdit.value && !isCopy.value) addEventListener("beforeunload", ask);
+    else removeEventListener("beforeunload", ask);
   });
-  // Leaving with unsaved edits loses nothing (the studio holds them), so nothing asks.
 }
 
 /** @param {KeyboardEvent} event @returns {boolean} a dialog has its keys, and Escape is also that of a box with text */
@@ -189,7 +203,8 @@ effect(() => {
 addMeasuring();
 addPageCommands();
 followState();
-listenToKeys();
+addEventListener("keydown", onKeyDown);
+askBeforeLeaving();
 const root = document.getElementById("app");
 if (root) render(html`<${Shell} onDock=${startDock} />`, root);
 followMissing();

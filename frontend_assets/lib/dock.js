@@ -46,7 +46,8 @@ const THEME = { name: "studio", className: "dockview-theme-studio", gap: 6 };
 /**
  * @param {HTMLElement} element
  * @param {Record<string, Panel>} panels
- * @param {ActionOptions & {onChange: () => void, onActive: (id: string | null) => void}} options
+ * @param {ActionOptions & {onChange: () => void, onActive: (id: string | null) => void, onKey: (event: KeyboardEvent) => void}} options
+ *   `onKey` is given strokes at tabs with Ctrl, Alt or Command held, which come no further
  * @returns {Dock}
  */
 export function createDock(element, panels, options) {
@@ -63,9 +64,17 @@ export function createDock(element, panels, options) {
   });
   // The panel in it is a landmark of the same name.
   api.onDidAddGroup((group) => group.element.setAttribute("role", "group"));
-  element.addEventListener("keydown", (event) => {
-    if (!moveFloatingByKey(api, event)) onTabKey(api, event);
-  });
+  element.addEventListener("keydown", (event) => onTabKey(api, event));
+  // The dock takes Enter and arrows at its tabs for its own, whatever is held with them.
+  element.addEventListener(
+    "keydown",
+    (event) => {
+      if (!isHeldAtTab(event)) return;
+      event.stopPropagation();
+      if (!moveFloatingByKey(api, event)) options.onKey(event);
+    },
+    { capture: true },
+  );
   /** Where floating panels came from, by id: a panel that stood beside it. */
   const homes = new Map();
   const alone = aloneIn(api, element);
@@ -252,9 +261,15 @@ function focusNext(api, step) {
   tab?.focus();
 }
 
+/** @param {KeyboardEvent} event @returns {boolean} a tab has the focus, and more than Shift is held */
+function isHeldAtTab({ target, ctrlKey, metaKey, altKey }) {
+  return (
+    (ctrlKey || metaKey || altKey) && target instanceof Element && target.closest(TAB) !== null
+  );
+}
+
 /** Arrow keys move along the tabs of a group, as people expect of tabs. @param {DockviewApi} api @param {KeyboardEvent} event */
 function onTabKey(api, event) {
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
   const tab = event.target instanceof Element ? event.target.closest(TAB) : null;
   const group = api.groups.find((one) => tab && one.element.contains(tab));
   if (!tab || !group) return;
@@ -366,7 +381,6 @@ function moveFloatingByKey(api, event) {
   const group = api.groups.find((one) => tab && one.element.contains(tab));
   if (!step || !event.altKey || !group || isInGrid(group)) return false;
   event.preventDefault();
-  event.stopPropagation();
   const [x, y] = [step[0] * KEY_STEP_PX, step[1] * KEY_STEP_PX];
   const frame = group.element.closest(".dv-resize-container");
   const id = group.activePanel?.id ?? "";
