@@ -440,6 +440,15 @@ export interface DeleteVariant {
   name: string;
 }
 
+/** Delete a saved view. */
+export interface DeleteView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "delete_view";
+  view: string;
+}
+
 /** Answer to `get_demo_code`: the file that is run first, then those of its own package. */
 export interface DemoCode {
   type: "demo_code";
@@ -1321,6 +1330,14 @@ export interface GetUrdfChanges {
   type: "get_urdf_changes";
 }
 
+/** Ask for the kinds of views. */
+export interface GetViewKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_view_kinds";
+}
+
 /** Give control to a person who is there. */
 export interface GiveControl {
   request?: number;
@@ -1852,6 +1869,16 @@ export interface Misfit {
   subscriber: string;
   reasons: string[];
   heard: boolean;
+}
+
+/** Put a saved view before another; empty: at the end. */
+export interface MoveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "move_view";
+  view: string;
+  before?: string;
 }
 
 /** Your own copies, to all pages of a person. */
@@ -2520,6 +2547,16 @@ export interface RenameVariant {
   note?: string;
 }
 
+/** Give a saved view another name. */
+export interface RenameView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_view";
+  view: string;
+  name: string;
+}
+
 /** Answer to `get_renaming`: the first of `count` places, in `files` files. */
 export interface RenamingAnswer {
   type: "renaming";
@@ -2703,10 +2740,36 @@ export interface SaveVariant {
   note?: string;
 }
 
+/** Save a view with the document, for all who look at it. */
+export interface SaveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_view";
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+  before?: string;
+}
+
 /** These files were written. */
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** A view that is saved with the document. */
+export interface SavedView {
+  id: string;
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All views that are saved with a document, in order. */
+export interface SavedViews {
+  type: "saved_views";
+  views: SavedView[];
 }
 
 /** A panel was opened in the page, which checks of the page ask about. */
@@ -2912,8 +2975,9 @@ export interface ShowFocus {
 /**
  * Where the presenter's camera and pointer are; they go to who follows as a binary frame.
  *
- * The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the camera's
- * eye, what it looks at, and the pointer, which is NaN where there is none.
+ * The frame is the byte 2, a byte that is 1 without perspective, six bytes of nothing, and
+ * thirteen little-endian float32: the camera's eye, what it looks at, the pointer, which is NaN
+ * where there is none, where the top of the picture points, and the angle that it sees.
  */
 export interface ShowView {
   request?: number;
@@ -2923,6 +2987,9 @@ export interface ShowView {
   eye: [number, number, number];
   target: [number, number, number];
   pointer?: [number, number, number] | null;
+  up?: [number, number, number];
+  flat?: boolean;
+  field?: number;
 }
 
 /** A state to compare: the present robot, the one on disk, or a variant. */
@@ -3310,6 +3377,20 @@ export interface Variants {
   trouble: string;
 }
 
+/** A kind of view. */
+export interface ViewKindView {
+  kind: string;
+  doc: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_view_kinds`, in RViz's order. */
+export interface ViewKinds {
+  type: "view_kinds";
+  request: number;
+  kinds: ViewKindView[];
+}
+
 /** Volume of all visuals or all collisions of a link, m3; an upper bound. */
 export interface VolumeView {
   volume_m3: number;
@@ -3434,6 +3515,7 @@ export type Command =
   | DeleteLesson
   | DeletePose
   | DeleteVariant
+  | DeleteView
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3493,6 +3575,7 @@ export type Command =
   | GetTopics
   | GetUrdf
   | GetUrdfChanges
+  | GetViewKinds
   | GiveControl
   | HandIn
   | Lead
@@ -3506,6 +3589,7 @@ export type Command =
   | LookUp
   | LowerHand
   | MendAll
+  | MoveView
   | NewRobot
   | NewUntitled
   | OpenCopy
@@ -3533,6 +3617,7 @@ export type Command =
   | Rename
   | RenamePose
   | RenameVariant
+  | RenameView
   | RenewCode
   | ReplaceTexts
   | ResetScene
@@ -3546,6 +3631,7 @@ export type Command =
   | SaveLesson
   | SavePose
   | SaveVariant
+  | SaveView
   | SawPanel
   | SendBack
   | SendGoal
@@ -3659,6 +3745,7 @@ export type Event =
   | Restored
   | RobotState
   | Saved
+  | SavedViews
   | SceneTime
   | Services
   | Sites
@@ -3678,6 +3765,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Variants
+  | ViewKinds
   | WireFeed
   | WireReport
   | WireRobots

@@ -11,6 +11,7 @@ import msgspec
 
 from studio.files import write_whole
 from studio.live.displays.display_list import DISPLAYS_MAX, DisplaySpec
+from studio.rviz.views import ViewSpec  # noqa: TC001 - msgspec reads it
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -27,6 +28,7 @@ class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
     displays: tuple[DisplaySpec, ...] = ()
     groups_off: tuple[str, ...] = ()
     fixed_frame: str = ""
+    views: tuple[ViewSpec, ...] = ()
 
 
 _DECODER: Final = msgspec.json.Decoder(KeptDisplays)

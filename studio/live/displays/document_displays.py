@@ -12,6 +12,8 @@ from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.groups import all_groups, group_path
+from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
+from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_clock import SceneClock
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
@@ -94,6 +96,7 @@ class DocumentDisplays:
         self._robot, self._meshes, self._reader = robot, meshes, reader
         self._file, self._wire, self._audience = file, wire, audience
         self._list = DisplayList()
+        self.views = SavedViews(audience, self._keep)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -114,7 +117,8 @@ class DocumentDisplays:
     @property
     def kept(self) -> KeptDisplays:
         """All that is kept of them."""
-        return KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        displays, groups_off = tuple(self._list), self._list.groups_off
+        return KeptDisplays(displays, groups_off, self._fixed_frame, self.views.specs)
 
     def mirror(self, other: KeptDisplays) -> None:
         """Have the displays that another document has; how they look here stays as it is."""
@@ -142,6 +146,7 @@ class DocumentDisplays:
     def restore(self) -> None:
         """Take up the displays of the last time."""
         kept = self._file.read()
+        self.views.restore(kept.views)
         if kept.fixed_frame:
             self._room.frames.chosen = kept.fixed_frame
         for spec in kept.displays:
@@ -164,6 +169,7 @@ class DocumentDisplays:
         self._seen_s = time.monotonic()
         self._go_on()
         yield self._displays()
+        yield self.views.event()
         if self._states.event is not None:
             yield self._states.event
 
@@ -506,6 +512,7 @@ COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
 
 
 def _first_topic(kind: str) -> str:
