@@ -85,6 +85,7 @@ StudioError
         DisplayMessageError
         DisplayPropertyError
         RvizConfigError
+    ViewError
     AccessError
         NotAllowedError
         NotInControlError
@@ -352,6 +353,10 @@ class RvizConfigError(DisplayError):
             "it is."
         )
         self.reason, self.line, self.name = reason, line, name
+
+
+class ViewError(StudioError):
+    """There is no such kind of view, or it has no such property."""
 
 
 class FrameError(StudioError):
