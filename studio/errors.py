@@ -86,6 +86,7 @@ StudioError
         DisplayPropertyError
         RvizConfigError
     ViewError
+    ToolError
     AccessError
         NotAllowedError
         NotInControlError
@@ -357,6 +358,10 @@ class RvizConfigError(DisplayError):
 
 class ViewError(StudioError):
     """There is no such kind of view, or it has no such property."""
+
+
+class ToolError(StudioError):
+    """There is no such tool, or it cannot do what is asked of it."""
 
 
 class FrameError(StudioError):
