@@ -15,9 +15,10 @@ import yaml
 from studio.errors import RvizConfigError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator
 
-Tree: TypeAlias = "Mapping[str, Tree] | Sequence[Tree] | str"
+Tree: TypeAlias = "dict[str, Tree] | list[Tree] | str"
+"""Never changed in place: parts are shared."""
 
 SIZE_LIMIT_BYTES: Final = 1 << 20
 """The largest file of the corpus has 20 kB."""
@@ -32,7 +33,7 @@ _NULLS: Final = frozenset({"", "~", "null", "Null", "NULL"})
 _PLAIN: Final = re.compile(r"[A-Za-z0-9_/<.(+$][^\x00-\x1f\x7f-\x9f\ufeff\u2028\u2029#:]*")
 """Texts that no YAML reader takes for anything else, if they also read as texts."""
 _WORDS: Final = re.compile(
-    r"(?i:true|false|yes|no|on|off|y|n|null|~)|[-+.]?[0-9][-+0-9a-zA-Z_.:]*|[-+]?\.(?i:inf|nan)|="
+    r"(?i:true|false|yes|no|on|off|null|~)|[-+.]?[0-9][-+0-9a-zA-Z_.:]*|[-+]?\.(?i:inf|nan)|="
 )
 """Texts that would be read as something else than texts."""
 _ESCAPED: Final = re.compile("[\x7f-\x9f\ufeff\u2028\u2029\ud800-\udfff]")
@@ -183,7 +184,7 @@ def _lines(tree: Tree, indent: str) -> Iterator[str]:
         for key, value in tree.items():
             yield from _entry(key, value, indent)
     else:
-        for value in cast("Sequence[Tree]", tree):
+        for value in tree:
             inner = list(_lines(value, f"{indent}  "))
             yield f"{indent}- {inner[0].lstrip(' ')}"
             yield from inner[1:]
