@@ -114,6 +114,17 @@ export interface ArrangeDisplay {
   before?: string | null;
 }
 
+/** Give a group, with all that is in it, another path or place; what is None stays. */
+export interface ArrangeGroup {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "arrange_group";
+  group: string;
+  to?: string | null;
+  before?: string | null;
+}
+
 /** Ask for control, or no longer. */
 export interface AskControl {
   request?: number;
@@ -559,6 +570,7 @@ export interface DisplayState {
   id: string;
   rate_hz: number;
   age_s: number | null;
+  received: number;
   lost: number;
   remarks: Remark[];
 }
@@ -567,6 +579,7 @@ export interface DisplayState {
 export interface DisplayStates {
   type: "display_states";
   states: DisplayState[];
+  fixed_frame: FixedFrameState;
   fixed_frame_trouble: string;
 }
 
@@ -814,6 +827,13 @@ export interface Fix {
   action: string;
   target: string;
   edits: Replacement[];
+}
+
+/** Whether there is such a frame, as RViz's global status has it. */
+export interface FixedFrameState {
+  frame: string;
+  level: "ok" | "warn" | "error";
+  sentence: string;
 }
 
 /** What the presenter has selected, points at and has open; see `show_focus`. */
@@ -1221,6 +1241,14 @@ export interface GetRenaming {
   offset: number;
   type: "get_renaming";
   name: string;
+}
+
+/** Ask for the time now; /clock is subscribed for some seconds after. */
+export interface GetSceneTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_scene_time";
 }
 
 /** Ask for the services that have a server. */
@@ -1671,6 +1699,7 @@ export interface LiveDisplays {
   displays: DisplayView[];
   groups_off: string[];
   fixed_frame: string;
+  paused: boolean;
 }
 
 /** Set what a parameter file has for a node, one parameter after another. */
@@ -2157,6 +2186,15 @@ export interface PauseClass {
   type: "pause_class";
 }
 
+/** Pause drawing, or go on; messages are received meanwhile, and drawn when it goes on. */
+export interface PauseScene {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "pause_scene";
+  paused: boolean;
+}
+
 /** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
 export interface Place {
   file: string;
@@ -2426,13 +2464,14 @@ export interface Remark {
   mend: Mend | null;
 }
 
-/** Remove a display. */
+/** Remove a display, or a group with all that is in it; `restore_displays` takes it back. */
 export interface RemoveDisplay {
   request?: number;
   document?: string;
   id?: string;
   type: "remove_display";
-  display: string;
+  display?: string;
+  group?: string;
 }
 
 /** Send a person out; their browser cannot join again until it is let in. */
@@ -2532,6 +2571,18 @@ export interface Replacement {
   text: string;
 }
 
+/**
+ * Forget all messages and transforms received, and begin to count the time anew.
+ *
+ * All is subscribed again, so that latched messages come once more.
+ */
+export interface ResetScene {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "reset_scene";
+}
+
 /** Put a site back to its text on disk. */
 export interface ResetSite {
   request?: number;
@@ -2555,6 +2606,15 @@ export interface ResolveCollisions {
   keep: "mine" | "theirs";
   each?: ("mine" | "theirs")[];
   state?: string;
+}
+
+/** Put displays back that were removed, where they stood and as they were set. */
+export interface RestoreDisplays {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "restore_displays";
+  displays: string[];
 }
 
 /** Edits of an earlier run were restored; `at` empty: nothing to report any more. */
@@ -2656,6 +2716,18 @@ export interface SawPanel {
   id?: string;
   type: "saw_panel";
   panel: string;
+}
+
+/** Answer to `get_scene_time`; all in seconds, with hundredths that mean something. */
+export interface SceneTime {
+  type: "scene_time";
+  request: number;
+  ros_s: number;
+  ros_elapsed_s: number;
+  wall_s: number;
+  wall_elapsed_s: number;
+  from_clock: boolean;
+  paused: boolean;
 }
 
 /** Send a copy back to its owner with a remark. */
@@ -2979,7 +3051,7 @@ export interface StudentNodesState {
 /** Kind of the thing at a place in a text. */
 export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
 
-/** Show or hide displays: one, or all of a group. */
+/** Show or hide displays: one, a group as a whole, or each one of them. */
 export interface SwitchDisplays {
   request?: number;
   document?: string;
@@ -3129,6 +3201,7 @@ export interface TopicView {
   types: string[];
   publishers: number;
   kind: string;
+  kinds: string[];
 }
 
 /** Answer to `get_topics`. */
@@ -3346,6 +3419,7 @@ export type Command =
   | ApplyPose
   | ApplyVariant
   | ArrangeDisplay
+  | ArrangeGroup
   | AskControl
   | CallService
   | CancelCall
@@ -3410,6 +3484,7 @@ export type Command =
   | GetParameters
   | GetReferences
   | GetRenaming
+  | GetSceneTime
   | GetServices
   | GetText
   | GetTf
@@ -3441,6 +3516,7 @@ export type Command =
   | OpenPath
   | OpenRecent
   | PauseClass
+  | PauseScene
   | PressKey
   | Publish
   | PublishJoints
@@ -3459,8 +3535,10 @@ export type Command =
   | RenameVariant
   | RenewCode
   | ReplaceTexts
+  | ResetScene
   | ResetSite
   | ResolveCollisions
+  | RestoreDisplays
   | ReturnControl
   | Save
   | SaveAs
@@ -3581,6 +3659,7 @@ export type Event =
   | Restored
   | RobotState
   | Saved
+  | SceneTime
   | Services
   | Sites
   | Stopped

@@ -162,6 +162,7 @@ class Document:
             services.wire,
             audience,
         )
+        self.feed.is_held = lambda: self.live.is_paused
 
     @property
     def title(self) -> str:

@@ -11,10 +11,13 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
+from studio.live.displays.groups import all_groups, group_path
+from studio.live.displays.scene_clock import SceneClock
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
+    ArrangeGroup,
     DisplayKinds,
     DisplayStates,
     DuplicateDisplay,
@@ -25,6 +28,7 @@ from studio.protocol.displays import (
     GetTopics,
     LiveDisplays,
     RemoveDisplay,
+    RestoreDisplays,
     SetDisplayProperty,
     SetDisplayTopic,
     SetFixedFrame,
@@ -34,6 +38,7 @@ from studio.protocol.displays import (
 )
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
+from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene, SceneTime
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -96,6 +101,7 @@ class DocumentDisplays:
         self._keeping: asyncio.Task[None] | None = None
         self._unkept: KeptDisplays | None = None
         self._seen_s = time.monotonic()
+        self._clock = SceneClock()
         self._fault = ""
         self._checked_s = 0.0
         self._asked_until_s = 0.0
@@ -140,7 +146,7 @@ class DocumentDisplays:
             self._room.frames.chosen = kept.fixed_frame
         for spec in kept.displays:
             self._restore_one(spec)
-        for group in {one.group for one in self._list} & set(kept.groups_off) - {""}:
+        for group in all_groups(one.group for one in self._list) & set(kept.groups_off):
             self._list.switch_group(group, shown=False)
         self._show_and_hide()
         self._go_on()
@@ -175,9 +181,28 @@ class DocumentDisplays:
             await self._connect()
 
     def remove(self, command: RemoveDisplay) -> None:
-        """Take a display away."""
-        self._remove(command.display)
+        """Take a display away, or a group with all that is in it."""
+        if command.display:
+            self._remove(command.display)
+        else:
+            for one in self._list.members(command.group):
+                self._remove(one.id)
         self._changed()
+
+    def put_back(self, command: RestoreDisplays) -> None:
+        """Put back what was taken away; what fails leaves the others there."""
+        try:
+            for display in command.displays:
+                self._open_again(self._list.put_back(display))
+        finally:
+            self._changed()
+
+    def _open_again(self, spec: DisplaySpec) -> None:
+        try:
+            self._room.open(spec)
+        except StudioError:
+            self._list.remove(spec.id)
+            raise
 
     def _remove(self, display: str) -> None:
         self._list.remove(display)
@@ -196,18 +221,36 @@ class DocumentDisplays:
         name = spec.name if command.name is None else command.name.strip()
         if not name:
             raise CommandError("A display needs a name of at least one letter.")
-        group = spec.group if command.group is None else command.group.strip()
+        group = spec.group if command.group is None else group_path(command.group)
         if command.before is not None:
             self._list.move(spec.id, command.before)
         self._change(replace(spec, name=name, group=group))
 
+    def arrange_group(self, command: ArrangeGroup) -> None:
+        """Name or move a group with all that is in it."""
+        if command.before is not None:
+            self._list.move_group(command.group, command.before)
+        if command.to is not None:
+            self._list.regroup(command.group, command.to)
+        self._respecify()
+        self._changed()
+
     def switch(self, command: SwitchDisplays) -> None:
-        """Show or hide one, or a group as a whole."""
+        """Show or hide one, a group as a whole, or each."""
         if command.display:
             self._change(replace(self._list.get(command.display), enabled=command.enabled))
-        else:
+            return
+        if command.group:
             self._list.switch_group(command.group, shown=command.enabled)
-            self._changed()
+        else:
+            self._list.switch_all(shown=command.enabled)
+        self._respecify()
+        self._changed()
+
+    def _respecify(self) -> None:
+        """Hand the settings of several displays to those that work with them."""
+        for spec in self._list:
+            self._room.get(spec.id).spec = spec
 
     async def set_topic(self, command: SetDisplayTopic) -> None:
         """Listen to another topic, or otherwise."""
@@ -281,6 +324,30 @@ class DocumentDisplays:
         frame = command.frame.strip().removeprefix("/")
         trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
         return FrameFollowed(request=command.request, trouble=trouble)
+
+    def time(self, command: GetSceneTime) -> SceneTime:
+        """Return the time of the view; subscribes to /clock for a while."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        return self._clock.told(command.request, self._room.frames.clock_ns, paused=self.is_paused)
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether drawing is paused."""
+        return self._made is not None and self._made.is_paused
+
+    def pause(self, command: PauseScene) -> None:
+        """Pause drawing for all who look, or go on with the newest."""
+        self._room.pause(paused=command.paused)
+        self._clock.pause(self._room.frames.clock_ns, paused=command.paused)
+        self._changed()
+
+    def reset(self, _: ResetScene) -> None:
+        """Forget all that was received, and receive again what is latched."""
+        self._room.reset()
+        self._clock.reset()
+        self._checked_s = 0.0
+        self._go_on()
 
     def let_go(self) -> None:
         """Receive nothing until it is drawn again."""
@@ -411,6 +478,7 @@ class DocumentDisplays:
             displays=tuple(self._room.view(spec) for spec in self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
+            paused=self.is_paused,
         )
 
 
@@ -422,7 +490,14 @@ COMMANDS.controller(
 COMMANDS.controller(
     DuplicateDisplay, lambda displays, c, _: displays.duplicate(c), on_copies=OnCopies.REFUSED
 )
+COMMANDS.controller(
+    RestoreDisplays, lambda displays, c, _: displays.put_back(c), on_copies=OnCopies.REFUSED
+)
 COMMANDS.controller(ArrangeDisplay, lambda displays, c, _: displays.arrange(c))
+COMMANDS.controller(ArrangeGroup, lambda displays, c, _: displays.arrange_group(c))
+COMMANDS.controller(PauseScene, lambda displays, c, _: displays.pause(c))
+COMMANDS.controller(ResetScene, lambda displays, c, _: displays.reset(c))
+COMMANDS.viewer(GetSceneTime, lambda displays, c, _: displays.time(c))
 COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
