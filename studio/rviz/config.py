@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import RvizConfigError
 from studio.rviz.config_displays import (
-    NAME_MAX,
     ConfigDisplay,
     Loss,
     is_enabled,
@@ -45,6 +44,10 @@ if TYPE_CHECKING:
 DISPLAYS_MAX: Final = 200
 """As many as a document can have."""
 FRAME_RATE_MAX: Final = 240
+GROUP_DEPTH_MAX: Final = 8
+"""So many groups stand in each other in a document."""
+_GROUP_NAME_MAX: Final = 48
+"""Letters of a group's name in a path; in the file it keeps all."""
 _RVIZ_FRAME_RATE: Final = 30
 _RVIZ_BACKGROUND: Final = "#303030"
 _MANAGER: Final = "Visualization Manager"
@@ -174,6 +177,8 @@ class _DisplayReader:
     def _read_group(self, entry: Entry, above: str) -> None:
         wanted = group_name(text_at(entry, "Name"))
         path = f"{above}/{wanted}" if above else wanted
+        if path.count("/") >= GROUP_DEPTH_MAX:
+            raise RvizConfigError(f"its groups are nested deeper than {GROUP_DEPTH_MAX}")
         count = 2
         while path in self.groups:
             path = f"{above}/{wanted} {count}" if above else f"{wanted} {count}"
@@ -187,7 +192,7 @@ class _DisplayReader:
 def group_name(name: str) -> str:
     """Return the name of a group as one step of a path."""
     line = "".join(one if one.isprintable() else " " for one in name)
-    return line.replace("/", _SLASH).strip()[:NAME_MAX] or "Group"
+    return line.replace("/", _SLASH).strip()[:_GROUP_NAME_MAX].strip() or "Group"
 
 
 def _members(entry: Entry) -> list[Entry]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import logging
 import os
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
@@ -22,6 +22,19 @@ _LIMIT_BYTES: Final = 4 << 20
 _log = logging.getLogger(__name__)
 
 
+class OpenedConfig(msgspec.Struct, frozen=True, omit_defaults=True):
+    """An `.rviz` file, with what of it the displays do not say."""
+
+    name: str
+    path: str = ""
+    """Empty: it came without one."""
+    groups: dict[str, dict[str, Any]] = {}
+    rest: dict[str, Any] = {}
+    """The tree without its displays."""
+    is_changed: bool = False
+    """Whether something was changed since it was opened or saved."""
+
+
 class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
     """The content of the file; displays and tools in the order of their lists."""
 
@@ -30,6 +43,12 @@ class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
     fixed_frame: str = ""
     tools: tuple[ToolSpec, ...] = ()
     """None: RViz's first set."""
+    background: str = ""
+    """As `#rrggbb`; empty: that of the theme."""
+    frame_rate: int = 0
+    """Pictures of the 3D view per second at most; 0: as many as there can be."""
+    config: OpenedConfig | None = None
+    """The `.rviz` file that was opened or saved last."""
 
 
 _DECODER: Final = msgspec.json.Decoder(KeptDisplays)

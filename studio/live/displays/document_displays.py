@@ -6,7 +6,9 @@ import asyncio
 import logging
 import time
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
+
+from msgspec import structs
 
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
@@ -94,6 +96,8 @@ class DocumentDisplays:
         self._robot, self._meshes, self._reader = robot, meshes, reader
         self._file, self._wire, self._audience = file, wire, audience
         self._list = DisplayList()
+        self._beside = KeptDisplays()
+        """What is kept beside the displays: options of the view, and an opened config."""
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -114,7 +118,34 @@ class DocumentDisplays:
     @property
     def kept(self) -> KeptDisplays:
         """All that is kept of them."""
-        return KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        return structs.replace(
+            self._beside,
+            displays=tuple(self._list),
+            groups_off=self._list.groups_off,
+            fixed_frame=self._fixed_frame,
+        )
+
+    def replace_all(self, kept: KeptDisplays) -> None:
+        """Have these displays, this fixed frame and all else that is kept, instead of what is."""
+        for one in tuple(self._list):
+            self._remove(one.id)
+        self._room.frames.chosen = kept.fixed_frame
+        self._take(kept)
+        self._room.renew()
+        self._changed()
+
+    def keep_beside(self, **changes: Any) -> None:  # noqa: ANN401 - fields of KeptDisplays
+        """Change what is kept beside the displays."""
+        self._beside = structs.replace(self._beside, **changes)
+        self._changed()
+
+    async def connect_if_needed(self) -> None:
+        """Ensure a connection where a display has a topic, or the fixed frame is no link."""
+        frame = self._fixed_frame
+        if any(one.topic for one in self._list) or (
+            frame and frame not in self._room.frames.own.links
+        ):
+            await self._connect()
 
     def mirror(self, other: KeptDisplays) -> None:
         """Have the displays that another document has; how they look here stays as it is."""
@@ -144,12 +175,16 @@ class DocumentDisplays:
         kept = self._file.read()
         if kept.fixed_frame:
             self._room.frames.chosen = kept.fixed_frame
-        for spec in kept.displays:
-            self._restore_one(spec)
-        for group in all_groups(one.group for one in self._list) & set(kept.groups_off):
-            self._list.switch_group(group, shown=False)
+        self._take(kept)
         self._show_and_hide()
         self._go_on()
+
+    def _take(self, kept: KeptDisplays) -> None:
+        self._beside = structs.replace(kept, displays=(), groups_off=(), fixed_frame="")
+        for spec in kept.displays:
+            self._restore_one(spec)
+        for group in all_groups(one.group for one in self._list):
+            self._list.switch_group(group, shown=group not in kept.groups_off)
 
     def _restore_one(self, spec: DisplaySpec) -> None:
         added = self._list.put(spec)
@@ -479,6 +514,8 @@ class DocumentDisplays:
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
             paused=self.is_paused,
+            background=self._beside.background,
+            frame_rate=self._beside.frame_rate,
         )
 
 
