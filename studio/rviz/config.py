@@ -79,13 +79,14 @@ class RvizConfig:
         displays: In their order, with those that the studio cannot show.
         groups: Entries of the groups by their paths, without what is in them.
         groups_off: Paths of those that are switched off.
-        fixed_frame: Empty: none is named.
+        fixed_frame: Empty: that of the robot's root link.
         background: As `#rrggbb`; empty: that of the theme.
         frame_rate: Pictures per second at most; 0: as many as there can be.
         tools: In their order; without ids.
         views: Those that were saved.
         view: The one that was in use; None: none that there is here.
-        rest: The tree with an empty list of displays; empty: there was no file.
+        root: The robot's root link, which stands for an empty fixed frame.
+        rest: The tree without its displays; empty: there was no file.
     """
 
     displays: tuple[ConfigDisplay, ...] = ()
@@ -97,6 +98,7 @@ class RvizConfig:
     tools: tuple[ToolSpec, ...] = ()
     views: tuple[ViewSpec, ...] = ()
     view: ViewSpec | None = None
+    root: str = ""
     rest: Entry = field(default_factory=dict[str, "Tree"])
 
 
@@ -124,7 +126,7 @@ def read_config(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
         tools=tools,
         views=views,
         view=current,
-        rest={**tree, _MANAGER: {**manager, _DISPLAYS: []}},
+        rest={**tree, _MANAGER: _changed(manager, _DISPLAYS, []) if reader.displays else manager},
     )
     others = (*tool_losses, *view_losses, *current_losses, *_other_losses(tree, manager))
     return config, _united((*reader.losses, *others))
@@ -140,8 +142,8 @@ def tree_of(config: RvizConfig) -> Entry:
     rest = config.rest or _FRESH
     manager = _with_options(entry_at(rest, _MANAGER), config)
     displays = _written(config, "")
-    had_none = is_null(at(manager, (_DISPLAYS,)) or "x")
-    manager = _changed(manager, _DISPLAYS, "~" if had_none and not displays else displays)
+    if displays:
+        manager = _changed(manager, _DISPLAYS, displays)
     manager = merge_tools(manager, config.tools)
     manager = merge_views(manager, config.views)
     if config.view is not None:
@@ -252,7 +254,7 @@ def _frame_rate_of(manager: Entry) -> int:
 
 def _with_options(manager: Entry, config: RvizConfig) -> Entry:
     if text_at(manager, *_FIXED)[:_FRAME_MAX].removeprefix("/") != config.fixed_frame:
-        manager = put(manager, _FIXED, scalar_of(config.fixed_frame or "map"))
+        manager = put(manager, _FIXED, scalar_of(config.fixed_frame or config.root or "map"))
     if _background_of(manager) != config.background:
         ours = "theme" if not config.background else '""'
         if config.background or text_at(manager, *_OUR_BACKGROUND) or at(manager, _BACKGROUND):

@@ -21,6 +21,7 @@ from studio.rviz.config_kinds import (
     class_of,
     is_ours,
     kind_of,
+    missing_of,
     more_of,
     place_of,
     topic_key,
@@ -178,6 +179,8 @@ def _values_of(
     """Return the values that differ, the names of those that are refused, and the places read."""
     refused: set[str] = set()
     seen: set[Path] = set()
+    for name, value in missing_of(entry, kind).items():
+        display.set(name, value)
     for one, path in _places_of(entry, kind, display):
         found = at(entry, path)
         if found is None:
@@ -263,6 +266,7 @@ def _with_values(entry: Entry, display: ConfigDisplay) -> Entry:
     names = dict.fromkeys((*(one.name for one in made.PROPERTIES), *_listed(entry, kind), *values))
     every = values.get(LISTS[kind], True) if kind == "TF" else True
     told: list[tuple[Path, Property, Value]] = []
+    rviz: Mapping[str, Value] = missing_of(display.entry, kind) if display.entry else {}
     missing: dict[str, Value] = {}
     for name in names:
         try:
@@ -270,7 +274,7 @@ def _with_values(entry: Entry, display: ConfigDisplay) -> Entry:
         except DisplayError:  # kept by another studio
             continue
         default = every if name.startswith("Frames/") else one.default
-        missing[name] = default
+        missing[name] = rviz.get(name, default)
         told.append((place_of(kind, name), one, values.get(name, default)))
     return merged(entry, _without_silent(entry, told, display), missing)
 
@@ -287,7 +291,8 @@ def _without_silent(
 
 def _fresh_entry(kind: str) -> Entry:
     """Return an entry with all that RViz2 writes, at its first values."""
-    entry: Entry = {"Class": class_of(kind), "Enabled": "true", **more_of(kind), VALUE: "true"}
+    head: Entry = {"Class": class_of(kind), "Enabled": "true", "Name": kind, VALUE: "true"}
+    entry = {**head, **more_of(kind)}
     for one in display_of_kind(kind).PROPERTIES:
         if not is_ours(kind, one.name):
             entry = put(entry, place_of(kind, one.name), write_value(one, one.default))

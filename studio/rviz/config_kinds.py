@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.catalogue import DISPLAYS
-from studio.rviz.config_values import path_of
+from studio.rviz.config_values import path_of, text_at
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from studio.displays.properties import Value
     from studio.rviz.config_values import Entry, Path
 
 
@@ -133,6 +134,14 @@ def more_of(kind: str) -> Entry:
         return dict(_MORE.get(kind, {}))
     block = topic_block('""', filtered=kind not in _UNFILTERED)
     return {**_MORE.get(kind, {}), topic_key(kind): block}
+
+
+def missing_of(entry: Entry, kind: str) -> Mapping[str, Value]:
+    """Return what properties are in RViz2 while an entry of a file lacks them, unlike here."""
+    return {} if text_at(entry, "Class").startswith(f"{RVIZ1}/") else _MISSING.get(kind, {})
+
+
+_MISSING: Final[Mapping[str, Mapping[str, Value]]] = {"TF": {"Show Names": False}}
 
 
 def kind_of(class_name: str) -> str:

@@ -31,8 +31,8 @@ class OpenedConfig(msgspec.Struct, frozen=True, omit_defaults=True):
     groups: dict[str, dict[str, Any]] = {}
     rest: dict[str, Any] = {}
     """The tree without its displays."""
-    is_changed: bool = False
-    """Whether something was changed since it was opened or saved."""
+    digest: str = ""
+    """Of its text as the studio writes it without a change."""
 
 
 class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):

@@ -114,6 +114,8 @@ class DocumentDisplays:
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
         """Called when displays were added, removed or changed."""
+        self.on_change: Callable[[], object] = lambda: None
+        """Called after any change of what is kept."""
 
     @property
     def kept(self) -> KeptDisplays:
@@ -427,6 +429,7 @@ class DocumentDisplays:
         self._checked_s = 0.0
         self._go_on()
         self.on_list()
+        self.on_change()
 
     def _show_and_hide(self) -> None:
         for spec in self._list:
@@ -442,6 +445,11 @@ class DocumentDisplays:
         while self._unkept is not None:
             kept, self._unkept = self._unkept, None
             await asyncio.to_thread(self._file.write, kept)
+
+    @property
+    def fixed_frame_in_use(self) -> str:
+        """The frame that all is drawn in; empty: there is no robot yet."""
+        return self._room.frames.fixed
 
     @property
     def _fixed_frame(self) -> str:
