@@ -29,7 +29,7 @@ DEPTH_MAX: Final = 40
 _KEY_MAX: Final = 1000
 """No YAML reader takes a longer one on the line of its value."""
 NULL: Final = "~"
-_NULLS: Final = frozenset({"", "~", "null", "Null", "NULL"})
+_NULLS: Final = frozenset({"~", "null", "Null", "NULL"})
 _PLAIN: Final = re.compile(r"[A-Za-z0-9_/<.(+$][^\x00-\x1f\x7f-\x9f\ufeff\u2028\u2029#:]*")
 """Texts that no YAML reader takes for anything else, if they also read as texts."""
 _WORDS: Final = re.compile(
@@ -161,7 +161,7 @@ class _Builder:
 def _scalar(event: yaml.ScalarEvent) -> str:
     is_plain = event.style in (None, "") and event.tag in _PLAIN_TAGS
     text = event.value.encode("utf-8", "replace").decode("utf-8")
-    return text if is_plain and text.isprintable() else quoted(text)
+    return (text or NULL) if is_plain and text.isprintable() else quoted(text)
 
 
 _PLAIN_TAGS: Final = (
@@ -177,7 +177,7 @@ def _key(scalar: str) -> str:
 
 def _lines(tree: Tree, indent: str) -> Iterator[str]:
     if isinstance(tree, str):
-        yield f"{indent}{_written(tree)}"
+        yield f"{indent}{tree}"
     elif not tree:
         yield f"{indent}{_EMPTY[isinstance(tree, dict)]}"
     elif isinstance(tree, dict):
@@ -195,14 +195,10 @@ _EMPTY: Final = ("[]", "{}")
 
 def _entry(key: str, value: Tree, indent: str) -> Iterator[str]:
     if isinstance(value, str):
-        yield f"{indent}{_written(key)}: {_written(value)}"
+        yield f"{indent}{key}: {value}"
         return
-    yield f"{indent}{_written(key)}:"
+    yield f"{indent}{key}:"
     yield from _lines(value, f"{indent}  ")
-
-
-def _written(scalar: str) -> str:
-    return scalar or NULL
 
 
 def _line(event: yaml.Event) -> int | None:
