@@ -21,7 +21,14 @@ import {
   robot,
   showingLastGood,
 } from "../../model/document.js";
-import { fixedFrame, framesNow, frameTrouble, setFixedFrame } from "../../model/live-displays.js";
+import {
+  fixedFrame,
+  framesNow,
+  frameTrouble,
+  paused,
+  pauseScene,
+  setFixedFrame,
+} from "../../model/live-displays.js";
 import { measuring } from "../../model/measuring.js";
 import { canMend, mend, openPath, setDisplay, undo, worstProblem } from "../../model/requests.js";
 import { heldBack } from "../../model/source.js";
@@ -55,7 +62,7 @@ export function ScenePanel() {
     <${MeasureCard} />
     <${Cover} />
     <${MeshProgress} />
-    <div class="scene-notices"><${LastGoodNotice} /><${FollowOffer} /><${GraphicsNotice} /></div>
+    <div class="scene-notices"><${LastGoodNotice} /><${PausedNotice} /><${FollowOffer} /><${GraphicsNotice} /></div>
   </section>`;
 }
 
@@ -190,6 +197,14 @@ function NoticeButtons({ problem }) {
   const fix = problem?.fix?.action === "undo" ? null : problem?.fix;
   return html`${problem && fix && canMend(problem) && html`<button type="button" class="button" onClick=${() => mend(problem)}>${fix.label}</button>`}
     ${history.value.undo.length > 0 && html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`}`;
+}
+
+/** Says that the view stands still, whoever paused it. */
+function PausedNotice() {
+  if (!paused.value) return null;
+  return html`<div class="scene-hint paused" role="status"><${Icon} name="pause" size=${15} />
+    <span>${t("scene.paused")}</span>
+    ${mayEdit.value && html`<button type="button" class="text-button" onClick=${() => void pauseScene(false)}>${t("scene.continue")}</button>`}</div>`;
 }
 
 /** Offers to follow the robot once the view is fixed to a frame in which it drives away. */
