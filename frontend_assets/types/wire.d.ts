@@ -448,6 +448,15 @@ export interface DeleteVariant {
   name: string;
 }
 
+/** Delete a saved view. */
+export interface DeleteView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "delete_view";
+  view: string;
+}
+
 /** Answer to `get_demo_code`: the file that is run first, then those of its own package. */
 export interface DemoCode {
   type: "demo_code";
@@ -1347,6 +1356,14 @@ export interface GetUrdfChanges {
   type: "get_urdf_changes";
 }
 
+/** Ask for the kinds of views. */
+export interface GetViewKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_view_kinds";
+}
+
 /** Give control to a person who is there. */
 export interface GiveControl {
   request?: number;
@@ -1895,6 +1912,16 @@ export interface Misfit {
   subscriber: string;
   reasons: string[];
   heard: boolean;
+}
+
+/** Put a saved view before another; empty: at the end. */
+export interface MoveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "move_view";
+  view: string;
+  before?: string;
 }
 
 /** Your own copies, to all pages of a person. */
@@ -2582,6 +2609,16 @@ export interface RenameVariant {
   note?: string;
 }
 
+/** Give a saved view another name. */
+export interface RenameView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_view";
+  view: string;
+  name: string;
+}
+
 /** Answer to `get_renaming`: the first of `count` places, in `files` files. */
 export interface RenamingAnswer {
   type: "renaming";
@@ -2829,10 +2866,36 @@ export interface SaveVariant {
   note?: string;
 }
 
+/** Save a view with the document, for all who look at it. */
+export interface SaveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_view";
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+  before?: string;
+}
+
 /** These files were written. */
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** A view that is saved with the document. */
+export interface SavedView {
+  id: string;
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All views that are saved with a document, in order. */
+export interface SavedViews {
+  type: "saved_views";
+  views: SavedView[];
 }
 
 /** A panel was opened in the page, which checks of the page ask about. */
@@ -3048,8 +3111,9 @@ export interface ShowFocus {
 /**
  * Where the presenter's camera and pointer are; they go to who follows as a binary frame.
  *
- * The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the camera's
- * eye, what it looks at, and the pointer, which is NaN where there is none.
+ * The frame is the byte 2, a byte that is 1 without perspective, six bytes of nothing, and
+ * thirteen little-endian float32: the camera's eye, what it looks at, the pointer, which is NaN
+ * where there is none, where the top of the picture points, and the angle that it sees.
  */
 export interface ShowView {
   request?: number;
@@ -3059,6 +3123,9 @@ export interface ShowView {
   eye: [number, number, number];
   target: [number, number, number];
   pointer?: [number, number, number] | null;
+  up?: [number, number, number];
+  flat?: boolean;
+  field?: number;
 }
 
 /** A state to compare: the present robot, the one on disk, or a variant. */
@@ -3454,6 +3521,20 @@ export interface Variants {
   trouble: string;
 }
 
+/** A kind of view. */
+export interface ViewKindView {
+  kind: string;
+  doc: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_view_kinds`, in RViz's order. */
+export interface ViewKinds {
+  type: "view_kinds";
+  request: number;
+  kinds: ViewKindView[];
+}
+
 /** A view of the 3D view, by RViz's names. */
 export interface ViewValues {
   kind: string;
@@ -3586,6 +3667,7 @@ export type Command =
   | DeleteLesson
   | DeletePose
   | DeleteVariant
+  | DeleteView
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3647,6 +3729,7 @@ export type Command =
   | GetTopics
   | GetUrdf
   | GetUrdfChanges
+  | GetViewKinds
   | GiveControl
   | HandIn
   | Lead
@@ -3661,6 +3744,7 @@ export type Command =
   | LookUp
   | LowerHand
   | MendAll
+  | MoveView
   | NewRobot
   | NewUntitled
   | OpenCopy
@@ -3690,6 +3774,7 @@ export type Command =
   | Rename
   | RenamePose
   | RenameVariant
+  | RenameView
   | RenewCode
   | ReplaceTexts
   | ResetScene
@@ -3704,6 +3789,7 @@ export type Command =
   | SavePose
   | SaveRvizFile
   | SaveVariant
+  | SaveView
   | SawPanel
   | SendBack
   | SendGoal
@@ -3824,6 +3910,7 @@ export type Event =
   | RvizFiles
   | RvizText
   | Saved
+  | SavedViews
   | SceneTime
   | Services
   | Sites
@@ -3843,6 +3930,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Variants
+  | ViewKinds
   | WireFeed
   | WireReport
   | WireRobots

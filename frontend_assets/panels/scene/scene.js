@@ -217,7 +217,7 @@ function FollowOffer() {
   if (!fixed || !root || isOfRobot || isFollowing || frameTrouble.value) return null;
   if (declinedFor.value === fixed) return null;
   const follow = () => {
-    targetFrame.value = root;
+    viewport.value?.follow(root);
   };
   const decline = () => {
     declinedFor.value = fixed;
@@ -284,7 +284,7 @@ function itemsOf(frames) {
     label,
     checked: value === now,
     run: () => {
-      targetFrame.value = value;
+      viewport.value?.follow(value);
     },
   }));
 }

@@ -12,6 +12,7 @@ import msgspec
 from studio.files import write_whole
 from studio.live.displays.display_list import DISPLAYS_MAX, DisplaySpec
 from studio.rviz.tools import TOOLS_MAX, ToolSpec
+from studio.rviz.views import ViewSpec  # noqa: TC001 - msgspec reads it
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -49,6 +50,7 @@ class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
     """Pictures of the 3D view per second at most; 0: as many as there can be."""
     config: OpenedConfig | None = None
     """The `.rviz` file that was opened or saved last."""
+    views: tuple[ViewSpec, ...] = ()
 
 
 _DECODER: Final = msgspec.json.Decoder(KeptDisplays)

@@ -14,6 +14,8 @@ from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.groups import all_groups, group_path
+from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
+from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_clock import SceneClock
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
@@ -98,6 +100,7 @@ class DocumentDisplays:
         self._list = DisplayList()
         self._beside = KeptDisplays()
         """What is kept beside the displays: options of the view, and an opened config."""
+        self.views = SavedViews(audience, self._views_changed)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -125,6 +128,7 @@ class DocumentDisplays:
             displays=tuple(self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
+            views=self.views.specs,
         )
 
     def replace_all(self, kept: KeptDisplays) -> None:
@@ -133,6 +137,7 @@ class DocumentDisplays:
             self._remove(one.id)
         self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
+        self.views.replace(kept.views)
         self._room.renew()
         self._changed()
 
@@ -175,6 +180,7 @@ class DocumentDisplays:
     def restore(self) -> None:
         """Take up the displays of the last time."""
         kept = self._file.read()
+        self.views.restore(kept.views)
         if kept.fixed_frame:
             self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
@@ -182,7 +188,7 @@ class DocumentDisplays:
         self._go_on()
 
     def _take(self, kept: KeptDisplays) -> None:
-        self._beside = structs.replace(kept, displays=(), groups_off=(), fixed_frame="")
+        self._beside = structs.replace(kept, displays=(), groups_off=(), fixed_frame="", views=())
         for spec in kept.displays:
             self._restore_one(spec)
         for group in all_groups(one.group for one in self._list):
@@ -201,6 +207,7 @@ class DocumentDisplays:
         self._seen_s = time.monotonic()
         self._go_on()
         yield self._displays()
+        yield self.views.event()
         if self._states.event is not None:
             yield self._states.event
 
@@ -431,6 +438,10 @@ class DocumentDisplays:
         self.on_list()
         self.on_change()
 
+    def _views_changed(self) -> None:
+        self._keep()
+        self.on_change()
+
     def _show_and_hide(self) -> None:
         for spec in self._list:
             self._robot.scene.live.show(spec.id, visible=self._list.is_shown(spec))
@@ -551,6 +562,7 @@ COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
 
 
 def _first_topic(kind: str) -> str:

@@ -43,8 +43,7 @@ from studio.protocol.rviz_configs import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-    from typing import Any
+    from collections.abc import Iterable, Iterator
 
     from studio.live.displays.document_displays import DocumentDisplays
     from studio.packages.roots import ServedRoots
@@ -52,7 +51,6 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Audience, Listener
     from studio.rviz.config import RvizConfig
     from studio.rviz.config_displays import ConfigDisplay, Loss
-    from studio.rviz.views import ViewSpec
 
 ENDING: Final = ".rviz"
 _RECENT: Final = "recent_rviz.json"
@@ -366,7 +364,7 @@ def _config_of(kept: KeptDisplays, view: ViewValues | None) -> RvizConfig:
         background=kept.background,
         frame_rate=kept.frame_rate,
         tools=kept.tools or (() if config is not None else default_tools()),
-        views=_views_in(kept),
+        views=kept.views,
         view=seen,
         rest={} if config is None else config.rest,
     )
@@ -377,10 +375,6 @@ def _as_clean(kept: KeptDisplays) -> KeptDisplays:
     assert kept.config is not None
     digest = _digest(_text_of(kept, "", None))
     return structs.replace(kept, config=structs.replace(kept.config, digest=digest))
-
-
-def _views_in(kept: KeptDisplays) -> tuple[ViewSpec, ...]:
-    return getattr(kept, "views", ())
 
 
 def _config_display(spec: DisplaySpec) -> ConfigDisplay:
@@ -403,7 +397,6 @@ def _config_display(spec: DisplaySpec) -> ConfigDisplay:
 
 def _kept_of(config: RvizConfig, before: KeptDisplays, opened: OpenedConfig) -> KeptDisplays:
     """Return what a document keeps of a file."""
-    more: Mapping[str, Any] = {"views": config.views} if hasattr(before, "views") else {}
     return structs.replace(
         before,
         displays=tuple(map(_spec_of, config.displays)),
@@ -412,8 +405,8 @@ def _kept_of(config: RvizConfig, before: KeptDisplays, opened: OpenedConfig) -> 
         background=config.background,
         frame_rate=config.frame_rate,
         tools=config.tools,
+        views=config.views,
         config=structs.replace(opened, groups=dict(config.groups), rest=config.rest),
-        **more,
     )
 
 
