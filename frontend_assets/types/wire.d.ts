@@ -1276,6 +1276,7 @@ export interface GetRvizText {
   id?: string;
   type: "get_rviz_text";
   view?: ViewValues | null;
+  page?: string;
 }
 
 /** Ask for the time now; /clock is subscribed for some seconds after. */
@@ -2751,6 +2752,7 @@ export interface RvizConfigOpened {
   views: number;
   losses: LossView[];
   view: ViewValues | null;
+  page: string;
 }
 
 /** The `.rviz` file of a document. */
@@ -2854,6 +2856,7 @@ export interface SaveRvizFile {
   path?: string;
   replace?: boolean;
   view?: ViewValues | null;
+  page?: string;
 }
 
 /** Keep the present arguments and values as a new variant. */

@@ -12,6 +12,8 @@ from studio.protocol.message import Command, Event, Message
 FilePath: TypeAlias = Annotated[str, StringConstraints(max_length=4096, pattern=r"^[^\x00]*$")]
 FileName: TypeAlias = Annotated[str, StringConstraints(max_length=255, pattern=r"^[^\x00-\x1f]*$")]
 ConfigText: TypeAlias = Annotated[str, StringConstraints(max_length=1 << 20)]
+PageText: TypeAlias = Annotated[str, StringConstraints(max_length=300_000)]
+"""Panels, layouts and plots of a page, as a JSON object; empty: none."""
 Colour: TypeAlias = Annotated[str, StringConstraints(pattern=r"^(#[0-9a-fA-F]{6})?$")]
 
 
@@ -65,6 +67,7 @@ class RvizConfigOpened(Event):
     losses: tuple[LossView, ...]
     view: ViewValues | None
     """The view that was in use; None: none that there is here."""
+    page: PageText
 
 
 class GetRvizText(Command):
@@ -73,6 +76,7 @@ class GetRvizText(Command):
     type: Literal["get_rviz_text"] = "get_rviz_text"
     view: ViewValues | None = None
     """The view of this page; None: that of the file stays."""
+    page: PageText = ""
 
 
 class RvizText(Event):
@@ -92,6 +96,7 @@ class SaveRvizFile(Command):
     replace: bool = False
     """Whether a file that is there already, and is not the one opened, is written over."""
     view: ViewValues | None = None
+    page: PageText = ""
 
 
 class RvizFileSaved(Event):

@@ -19,6 +19,7 @@ from studio.rviz.config_displays import (
     write_display,
 )
 from studio.rviz.config_kinds import GROUPS, OURS
+from studio.rviz.config_page import PAGE
 from studio.rviz.config_text import is_null, read_tree, scalar_of, text_of, write_tree
 from studio.rviz.config_tools import merge_tools, read_tools
 from studio.rviz.config_values import (
@@ -286,7 +287,7 @@ def _other_losses(tree: Entry, manager: Entry) -> Iterator[Loss]:
     for key in tree:
         if key == "Window Geometry":
             yield Loss("window", key)
-        elif key not in ("Panels", _MANAGER):
+        elif key not in ("Panels", _MANAGER, PAGE):
             yield Loss("no_option", text_of(key), tuple(map(text_of, entry_at(tree, key))))
 
 

@@ -52,7 +52,8 @@ if TYPE_CHECKING:
     from studio.rviz.config import RvizConfig
     from studio.rviz.config_displays import ConfigDisplay, Loss
 
-ENDING: Final = ".rviz"
+ENDINGS: Final = (".rviz", ".studio.yaml")
+"""Of RViz's files, and of those that hold the studio's panels, too."""
 _RECENT: Final = "recent_rviz.json"
 _QUIET_S: Final = 0.3
 _LISTED_MAX: Final = 200
@@ -156,7 +157,7 @@ class RvizConfigs:
 
     async def text(self, command: GetRvizText) -> RvizText:
         """Return the text of a file with all that is shown."""
-        text = await self._written(command.view)
+        text = await self._written(command.view, command.page)
         return RvizText(request=command.request, name=self._name, text=text)
 
     async def save(self, command: SaveRvizFile) -> RvizFileSaved:
@@ -172,7 +173,7 @@ class RvizConfigs:
         own = config is not None and config.path == str(path)
         if is_there(path) and not (own or command.replace):
             return RvizFileSaved(request=command.request, path=str(path), is_there=True)
-        text = await self._written(command.view)
+        text = await self._written(command.view, command.page)
         await asyncio.to_thread(_write, path, text.encode("utf-8"))
         await self._take_saved(text, path)
         return RvizFileSaved(request=command.request, path=str(path), is_there=False)
@@ -247,8 +248,8 @@ class RvizConfigs:
         wanted = wanted.strip() or (config.path if config else "")
         if not wanted:
             raise CommandError("No file was opened yet: name the one to write.")
-        if not wanted.endswith(ENDING):
-            wanted += ENDING
+        if not wanted.endswith(ENDINGS):
+            wanted += ENDINGS[0]
         path = self._folders.served.resolve(self._folders.entry.parent / wanted)
         if not is_folder(path.parent):
             raise NotSavedError(str(path), "there is no such folder; name one that is there")
@@ -259,11 +260,11 @@ class RvizConfigs:
     @property
     def _name(self) -> str:
         config = self._displays.kept.config
-        return config.name if config else f"{self._folders.entry.name.split('.')[0]}{ENDING}"
+        return config.name if config else f"{self._folders.entry.name.split('.')[0]}{ENDINGS[0]}"
 
-    async def _written(self, view: ViewValues | None) -> str:
-        displays = self._displays
-        return await asyncio.to_thread(_text_of, displays.kept, displays.fixed_frame_in_use, view)
+    async def _written(self, view: ViewValues | None, page: str = "") -> str:
+        kept, root = self._displays.kept, self._displays.fixed_frame_in_use
+        return await asyncio.to_thread(_text_of, kept, root, view, page)
 
     async def _take_saved(self, text: str, path: Path) -> None:
         """From now on this is the file that is open."""
@@ -315,7 +316,7 @@ class RvizConfigs:
             if str(one) not in known and served.serves(one) and is_file(one)
         ]
         places = [one for one in (folder / "rviz", folder, entry.parent) if is_folder(one)]
-        place = next((one for one in places if served.may_write(one / f"x{ENDING}")), None)
+        place = next((one for one in places if served.may_write(one / f"x{ENDINGS[0]}")), None)
         return (*recent, *others), str(place) if place else ""
 
 
@@ -343,10 +344,16 @@ def _read_text(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
     return read_config(text)
 
 
-def _text_of(kept: KeptDisplays, root: str, view: ViewValues | None) -> str:
-    from studio.rviz.config import write_config  # noqa: PLC0415 - imports all displays
+def _text_of(kept: KeptDisplays, root: str, view: ViewValues | None, page: str) -> str:
+    from studio.rviz.config import tree_of  # noqa: PLC0415 - imports all displays
+    from studio.rviz.config_page import PAGE, page_entry  # noqa: PLC0415
+    from studio.rviz.config_text import write_tree  # noqa: PLC0415
+    from studio.rviz.config_values import entry_at  # noqa: PLC0415
 
-    return write_config(replace(_config_of(kept, view), root=root))
+    tree = tree_of(replace(_config_of(kept, view), root=root))
+    if page:
+        tree |= {PAGE: page_entry(page, entry_at(tree, PAGE))}
+    return write_tree(tree)
 
 
 def _config_of(kept: KeptDisplays, view: ViewValues | None) -> RvizConfig:
@@ -373,7 +380,7 @@ def _config_of(kept: KeptDisplays, view: ViewValues | None) -> RvizConfig:
 def _as_clean(kept: KeptDisplays) -> KeptDisplays:
     """Return it with its file noted as it is written without a change."""
     assert kept.config is not None
-    digest = _digest(_text_of(kept, "", None))
+    digest = _digest(_text_of(kept, "", None, ""))
     return structs.replace(kept, config=structs.replace(kept.config, digest=digest))
 
 
@@ -427,6 +434,9 @@ def _spec_of(one: ConfigDisplay) -> DisplaySpec:
 def _opened(
     config: RvizConfig, losses: tuple[Loss, ...], name: str, request: int
 ) -> RvizConfigOpened:
+    from studio.rviz.config_page import PAGE, page_text  # noqa: PLC0415 - imports all displays
+    from studio.rviz.config_values import entry_at  # noqa: PLC0415
+
     view = config.view
     return RvizConfigOpened(
         request=request,
@@ -436,6 +446,7 @@ def _opened(
         views=len(config.views),
         losses=tuple(LossView(reason=one.reason, what=one.what, names=one.names) for one in losses),
         view=view and ViewValues(kind=view.kind, name=view.name, values=dict(view.values)),
+        page=page_text(entry_at(config.rest, PAGE)),
     )
 
 
@@ -457,7 +468,7 @@ def _configs_in(folder: Path) -> Iterator[Path]:
     for walked, (root, folders, files) in enumerate(os.walk(folder)):
         folders[:] = sorted(one for one in folders if not one.startswith("."))
         for name in files:
-            if name.endswith(ENDING) and left > 0:
+            if name.endswith(ENDINGS) and left > 0:
                 left -= 1
                 yield Path(root, name)
         if left == 0 or walked > _WALKED_MAX:
