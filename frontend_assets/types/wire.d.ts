@@ -280,6 +280,14 @@ export interface CloseLesson {
   type: "close_lesson";
 }
 
+/** Forget which file was opened; what is shown stays. */
+export interface CloseRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "close_rviz_config";
+}
+
 /** One Python file of a demo. */
 export interface CodeFile {
   name: string;
@@ -928,6 +936,15 @@ export interface ForgetRecent {
   path: string;
 }
 
+/** Take a file out of those opened lately; answered with the list. */
+export interface ForgetRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "forget_rviz_file";
+  path: string;
+}
+
 /** Give up the unsaved work on a file that is not open. */
 export interface ForgetWork {
   request?: number;
@@ -1250,6 +1267,16 @@ export interface GetRenaming {
   offset: number;
   type: "get_renaming";
   name: string;
+}
+
+/** Ask for the text of an `.rviz` file with all that is shown. */
+export interface GetRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_rviz_text";
+  view?: ViewValues | null;
+  page?: string;
 }
 
 /** Ask for the time now; /clock is subscribed for some seconds after. */
@@ -1695,6 +1722,14 @@ export interface ListRecent {
   type: "list_recent";
 }
 
+/** Ask for the `.rviz` files of the robot's packages, and those opened lately. */
+export interface ListRvizFiles {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "list_rviz_files";
+}
+
 /** Ask for the topics that have a publisher or a subscription. */
 export interface ListTopics {
   request?: number;
@@ -1717,6 +1752,8 @@ export interface LiveDisplays {
   groups_off: string[];
   fixed_frame: string;
   paused: boolean;
+  background: string;
+  frame_rate: number;
 }
 
 /** Set what a parameter file has for a node, one parameter after another. */
@@ -1759,6 +1796,13 @@ export interface LookUp {
   file: string;
   offset: number;
   type: "look_up";
+}
+
+/** Something of a file that is only kept, and written back as it is. */
+export interface LossView {
+  reason: "no_display" | "no_property" | "no_value" | "no_tool" | "no_view" | "no_panel" | "no_option" | "window";
+  what: string;
+  names: string[];
 }
 
 /** Take down the hand of a person; of everybody, if none is named. */
@@ -2012,6 +2056,25 @@ export interface OpenRecent {
   id?: string;
   type: "open_recent";
   path: string;
+}
+
+/** Show what an `.rviz` file says instead of the displays that there are. */
+export interface OpenRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_file";
+  path: string;
+}
+
+/** The same with the text of a file that this browser has. */
+export interface OpenRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_text";
+  name: string;
+  text: string;
 }
 
 /** Answer to `open_path`: go to `/d/<document>`. */
@@ -2679,6 +2742,60 @@ export interface RobotState {
   joints: JointView[];
 }
 
+/** Answer: the file is shown. */
+export interface RvizConfigOpened {
+  type: "rviz_config_opened";
+  request: number;
+  name: string;
+  displays: number;
+  tools: number;
+  views: number;
+  losses: LossView[];
+  view: ViewValues | null;
+  page: string;
+}
+
+/** The `.rviz` file of a document. */
+export interface RvizConfigState {
+  type: "rviz_config_state";
+  name: string;
+  path: string;
+  changed: boolean;
+  undo: boolean;
+}
+
+/** An `.rviz` file. */
+export interface RvizFileEntry {
+  path: string;
+  name: string;
+  time_s: number | null;
+  is_there: boolean;
+}
+
+/** Answer: where it was written; or that there is a file already, which is as it was. */
+export interface RvizFileSaved {
+  type: "rviz_file_saved";
+  request: number;
+  path: string;
+  is_there: boolean;
+}
+
+/** Answer: those opened lately, the newest first, then those of the packages. */
+export interface RvizFiles {
+  type: "rviz_files";
+  request: number;
+  files: RvizFileEntry[];
+  folder: string;
+}
+
+/** Answer: the text. */
+export interface RvizText {
+  type: "rviz_text";
+  request: number;
+  name: string;
+  text: string;
+}
+
 /** Write the edited bytes of these changed files of the document, or of all. */
 export interface Save {
   request?: number;
@@ -2728,6 +2845,18 @@ export interface SavePose {
   type: "save_pose";
   name: string;
   replace?: boolean;
+}
+
+/** Write an `.rviz` file; without a path the one that was opened. */
+export interface SaveRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_rviz_file";
+  path?: string;
+  replace?: boolean;
+  view?: ViewValues | null;
+  page?: string;
 }
 
 /** Keep the present arguments and values as a new variant. */
@@ -2942,6 +3071,16 @@ export interface SetParameter {
   name: string;
   text: string;
   value_type?: string;
+}
+
+/** Change what all views of the document have in common; what is None stays. */
+export interface SetViewOptions {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_view_options";
+  background?: string | null;
+  frame_rate?: number | null;
 }
 
 /**
@@ -3293,6 +3432,14 @@ export interface Undo {
   type: "undo";
 }
 
+/** Show what was shown before an `.rviz` file was opened; until something else is changed. */
+export interface UndoRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "undo_rviz_config";
+}
+
 /** Undo, or redo, until this many steps are done; refused when the list is no longer `of`. */
 export interface UndoTo {
   request?: number;
@@ -3389,6 +3536,13 @@ export interface ViewKinds {
   type: "view_kinds";
   request: number;
   kinds: ViewKindView[];
+}
+
+/** A view of the 3D view, by RViz's names. */
+export interface ViewValues {
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
 }
 
 /** Volume of all visuals or all collisions of a link, m3; an upper bound. */
@@ -3509,6 +3663,7 @@ export type Command =
   | ChoosePackage
   | CloseDocument
   | CloseLesson
+  | CloseRvizConfig
   | CompareVariants
   | Complete
   | ConnectWire
@@ -3534,6 +3689,7 @@ export type Command =
   | FollowOperations
   | FollowParameters
   | ForgetRecent
+  | ForgetRvizFile
   | ForgetWork
   | GatherAll
   | GetActions
@@ -3566,6 +3722,7 @@ export type Command =
   | GetParameters
   | GetReferences
   | GetRenaming
+  | GetRvizText
   | GetSceneTime
   | GetServices
   | GetText
@@ -3584,6 +3741,7 @@ export type Command =
   | ListInterfaces
   | ListPlaces
   | ListRecent
+  | ListRvizFiles
   | ListTopics
   | LoadParameters
   | LookUp
@@ -3599,6 +3757,8 @@ export type Command =
   | OpenLink
   | OpenPath
   | OpenRecent
+  | OpenRvizFile
+  | OpenRvizText
   | PauseClass
   | PauseScene
   | PressKey
@@ -3630,6 +3790,7 @@ export type Command =
   | SaveCopy
   | SaveLesson
   | SavePose
+  | SaveRvizFile
   | SaveVariant
   | SaveView
   | SawPanel
@@ -3647,6 +3808,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetViewOptions
   | ShowCopy
   | ShowFocus
   | ShowView
@@ -3660,6 +3822,7 @@ export type Command =
   | SwitchDisplays
   | TakeControl
   | Undo
+  | UndoRvizConfig
   | UndoTo
   | UpdateVariant
   | Watch
@@ -3744,6 +3907,11 @@ export type Event =
   | RenamingAnswer
   | Restored
   | RobotState
+  | RvizConfigOpened
+  | RvizConfigState
+  | RvizFileSaved
+  | RvizFiles
+  | RvizText
   | Saved
   | SavedViews
   | SceneTime
