@@ -23,6 +23,8 @@ const state = signal({
   groups_off: [],
   fixed_frame: "",
   paused: false,
+  background: "",
+  frame_rate: 0,
 });
 /** @type {Signal<DisplayStates>} */
 const fares = signal({

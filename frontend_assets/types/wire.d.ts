@@ -280,6 +280,14 @@ export interface CloseLesson {
   type: "close_lesson";
 }
 
+/** Forget which file was opened; what is shown stays. */
+export interface CloseRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "close_rviz_config";
+}
+
 /** One Python file of a demo. */
 export interface CodeFile {
   name: string;
@@ -438,6 +446,15 @@ export interface DeleteVariant {
   id?: string;
   type: "delete_variant";
   name: string;
+}
+
+/** Delete a saved view. */
+export interface DeleteView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "delete_view";
+  view: string;
 }
 
 /** Answer to `get_demo_code`: the file that is run first, then those of its own package. */
@@ -919,6 +936,15 @@ export interface ForgetRecent {
   path: string;
 }
 
+/** Take a file out of those opened lately; answered with the list. */
+export interface ForgetRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "forget_rviz_file";
+  path: string;
+}
+
 /** Give up the unsaved work on a file that is not open. */
 export interface ForgetWork {
   request?: number;
@@ -1243,6 +1269,16 @@ export interface GetRenaming {
   name: string;
 }
 
+/** Ask for the text of an `.rviz` file with all that is shown. */
+export interface GetRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_rviz_text";
+  view?: ViewValues | null;
+  page?: string;
+}
+
 /** Ask for the time now; /clock is subscribed for some seconds after. */
 export interface GetSceneTime {
   request?: number;
@@ -1319,6 +1355,14 @@ export interface GetUrdfChanges {
   document?: string;
   id?: string;
   type: "get_urdf_changes";
+}
+
+/** Ask for the kinds of views. */
+export interface GetViewKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_view_kinds";
 }
 
 /** Give control to a person who is there. */
@@ -1678,6 +1722,14 @@ export interface ListRecent {
   type: "list_recent";
 }
 
+/** Ask for the `.rviz` files of the robot's packages, and those opened lately. */
+export interface ListRvizFiles {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "list_rviz_files";
+}
+
 /** Ask for the topics that have a publisher or a subscription. */
 export interface ListTopics {
   request?: number;
@@ -1700,6 +1752,8 @@ export interface LiveDisplays {
   groups_off: string[];
   fixed_frame: string;
   paused: boolean;
+  background: string;
+  frame_rate: number;
 }
 
 /** Set what a parameter file has for a node, one parameter after another. */
@@ -1742,6 +1796,13 @@ export interface LookUp {
   file: string;
   offset: number;
   type: "look_up";
+}
+
+/** Something of a file that is only kept, and written back as it is. */
+export interface LossView {
+  reason: "no_display" | "no_property" | "no_value" | "no_tool" | "no_view" | "no_panel" | "no_option" | "window";
+  what: string;
+  names: string[];
 }
 
 /** Take down the hand of a person; of everybody, if none is named. */
@@ -1852,6 +1913,16 @@ export interface Misfit {
   subscriber: string;
   reasons: string[];
   heard: boolean;
+}
+
+/** Put a saved view before another; empty: at the end. */
+export interface MoveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "move_view";
+  view: string;
+  before?: string;
 }
 
 /** Your own copies, to all pages of a person. */
@@ -1985,6 +2056,25 @@ export interface OpenRecent {
   id?: string;
   type: "open_recent";
   path: string;
+}
+
+/** Show what an `.rviz` file says instead of the displays that there are. */
+export interface OpenRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_file";
+  path: string;
+}
+
+/** The same with the text of a file that this browser has. */
+export interface OpenRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_text";
+  name: string;
+  text: string;
 }
 
 /** Answer to `open_path`: go to `/d/<document>`. */
@@ -2520,6 +2610,16 @@ export interface RenameVariant {
   note?: string;
 }
 
+/** Give a saved view another name. */
+export interface RenameView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_view";
+  view: string;
+  name: string;
+}
+
 /** Answer to `get_renaming`: the first of `count` places, in `files` files. */
 export interface RenamingAnswer {
   type: "renaming";
@@ -2642,6 +2742,60 @@ export interface RobotState {
   joints: JointView[];
 }
 
+/** Answer: the file is shown. */
+export interface RvizConfigOpened {
+  type: "rviz_config_opened";
+  request: number;
+  name: string;
+  displays: number;
+  tools: number;
+  views: number;
+  losses: LossView[];
+  view: ViewValues | null;
+  page: string;
+}
+
+/** The `.rviz` file of a document. */
+export interface RvizConfigState {
+  type: "rviz_config_state";
+  name: string;
+  path: string;
+  changed: boolean;
+  undo: boolean;
+}
+
+/** An `.rviz` file. */
+export interface RvizFileEntry {
+  path: string;
+  name: string;
+  time_s: number | null;
+  is_there: boolean;
+}
+
+/** Answer: where it was written; or that there is a file already, which is as it was. */
+export interface RvizFileSaved {
+  type: "rviz_file_saved";
+  request: number;
+  path: string;
+  is_there: boolean;
+}
+
+/** Answer: those opened lately, the newest first, then those of the packages. */
+export interface RvizFiles {
+  type: "rviz_files";
+  request: number;
+  files: RvizFileEntry[];
+  folder: string;
+}
+
+/** Answer: the text. */
+export interface RvizText {
+  type: "rviz_text";
+  request: number;
+  name: string;
+  text: string;
+}
+
 /** Write the edited bytes of these changed files of the document, or of all. */
 export interface Save {
   request?: number;
@@ -2693,6 +2847,18 @@ export interface SavePose {
   replace?: boolean;
 }
 
+/** Write an `.rviz` file; without a path the one that was opened. */
+export interface SaveRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_rviz_file";
+  path?: string;
+  replace?: boolean;
+  view?: ViewValues | null;
+  page?: string;
+}
+
 /** Keep the present arguments and values as a new variant. */
 export interface SaveVariant {
   request?: number;
@@ -2703,10 +2869,36 @@ export interface SaveVariant {
   note?: string;
 }
 
+/** Save a view with the document, for all who look at it. */
+export interface SaveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_view";
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+  before?: string;
+}
+
 /** These files were written. */
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** A view that is saved with the document. */
+export interface SavedView {
+  id: string;
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All views that are saved with a document, in order. */
+export interface SavedViews {
+  type: "saved_views";
+  views: SavedView[];
 }
 
 /** A panel was opened in the page, which checks of the page ask about. */
@@ -2881,6 +3073,16 @@ export interface SetParameter {
   value_type?: string;
 }
 
+/** Change what all views of the document have in common; what is None stays. */
+export interface SetViewOptions {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_view_options";
+  background?: string | null;
+  frame_rate?: number | null;
+}
+
 /**
  * How serious a Problem is.
  *
@@ -2912,8 +3114,9 @@ export interface ShowFocus {
 /**
  * Where the presenter's camera and pointer are; they go to who follows as a binary frame.
  *
- * The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the camera's
- * eye, what it looks at, and the pointer, which is NaN where there is none.
+ * The frame is the byte 2, a byte that is 1 without perspective, six bytes of nothing, and
+ * thirteen little-endian float32: the camera's eye, what it looks at, the pointer, which is NaN
+ * where there is none, where the top of the picture points, and the angle that it sees.
  */
 export interface ShowView {
   request?: number;
@@ -2923,6 +3126,9 @@ export interface ShowView {
   eye: [number, number, number];
   target: [number, number, number];
   pointer?: [number, number, number] | null;
+  up?: [number, number, number];
+  flat?: boolean;
+  field?: number;
 }
 
 /** A state to compare: the present robot, the one on disk, or a variant. */
@@ -3226,6 +3432,14 @@ export interface Undo {
   type: "undo";
 }
 
+/** Show what was shown before an `.rviz` file was opened; until something else is changed. */
+export interface UndoRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "undo_rviz_config";
+}
+
 /** Undo, or redo, until this many steps are done; refused when the list is no longer `of`. */
 export interface UndoTo {
   request?: number;
@@ -3308,6 +3522,27 @@ export interface Variants {
   path: string;
   only_here: string;
   trouble: string;
+}
+
+/** A kind of view. */
+export interface ViewKindView {
+  kind: string;
+  doc: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_view_kinds`, in RViz's order. */
+export interface ViewKinds {
+  type: "view_kinds";
+  request: number;
+  kinds: ViewKindView[];
+}
+
+/** A view of the 3D view, by RViz's names. */
+export interface ViewValues {
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
 }
 
 /** Volume of all visuals or all collisions of a link, m3; an upper bound. */
@@ -3428,12 +3663,14 @@ export type Command =
   | ChoosePackage
   | CloseDocument
   | CloseLesson
+  | CloseRvizConfig
   | CompareVariants
   | Complete
   | ConnectWire
   | DeleteLesson
   | DeletePose
   | DeleteVariant
+  | DeleteView
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3452,6 +3689,7 @@ export type Command =
   | FollowOperations
   | FollowParameters
   | ForgetRecent
+  | ForgetRvizFile
   | ForgetWork
   | GatherAll
   | GetActions
@@ -3484,6 +3722,7 @@ export type Command =
   | GetParameters
   | GetReferences
   | GetRenaming
+  | GetRvizText
   | GetSceneTime
   | GetServices
   | GetText
@@ -3493,6 +3732,7 @@ export type Command =
   | GetTopics
   | GetUrdf
   | GetUrdfChanges
+  | GetViewKinds
   | GiveControl
   | HandIn
   | Lead
@@ -3501,11 +3741,13 @@ export type Command =
   | ListInterfaces
   | ListPlaces
   | ListRecent
+  | ListRvizFiles
   | ListTopics
   | LoadParameters
   | LookUp
   | LowerHand
   | MendAll
+  | MoveView
   | NewRobot
   | NewUntitled
   | OpenCopy
@@ -3515,6 +3757,8 @@ export type Command =
   | OpenLink
   | OpenPath
   | OpenRecent
+  | OpenRvizFile
+  | OpenRvizText
   | PauseClass
   | PauseScene
   | PressKey
@@ -3533,6 +3777,7 @@ export type Command =
   | Rename
   | RenamePose
   | RenameVariant
+  | RenameView
   | RenewCode
   | ReplaceTexts
   | ResetScene
@@ -3545,7 +3790,9 @@ export type Command =
   | SaveCopy
   | SaveLesson
   | SavePose
+  | SaveRvizFile
   | SaveVariant
+  | SaveView
   | SawPanel
   | SendBack
   | SendGoal
@@ -3561,6 +3808,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetViewOptions
   | ShowCopy
   | ShowFocus
   | ShowView
@@ -3574,6 +3822,7 @@ export type Command =
   | SwitchDisplays
   | TakeControl
   | Undo
+  | UndoRvizConfig
   | UndoTo
   | UpdateVariant
   | Watch
@@ -3658,7 +3907,13 @@ export type Event =
   | RenamingAnswer
   | Restored
   | RobotState
+  | RvizConfigOpened
+  | RvizConfigState
+  | RvizFileSaved
+  | RvizFiles
+  | RvizText
   | Saved
+  | SavedViews
   | SceneTime
   | Services
   | Sites
@@ -3678,6 +3933,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Variants
+  | ViewKinds
   | WireFeed
   | WireReport
   | WireRobots

@@ -211,6 +211,10 @@ class LiveDisplays(Event):
     """As chosen; empty: the robot's root link."""
     paused: bool
     """Whether drawing is paused, for all who look at the document."""
+    background: str = ""
+    """Colour behind the 3D view, as `#rrggbb`; empty: that of the theme."""
+    frame_rate: int = 0
+    """Pictures of the 3D view per second at most; 0: as many as there can be."""
 
 
 class Mend(Message):

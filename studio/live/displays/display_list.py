@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from studio.displays.properties import Value
 from studio.errors import CommandError
@@ -30,7 +30,7 @@ class DisplaySpec:
     """Settings of one display.
 
     `group` is a path, as `Navigation/Local`; `values` holds the properties that differ from their
-    defaults.
+    defaults, `entry` what an `.rviz` file says of the display.
     """
 
     id: str
@@ -41,6 +41,7 @@ class DisplaySpec:
     group: str = ""
     listening: Listening = Listening()
     values: Mapping[str, Value] = field(default_factory=dict[str, Value])
+    entry: dict[str, Any] = field(default_factory=dict[str, Any])
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,12 +6,16 @@ import asyncio
 import logging
 import time
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
+
+from msgspec import structs
 
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.groups import all_groups, group_path
+from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
+from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_clock import SceneClock
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
@@ -94,6 +98,9 @@ class DocumentDisplays:
         self._robot, self._meshes, self._reader = robot, meshes, reader
         self._file, self._wire, self._audience = file, wire, audience
         self._list = DisplayList()
+        self._beside = KeptDisplays()
+        """What is kept beside the displays: options of the view, and an opened config."""
+        self.views = SavedViews(audience, self._views_changed)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -110,11 +117,42 @@ class DocumentDisplays:
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
         """Called when displays were added, removed or changed."""
+        self.on_change: Callable[[], object] = lambda: None
+        """Called after any change of what is kept."""
 
     @property
     def kept(self) -> KeptDisplays:
         """All that is kept of them."""
-        return KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        return structs.replace(
+            self._beside,
+            displays=tuple(self._list),
+            groups_off=self._list.groups_off,
+            fixed_frame=self._fixed_frame,
+            views=self.views.specs,
+        )
+
+    def replace_all(self, kept: KeptDisplays) -> None:
+        """Have these displays, this fixed frame and all else that is kept, instead of what is."""
+        for one in tuple(self._list):
+            self._remove(one.id)
+        self._room.frames.chosen = kept.fixed_frame
+        self._take(kept)
+        self.views.replace(kept.views)
+        self._room.renew()
+        self._changed()
+
+    def keep_beside(self, **changes: Any) -> None:  # noqa: ANN401 - fields of KeptDisplays
+        """Change what is kept beside the displays."""
+        self._beside = structs.replace(self._beside, **changes)
+        self._changed()
+
+    async def connect_if_needed(self) -> None:
+        """Ensure a connection where a display has a topic, or the fixed frame is no link."""
+        frame = self._fixed_frame
+        if any(one.topic for one in self._list) or (
+            frame and frame not in self._room.frames.own.links
+        ):
+            await self._connect()
 
     def mirror(self, other: KeptDisplays) -> None:
         """Have the displays that another document has; how they look here stays as it is."""
@@ -142,14 +180,19 @@ class DocumentDisplays:
     def restore(self) -> None:
         """Take up the displays of the last time."""
         kept = self._file.read()
+        self.views.restore(kept.views)
         if kept.fixed_frame:
             self._room.frames.chosen = kept.fixed_frame
-        for spec in kept.displays:
-            self._restore_one(spec)
-        for group in all_groups(one.group for one in self._list) & set(kept.groups_off):
-            self._list.switch_group(group, shown=False)
+        self._take(kept)
         self._show_and_hide()
         self._go_on()
+
+    def _take(self, kept: KeptDisplays) -> None:
+        self._beside = structs.replace(kept, displays=(), groups_off=(), fixed_frame="", views=())
+        for spec in kept.displays:
+            self._restore_one(spec)
+        for group in all_groups(one.group for one in self._list):
+            self._list.switch_group(group, shown=group not in kept.groups_off)
 
     def _restore_one(self, spec: DisplaySpec) -> None:
         added = self._list.put(spec)
@@ -164,6 +207,7 @@ class DocumentDisplays:
         self._seen_s = time.monotonic()
         self._go_on()
         yield self._displays()
+        yield self.views.event()
         if self._states.event is not None:
             yield self._states.event
 
@@ -392,6 +436,11 @@ class DocumentDisplays:
         self._checked_s = 0.0
         self._go_on()
         self.on_list()
+        self.on_change()
+
+    def _views_changed(self) -> None:
+        self._keep()
+        self.on_change()
 
     def _show_and_hide(self) -> None:
         for spec in self._list:
@@ -407,6 +456,11 @@ class DocumentDisplays:
         while self._unkept is not None:
             kept, self._unkept = self._unkept, None
             await asyncio.to_thread(self._file.write, kept)
+
+    @property
+    def fixed_frame_in_use(self) -> str:
+        """The frame that all is drawn in; empty: there is no robot yet."""
+        return self._room.frames.fixed
 
     @property
     def _fixed_frame(self) -> str:
@@ -479,6 +533,8 @@ class DocumentDisplays:
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
             paused=self.is_paused,
+            background=self._beside.background,
+            frame_rate=self._beside.frame_rate,
         )
 
 
@@ -506,6 +562,7 @@ COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
 
 
 def _first_topic(kind: str) -> str:
