@@ -33,6 +33,7 @@ import { addLayoutCommands } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
+import { followPagePart } from "./page-part.js";
 import { dockPanels, PANELS, panelTitle } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
@@ -185,6 +186,7 @@ if (root) render(html`<${Shell} onDock=${startDock} />`, root);
 followMissing();
 followDisk();
 followGraphics();
+followPagePart();
 followPresenter();
 listenToDrops();
 connect(async () => {

@@ -14,6 +14,7 @@ import { dialog, isFree, languageChoice, notify, themeChoice } from "../model/vi
 import { classCommands } from "./control.js";
 import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
+import { rvizCommands } from "./rviz-commands.js";
 import { copyLink } from "./share.js";
 
 const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
@@ -25,6 +26,7 @@ export function menuCommands() {
     ...documentCommands(),
     ...classCommands(),
     ...exportCommands(),
+    ...rvizCommands(),
     ...themeCommands(),
     ...graphicsCommands(),
     ...sceneCommands(),

@@ -23,6 +23,7 @@ import { graphicsItems } from "./graphics.js";
 import { layoutItems, layoutName } from "./layout-commands.js";
 import { LIVE, layoutInUse } from "./layouts.js";
 import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
+import { rvizItems } from "./rviz-commands.js";
 
 export function TopBar() {
   const { unsaved_count: count } = history.value;
@@ -117,6 +118,7 @@ function documentItems() {
         ]
       : []),
     { label: t("command.reload"), icon: "reload", disabled: unedited, run: reload },
+    { label: t("rviz.config"), icon: "list", disabled: documentId.value === "", more: rvizItems },
     { label: t("document.close"), icon: "close", disabled: none, run: closeDocument },
   ];
 }
