@@ -2,7 +2,7 @@
 
 import { effect, html, render } from "vendor/preact.js";
 import { documentOf } from "../lib/address.js";
-import { addCommands, matches, onKey, takesText } from "../lib/commands.js";
+import { addCommands, commandById, matches, onKey, takesText } from "../lib/commands.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { anyUnderWay } from "../lib/latest.js";
@@ -23,7 +23,7 @@ import {
 } from "../model/requests.js";
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
-import { activePanel, dialog, isFree, languageChoice, theme } from "../model/view.js";
+import { activePanel, dialog, isFree, languageChoice, size, theme } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
@@ -60,6 +60,15 @@ function startDock(element) {
   });
   arrangement = followSize(dock, element, PANELS);
   addLayoutCommands(dock, element);
+  if (new URLSearchParams(location.search).has("fullscreen")) beginAlone(dock);
+}
+
+/** The 3D view alone, as `studio open --fullscreen` asks. @param {ReturnType<typeof createDock>} dock */
+function beginAlone(dock) {
+  dock.show("scene");
+  const alone = commandById("fullscreen");
+  if (alone) alone.run();
+  else if (size.peek() !== "phone") dock.toggleMaximized();
 }
 
 function addPageCommands() {

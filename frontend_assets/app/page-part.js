@@ -32,20 +32,20 @@ export function toldPart(arrangement) {
   };
 }
 
-/** @param {unknown} id */
-const isKnown = (id) => typeof id === "string" && Object.hasOwn(PANELS, id);
+/** @param {string} id of a panel */
+const isKnown = (id) => Object.hasOwn(PANELS, id);
 
 /** @typedef {{arrangement: Arrangement | null, layouts: import("./layouts.js").OwnLayout[], plots: import("../model/plotting.js").Series[] | null, span_s: number | null}} ReadPart */
 
-/** @param {string} text @returns {ReadPart} null: it says nothing that is believed */
-export function readPart(text) {
+/** @param {string} text @param {(id: string) => boolean} [known] whether there is such a panel @returns {ReadPart} null: it says nothing that is believed */
+export function readPart(text, known = isKnown) {
   const told = parsed(text);
-  const arrangement = readArrangement(told.Panels, isKnown)?.arrangement ?? null;
+  const arrangement = readArrangement(told.Panels, known)?.arrangement ?? null;
   const plots = told.Plots;
   const span = told["Plot span"];
   return {
     arrangement,
-    layouts: layoutsOf(told.Layouts),
+    layouts: layoutsOf(told.Layouts, known),
     plots: Array.isArray(plots) ? plots.filter(isSeries).slice(0, SERIES_MAX).map(plain) : null,
     span_s: typeof span === "number" && span >= SPAN_LEAST_S && span <= SPAN_MOST_S ? span : null,
   };
@@ -64,10 +64,10 @@ function parsed(text) {
   }
 }
 
-/** @param {unknown} layouts */
-function layoutsOf(layouts) {
+/** @param {unknown} layouts @param {(id: string) => boolean} known */
+function layoutsOf(layouts, known) {
   try {
-    return readLayoutFile(JSON.stringify({ studio_layouts: 1, layouts }), isKnown).layouts;
+    return readLayoutFile(JSON.stringify({ studio_layouts: 1, layouts }), known).layouts;
   } catch {
     return [];
   }

@@ -7,6 +7,7 @@ import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { isCopy } from "../model/copies.js";
+import { closeDocument } from "../model/requests.js";
 import {
   configFiles,
   downloadConfig,
@@ -95,6 +96,9 @@ function ifSaved(run) {
     run,
   };
 }
+
+/** The view is kept with the document; only its file would lack what was changed. */
+export const closeAsking = () => ifSaved(() => void closeDocument());
 
 /** Without a file of this machine it is asked for. */
 async function save() {

@@ -157,7 +157,7 @@ export function SaveConfigDialog({ onClose }) {
               ending.value = /** @type {typeof RVIZ | typeof STUDIO} */ (one);
             }} /><span><strong>${one}</strong> ${t(one === RVIZ ? "rviz.kind.rviz" : "rviz.kind.studio")}</span></label>`,
         )}</fieldset>
-      <label class="form-row"><span>${t("new.name")}</span>
+      <label class="form-row"><span>${t("rviz.name")}</span>
         <input type="text" class="box wide" data-first maxlength="100" spellcheck=${false} value=${name.value} onInput=${(
           /** @type {any} */ event,
         ) => {

@@ -67,7 +67,7 @@ function optionRows() {
     optionRow(
       "frame_rate",
       () => html`<${TextBox} class="number narrow" label=${t("display.global.frame_rate")}
-        text=${frameRate.value > 0 ? String(frameRate.value) : t("display.global.no_limit")} number=${frameRate.value} step=${1}
+        text=${String(frameRate.value)} number=${frameRate.value} step=${1}
         disabled=${!mayEdit.value} onWrite=${(/** @type {string} */ typed) => {
           const hz = Math.round(parseNumber(typed) ?? 0);
           setFrameRate(Math.min(Math.max(hz, 0), FRAME_RATE_MOST));
