@@ -1,4 +1,4 @@
-"""Config files on the page: opened with a report, seen in the 3D view, changed, saved and undone."""
+"""Config files on the page: opened with a report, seen in 3D, changed, saved and undone."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from tests.support.studio_page import wait_until
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from playwright.sync_api import Page
 
     from tests.support.studio_page import StudioPage
 
@@ -47,8 +49,20 @@ def test_a_config_file_is_opened_changed_saved_and_undone(
     page, file = tab.page, tmp_path / "lab.studio.yaml"
     file.write_text(CONFIG)
     theme = page.evaluate(BEHIND)
+    open_file(page, file)
+    wait_until("the background", lambda: page.evaluate(BEHIND) == "#0a141e")
+    assert page.evaluate(PLOTS) == 1
+    change_and_download(page)
+    save(page, data)
+    page.get_by_role("treeitem", name="Background Color").get_by_role("button").click()
+    wait_until("the theme's own", lambda: page.evaluate(BEHIND) == theme)
+    open_another_and_go_back(page)
+    assert tab.errors == []
+
+
+def open_file(page: Page, file: Path) -> None:
+    """The file of the robot's own package is offered; this one comes from the browser."""
     page.evaluate(RUN, "rviz_open")
-    # The file of the robot's own package is offered.
     page.get_by_role("button", name="rover.rviz").wait_for()
     page.locator(".config-dialog input[type=file]").set_input_files(file)
     report = page.get_by_role("dialog", name="lab.studio.yaml is open")
@@ -56,11 +70,11 @@ def test_a_config_file_is_opened_changed_saved_and_undone(
     assert "moveit_rviz_plugin/MotionPlanning" in report.inner_text()
     report.get_by_role("button", name="Close").last.click()
     page.get_by_role("treeitem", name="Corner").wait_for()
-    page.get_by_role("treeitem", name="Planning").wait_for()
+    page.get_by_role("treeitem", name="Planning").first.wait_for()
     page.get_by_text("The studio has no display moveit_rviz_plugin/MotionPlanning").wait_for()
-    wait_until("the background", lambda: page.evaluate(BEHIND) == "#0a141e")
-    assert page.evaluate(PLOTS) == 1
 
+
+def change_and_download(page: Page) -> None:
     rate = page.get_by_role("treeitem", name="Frame Rate").get_by_role("textbox")
     assert rate.input_value() == "15"
     rate.fill("20")
@@ -76,23 +90,25 @@ def test_a_config_file_is_opened_changed_saved_and_undone(
     assert written["Studio"]["Panels"]["parts"]
     assert written["Studio"]["Plots"] == [{"topic": "/odom", "path": ".twist.twist.linear.x"}]
 
+
+def save(page: Page, data: Path) -> None:
+    """The folder of the robot's own files is proposed."""
     page.evaluate(RUN, "rviz_save_as")
     page.get_by_label("Name", exact=True).fill("mine")
     page.get_by_role("dialog").get_by_role("button", name="Save", exact=True).click()
-    page.locator(".config-text", has_text="mine.studio.yaml").wait_for()
-    wait_until("it is saved", lambda: "•" not in page.locator(".config-text").inner_text())
+    name = page.locator(".config-text", has_text="mine.studio.yaml")
+    name.wait_for()
+    wait_until("it is saved", lambda: "•" not in name.inner_text())
     (saved,) = data.rglob("mine.studio.yaml")
     assert "Frame Rate: 20" in saved.read_text()
-    saved.unlink()
 
-    # Changed again, another one is opened only after a question; and the way back leads here.
-    page.get_by_role("treeitem", name="Background Color").get_by_role("button").click()
-    wait_until("the theme's own", lambda: page.evaluate(BEHIND) == theme)
+
+def open_another_and_go_back(page: Page) -> None:
+    """What is not saved is asked about first."""
     page.locator(".config-text", has_text="•").wait_for()
     page.evaluate(RUN, "rviz_open")
     page.get_by_role("button", name="Go on without saving").click()
     page.get_by_role("button", name="rover.rviz").click()
     report = page.get_by_role("dialog", name="rover.rviz is open")
     report.get_by_role("button", name="Back to the view before").click()
-    page.get_by_role("treeitem", name="Planning").wait_for()
-    assert tab.errors == []
+    page.get_by_role("treeitem", name="Planning").first.wait_for()
