@@ -12,6 +12,7 @@ import { isStroke, onKey } from "../lib/commands.js";
 import { isKind, targetOf } from "../lib/view-poses.js";
 import { connection, documentId } from "./connection.js";
 import { movable, position, robot } from "./document.js";
+import { background, frameRate } from "./live-displays.js";
 import { lights } from "./origin.js";
 import { moveJoint } from "./requests.js";
 import { mayMove } from "./ros.js";
@@ -113,6 +114,8 @@ function askFor(frame) {
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
+ * @property {(colour: string) => void} setBackground empty: that of the theme
+ * @property {(hz: number) => void} setFrameRate pictures per second at most; 0: no limit
  * @property {(link: string, visible: boolean) => void} setLinkVisible
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
@@ -221,6 +224,8 @@ function tell(view) {
     }),
     effect(() => view.setTheme(theme.value)),
     effect(() => view.setMouse(mouseMode.value)),
+    effect(() => view.setBackground(background.value)),
+    effect(() => view.setFrameRate(frameRate.value)),
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
     effect(() => {

@@ -6,6 +6,7 @@ import { CameraView } from "./camera.js";
 import { ChainLine, Guide, Marks } from "./marks.js";
 import { CloudDetail } from "./cloud-detail.js";
 import { Door, Removed } from "./door.js";
+import { FrameRate } from "./frame-rate.js";
 import { Hands } from "./hands.js";
 import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
@@ -29,6 +30,7 @@ class Studio3d {
   events = new EventTarget();
   #door = new Door();
   #robot = new RobotView(this.#door);
+  #rate = new FrameRate(window);
   #quality = new Quality(this.#door, (hz) => this.#tell("slow", { hz }));
   #camera = new CameraView(this.#door, this.#robot, new LiveExtent(this.#door), (type, detail) =>
     this.#tell(type, detail),
@@ -204,6 +206,17 @@ class Studio3d {
   /** @param {"dark" | "light"} name */
   setTheme(name) {
     this.#theme.set(name);
+  }
+
+  /** What is behind the scene. @param {string} colour as `#rrggbb`; empty: that of the theme */
+  setBackground(colour) {
+    this.#theme.setBackground(colour);
+  }
+
+  /** @param {number} hz pictures per second at most; 0: as many as there can be */
+  setFrameRate(hz) {
+    this.#rate.set(hz);
+    this.#quality.setLimit(hz);
   }
 
   /** @param {"rviz" | "trackpad"} mode */

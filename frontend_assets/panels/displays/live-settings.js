@@ -24,6 +24,8 @@ import {
 /** @param {DisplayView} display @param {number} level @param {(id: string) => boolean} isOpen @returns {Row[]} */
 export function settingsOf(display, level, isOpen) {
   const kind = kinds.value.get(display.kind);
+  // One of a config file that there is not here has no settings that could be shown.
+  if (!kind && kinds.value.size > 0) return [];
   if (!kind) return [{ id: `setting:${display.id}`, level, label: t("loading"), icon: "" }];
   const properties = [...kind.properties, ...display.more];
   const byName = new Map(properties.map((one) => [one.name, one]));
