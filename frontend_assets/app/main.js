@@ -23,6 +23,7 @@ import {
 } from "../model/requests.js";
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
+import { addTools } from "../model/tools.js";
 import { activePanel, dialog, isFree, languageChoice, theme } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
 import { connect } from "../model/wire.js";
@@ -177,6 +178,7 @@ effect(() => {
   if (languageChoice.value) useLanguage(nearestLanguage(languageChoice.value));
 });
 addMeasuring();
+addTools();
 addPageCommands();
 followState();
 listenToKeys();

@@ -101,6 +101,9 @@ function askFor(frame) {
  * @property {(can: boolean) => void} setCanDrag
  * @property {(angles: "deg" | "rad", lengths: "m" | "mm") => void} setUnits of the numbers at the mouse
  * @property {(kind: string) => void} setTool take a tool in hand, by RViz's class without its package
+ * @property {(kind: string, values: Record<string, boolean | number | string>) => void} setToolProperties by RViz's names
+ * @property {() => boolean} cancelTool give up what is under way; whether anything was
+ * @property {(words: {displays: Record<string, string>, floor: string, nothing: string}) => void} setWords what things are called at the mouse
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
  * @property {(measures: readonly {ends: readonly Anchor[], label: string}[]) => void} setMeasures
  * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame

@@ -10,6 +10,7 @@ import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
 import { Live } from "./live.js";
 import { Looks } from "./link-appearance.js";
+import { FocusCamera } from "./tools/focus.js";
 import { Interact } from "./tools/interact.js";
 import { Measure } from "./tools/measure.js";
 import { MoveCamera } from "./tools/move-camera.js";
@@ -17,14 +18,18 @@ import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
+import { PoseOnGround } from "./tools/pose.js";
 import { RobotView } from "./robot.js";
+import { SurfacePoint } from "./tools/point.js";
+import { Surfaces } from "./surface.js";
 import { Units } from "./tools/units.js";
 
 /**
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `touch {}` (a hand is on the camera), `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * `touch {}` (a hand is on the camera), `focus {link}` (null: of no link), `measure {anchor}`, `pose
+ * {x, y, yaw}` and `point {point, what}` (pointed at with a tool, in the fixed frame), `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
  * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
  */
 class Studio3d {
@@ -58,17 +63,26 @@ class Studio3d {
     this.#units,
     this.#tellPage,
   );
+  #surfaces = new Surfaces(this.#door, this.#robot);
+  #pose = new PoseOnGround(this.#door, this.#units, this.#tellPage);
+  #point = new SurfacePoint(this.#door, this.#surfaces, this.#units, ({ point, what }) =>
+    this.#tellPage("point", { point, what }),
+  );
   /** By RViz's class without its package. @type {Record<string, Tool>} */
   #tools = {
     Interact: this.#interact,
     MoveCamera: new MoveCamera(),
+    FocusCamera: new FocusCamera(this.#door, this.#surfaces, this.#camera, this.#tellPage),
     Measure: new Measure(this.#measuring, this.#tellPage),
+    SetInitialPose: this.#pose,
+    SetGoal: this.#pose,
+    PublishPoint: this.#point,
   };
   #pointer = new Pointer(
     this.#door,
     this.#robot,
     this.#camera,
-    Object.values(this.#tools),
+    [...new Set(Object.values(this.#tools))],
     this.#tellPage,
   );
 
@@ -176,6 +190,23 @@ class Studio3d {
   /** Of the numbers at the mouse. @param {"deg" | "rad"} angles @param {"m" | "mm"} lengths */
   setUnits(angles, lengths) {
     Object.assign(this.#units, { angles, lengths });
+  }
+
+  /** What is set of the tools of a kind. @param {string} kind @param {Tool["values"]} values by RViz's names */
+  setToolProperties(kind, values) {
+    const tool = this.#tools[kind];
+    if (tool) tool.values = values;
+    this.#door.redraw();
+  }
+
+  /** What things are called at the mouse. @param {import("./tools/point.js").SurfacePoint["words"]} words */
+  setWords(words) {
+    this.#point.words = words;
+  }
+
+  /** Give up what is under way with the tool in hand. @returns {boolean} whether anything was */
+  cancelTool() {
+    return this.#pointer.cancel();
   }
 
   /** Take a tool in hand. @param {string} kind as RViz names its class; one that is not known: Interact */

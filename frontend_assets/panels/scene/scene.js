@@ -6,7 +6,6 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { GraphicsNotice } from "../../app/graphics.js";
 import { documentAddress } from "../../lib/address.js";
-import { commandById } from "../../lib/commands.js";
 import { inFrameOrder } from "../../lib/frame-tree.js";
 import { t } from "../../lib/i18n.js";
 import { PickBox } from "../../lib/pick-box.js";
@@ -22,7 +21,6 @@ import {
   showingLastGood,
 } from "../../model/document.js";
 import { fixedFrame, framesNow, frameTrouble, setFixedFrame } from "../../model/live-displays.js";
-import { measuring } from "../../model/measuring.js";
 import { canMend, mend, openPath, setDisplay, undo, worstProblem } from "../../model/requests.js";
 import { heldBack } from "../../model/source.js";
 import { dialog, mouseMode, theme } from "../../model/view.js";
@@ -36,6 +34,9 @@ import {
 } from "../../model/viewport.js";
 import { PlaceLink } from "../parts.js";
 import { MeasureCard } from "./measure-card.js";
+import { NavigationGoal } from "./navigation-goal.js";
+import { ToolButtons } from "./tool-buttons.js";
+import { ToolCard } from "./tool-card.js";
 
 /** Whether the 3D view is part of the layout: index.html then has its client fetched at once. */
 const SHOWN = "scene.shown";
@@ -52,16 +53,18 @@ export function ScenePanel() {
     <iframe ref=${frame} title=${t("panel.scene")} class=${theme.value}
       src=${id ? `${documentAddress(id)}/viser/` : "about:blank"}></iframe>
     <${Tools} />
-    <${MeasureCard} />
+    <div class="scene-cards"><${ToolCard} /><${MeasureCard} /></div>
     <${Cover} />
     <${MeshProgress} />
-    <div class="scene-notices"><${LastGoodNotice} /><${FollowOffer} /><${GraphicsNotice} /></div>
+    <div class="scene-notices"><${LastGoodNotice} /><${NavigationGoal} /><${FollowOffer} /><${GraphicsNotice} /></div>
   </section>`;
 }
 
 function Tools() {
   const off = viewport.value === null;
   return html`<div class="scene-tools" role="toolbar" aria-label=${t("scene.tools")}>
+    <${ToolButtons} />
+    <span class="divider"></span>
     <${IconButton} icon="fit" label=${t("scene.fit")} hint=${`${t("scene.fit")} (F)`} disabled=${off}
       onClick=${() => viewport.value?.fit()} />
     <${MenuButton} label=${t("scene.views")} disabled=${off} items=${viewItems}>
@@ -70,9 +73,6 @@ function Tools() {
     <span class="divider"></span>
     <${LayerToggle} name="frames" icon="axes" />
     <${LayerToggle} name="names" icon="frames" />
-    <span class="divider"></span>
-    <${IconButton} icon="measure" label=${t("command.measure")} hint=${`${t("command.measure")} (M)`} disabled=${off || !robot.value}
-      pressed=${measuring.value} onClick=${() => commandById("measure")?.run()} />
     <span class="divider"></span>
     <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
       <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />
