@@ -24,6 +24,7 @@ import {
 } from "../model/requests.js";
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
+import { addTools } from "../model/tools.js";
 import { activePanel, dialog, isFree, languageChoice, size, theme } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
 import { addViewCommands } from "../model/views.js";
@@ -205,6 +206,7 @@ effect(() => {
   if (languageChoice.value) useLanguage(nearestLanguage(languageChoice.value));
 });
 addMeasuring();
+addTools();
 addPageCommands();
 addViewCommands();
 followState();
