@@ -67,6 +67,12 @@ class MarkerBatches:
         self._drawing = self._assembled(max(0, len(store.batches) - BATCHES_MAX))
         return self._drawing
 
+    def path_of(self, key: BatchKey) -> str | None:
+        """Return the path of the group that a batch is drawn in; None if it is not drawn."""
+        if key.namespace in self._hidden:
+            return None
+        return self._paths.known((key.frame, key.stamp_ns, key.follows))
+
     def _build(self, store: MarkerStore, dirty: set[int]) -> None:
         first = islice(store.batches, BATCHES_MAX)
         wanted = [number for number in first if number in dirty or number not in self._shapes]
@@ -119,6 +125,10 @@ class _Paths:
         """Let the paths of others be used again."""
         for place in [one for one in self._of if one not in places]:
             heapq.heappush(self._free, int(self._of.pop(place)[1:]))
+
+    def known(self, place: _Place) -> str | None:
+        """Return the path of a group that was drawn; None if it was not."""
+        return self._of.get(place)
 
     def of(self, place: _Place) -> str:
         """Return the path of a group; the lowest that is free for a new one."""

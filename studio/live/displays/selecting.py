@@ -1,0 +1,214 @@
+"""Selecting: which items of displays were pointed at, where they are, and what is known of them."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from contextlib import suppress
+from itertools import islice
+from typing import TYPE_CHECKING, Final, Protocol
+
+import numpy as np
+
+from studio.displays.drawing import NO_TURN
+from studio.displays.robot_model import link_facts
+from studio.displays.selection import Item, Picked, orientation_fact, position_fact
+from studio.displays.turning import product, turned
+from studio.errors import FrameError
+from studio.protocol.selection import (
+    ITEMS_MAX,
+    FactView,
+    ItemDetails,
+    ItemRef,
+    ItemsDescribed,
+    ItemsPicked,
+    ItemView,
+)
+from studio.scene.picked_rows import rows_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from numpy.typing import NDArray
+
+    from studio.displays.display import Display
+    from studio.displays.drawing import Pose, Wxyz, Xyz
+    from studio.displays.selection import Fact
+    from studio.live.displays.placing import Lookup, Shown
+    from studio.protocol.selection import DescribeItems, PickedNode, PickItems
+    from studio.robot.values import Robot
+
+_AT_ONCE_S: Final = 0.01
+"""Then others have their turn on the event loop."""
+_DIGITS: Final = 6
+"""Of places, m."""
+_ROBOT: Final = ""
+"""Stands for a display where links of the document's robot are meant."""
+
+
+class Drawn(Protocol):
+    """A display at work."""
+
+    @property
+    def display(self) -> Display:
+        """What makes its drawings."""
+        ...
+
+    @property
+    def shown(self) -> Shown:
+        """What is drawn of it, and the poses of its groups in the fixed frame."""
+        ...
+
+
+class Selecting:
+    """Answers for the displays of one document; used on the event loop only.
+
+    Args:
+        drawn: Those at work by id.
+        robot: The document's own.
+        lookup: Looks up frames in the fixed frame.
+        fixed: The fixed frame.
+    """
+
+    def __init__(
+        self, drawn: Mapping[str, Drawn], robot: Robot, lookup: Lookup, fixed: str
+    ) -> None:
+        self._drawn, self._robot, self._lookup, self._fixed = drawn, robot, lookup, fixed
+
+    async def pick(self, command: PickItems) -> ItemsPicked:
+        """Return the items that were pointed at; parts that are not there any more are ignored."""
+        found: dict[tuple[str, str], None] = {}
+        rest = _Turns()
+        for node in command.nodes:
+            for key in self._keys_at(node):
+                found[node.display, key] = None
+            await rest.after()
+        items = tuple(ItemRef(display=one, key=key) for one, key in islice(found, ITEMS_MAX))
+        return ItemsPicked(request=command.request, items=items, left_out=len(found) - len(items))
+
+    async def describe(self, command: DescribeItems) -> ItemsDescribed:
+        """Return where items are now, and all that is known of a few of them."""
+        rest = _Turns()
+        views: list[ItemView] = []
+        for ref in islice(_refs_of(command), ITEMS_MAX):
+            item = self._item(ref)
+            if item is not None:
+                views.append(self._view(ref, item))
+            await rest.after()
+        details: list[ItemDetails] = []
+        for ref in command.detailed:
+            if (made := self._details(ref)) is not None:
+                details.append(made)
+            await rest.after()
+        return ItemsDescribed(
+            request=command.request, fixed=self._fixed, items=tuple(views), details=tuple(details)
+        )
+
+    def _keys_at(self, node: PickedNode) -> Iterable[str]:
+        drawn = self._drawn.get(node.display)
+        placed = drawn.shown.drawing.get(node.path) if drawn is not None else None
+        shape = placed.shapes.get(node.shape) if placed is not None else None
+        if drawn is None or shape is None:
+            return ()
+        rows = rows_of(shape, node.node, np.array(node.rows, dtype=np.intp))
+        return drawn.display.picked(Picked(node.path, node.shape, rows, node.place))
+
+    def _item(self, ref: ItemRef) -> Item | None:
+        if ref.display == _ROBOT:
+            is_there = ref.key in self._robot.links
+            return Item("link", ref.key, "", ref.key, 0, None) if is_there else None
+        drawn = self._drawn.get(ref.display)
+        return drawn.display.item(ref.key) if drawn is not None else None
+
+    def _view(self, ref: ItemRef, item: Item) -> ItemView:
+        pose = self._pose_of(ref.display, item)
+        return ItemView(
+            display=ref.display,
+            key=ref.key,
+            kind=item.kind,
+            name=item.name,
+            path=item.path,
+            frame=item.frame,
+            stamp=_stamp(item.stamp_ns),
+            place=None if pose is None else _placed(pose, item)[0],
+            box=_box_numbers(item),
+        )
+
+    def _details(self, ref: ItemRef) -> ItemDetails | None:
+        item = self._item(ref)
+        if item is None:
+            return None
+        if ref.display == _ROBOT:
+            facts = link_facts(self._robot, ref.key)
+        else:
+            facts = self._drawn[ref.display].display.facts(ref.key)
+        pose = self._pose_of(ref.display, item)
+        in_fixed: list[Fact] = []
+        if pose is not None:
+            xyz, wxyz = _placed(pose, item)
+            in_fixed.append(position_fact(xyz))
+            if wxyz is not None:
+                in_fixed.append(orientation_fact(wxyz))
+        return ItemDetails(
+            display=ref.display,
+            key=ref.key,
+            facts=tuple(map(_fact_view, facts)),
+            in_fixed=tuple(map(_fact_view, in_fixed)),
+        )
+
+    def _pose_of(self, display: str, item: Item) -> Pose | None:
+        """Return the pose of the group of an item in the fixed frame."""
+        if display == _ROBOT:
+            with suppress(FrameError):
+                return self._lookup(item.frame, 0)
+            return None
+        drawn = self._drawn.get(display)
+        return drawn.shown.poses.get(item.path) if drawn is not None else None
+
+
+class _Turns:
+    """Lets others have their turn once this took long."""
+
+    def __init__(self) -> None:
+        self._began_s = time.perf_counter()
+
+    async def after(self) -> None:
+        """Call it after each part of the work."""
+        if time.perf_counter() - self._began_s > _AT_ONCE_S:
+            await asyncio.sleep(0)
+            self._began_s = time.perf_counter()
+
+
+def _refs_of(command: DescribeItems) -> Iterator[ItemRef]:
+    for group in command.items:
+        for key in group.keys:
+            yield ItemRef(display=group.display, key=key)
+
+
+def _placed(pose: Pose, item: Item) -> tuple[Xyz, Wxyz | None]:
+    """Return where an item is in the fixed frame by the pose of its group, and how it is turned."""
+    wxyz, xyz = np.array(pose[0]), np.array(pose[1])
+    own = item.xyz if item.xyz is not None else (item.box.middle if item.box else (0.0, 0.0, 0.0))
+    moved: NDArray[np.float64] = xyz + turned(wxyz[None], np.array(own))[0]
+    x, y, z = (round(one, _DIGITS) for one in moved.tolist())
+    turn = NO_TURN if item.wxyz is None and item.kind == "link" else item.wxyz
+    if turn is None:
+        return (x, y, z), None
+    w, i, j, k = product(wxyz, np.array(turn)).tolist()
+    return (x, y, z), (w, i, j, k)
+
+
+def _box_numbers(item: Item) -> tuple[float, ...] | None:
+    if item.box is None:
+        return None
+    middle, size_m, wxyz = item.box
+    turn = () if wxyz == NO_TURN else wxyz
+    return tuple(round(one, _DIGITS) for one in (*middle, *size_m, *turn))
+
+
+def _stamp(stamp_ns: int) -> str:
+    return f"{stamp_ns // 10**9}.{stamp_ns % 10**9:09d}" if stamp_ns else ""
+
+
+def _fact_view(fact: Fact) -> FactView:
+    return FactView(name=fact.name[:300], value=fact.value, unit=fact.unit, kind=fact.kind)
