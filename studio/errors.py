@@ -84,6 +84,7 @@ StudioError
     DisplayError
         DisplayMessageError
         DisplayPropertyError
+    ToolError
     AccessError
         NotAllowedError
         NotInControlError
@@ -338,6 +339,10 @@ class DisplayPropertyError(DisplayError):
         given = "" if value is None else f", not {str(value)[:60]!r}"
         super().__init__(f"{name} {takes}{given}.")
         self.name, self.takes, self.value = name, takes, value
+
+
+class ToolError(StudioError):
+    """There is no such tool, or it cannot do what is asked of it."""
 
 
 class FrameError(StudioError):

@@ -339,6 +339,7 @@ function tell(view) {
     { signal: stop.signal },
   );
   const ends = [
+    effect(() => view.setTool(measuring.value ? "Measure" : "Interact")),
     effect(() => view.setMeasuring(measuring.value ? measureMode.value : null)),
     effect(() => view.setMeasures([...labelled(), { ends: pending.value, label: "" }])),
     effect(() => view.setCentre(centreNow())),

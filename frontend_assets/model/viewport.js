@@ -21,7 +21,7 @@ import {
   selectedJoint,
   selectLink,
 } from "./selection.js";
-import { comparedFrames, drawnChain, followedFrames, litChain } from "./tf.js";
+import { comparedFrames, drawnChain, followedFrames, litChain, millimetres } from "./tf.js";
 import { degrees, mouseMode, theme } from "./view.js";
 import { send } from "./wire.js";
 
@@ -99,7 +99,8 @@ function askFor(frame) {
  * @property {(frames: readonly string[]) => void} setChain a line leads from one to the next
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
- * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
+ * @property {(angles: "deg" | "rad", lengths: "m" | "mm") => void} setUnits of the numbers at the mouse
+ * @property {(kind: string) => void} setTool take a tool in hand, by RViz's class without its package
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
  * @property {(measures: readonly {ends: readonly Anchor[], label: string}[]) => void} setMeasures
  * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
@@ -196,7 +197,7 @@ function tell(view) {
       view.setLit(lit.changed_links, lit.moved_links);
     }),
     effect(() => view.setCanDrag(mayMove.value)),
-    effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),
+    effect(() => view.setUnits(degrees.value ? "deg" : "rad", millimetres.value ? "mm" : "m")),
     tellLinks(view),
   ];
 }

@@ -32,21 +32,12 @@ export class Measuring {
     this.#door = door;
     this.#robot = robot;
     this.#aim = aim;
-    door.onPicture(
-      () => {},
-      () => this.#draw(),
-    );
-  }
-
-  get on() {
-    return this.#mode !== null;
   }
 
   /** @param {AimMode | null} mode */
   setMode(mode) {
     this.#mode = mode;
     this.#aimed = null;
-    delete document.documentElement.dataset.cursor;
     this.#door.redraw();
   }
 
@@ -75,7 +66,8 @@ export class Measuring {
     return this.#mode && this.#aim.at(x, y, this.#mode, free);
   }
 
-  #draw() {
+  /** After each picture. */
+  draw() {
     /** @type {{ lines: Line[], dots: Dot[], labels: Label[] }} */
     const all = { lines: [], dots: [], labels: [] };
     for (const measure of this.#measures) this.#addMeasure(all, measure);

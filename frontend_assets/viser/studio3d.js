@@ -1,3 +1,4 @@
+/** @import { Tool } from "./tools/tool.js" */
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
 
 import { Aim, Measuring } from "./measuring.js";
@@ -9,11 +10,15 @@ import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
 import { Live } from "./live.js";
 import { Looks } from "./link-appearance.js";
+import { Interact } from "./tools/interact.js";
+import { Measure } from "./tools/measure.js";
+import { MoveCamera } from "./tools/move-camera.js";
 import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
 import { RobotView } from "./robot.js";
+import { Units } from "./tools/units.js";
 
 /**
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
@@ -42,13 +47,29 @@ class Studio3d {
     this.#robot,
     new Aim(this.#door, this.#robot, () => this.#camera.distance()),
   );
-  #pointer = new Pointer(
+  #units = new Units();
+  /** @type {(type: string, detail: object) => void} */
+  #tellPage = (type, detail) => void this.#tell(type, detail);
+  #interact = new Interact(
     this.#door,
     this.#robot,
     this.#looks,
     this.#camera,
-    this.#measuring,
-    (type, detail) => this.#tell(type, detail),
+    this.#units,
+    this.#tellPage,
+  );
+  /** By RViz's class without its package. @type {Record<string, Tool>} */
+  #tools = {
+    Interact: this.#interact,
+    MoveCamera: new MoveCamera(),
+    Measure: new Measure(this.#measuring, this.#tellPage),
+  };
+  #pointer = new Pointer(
+    this.#door,
+    this.#robot,
+    this.#camera,
+    Object.values(this.#tools),
+    this.#tellPage,
   );
 
   constructor() {
@@ -149,12 +170,17 @@ class Studio3d {
 
   /** Whether links may be dragged here. @param {boolean} can */
   setCanDrag(can) {
-    this.#pointer.canDrag = can;
+    this.#interact.canDrag = can;
   }
 
-  /** Of the value at the cursor. @param {"deg" | "rad"} unit */
-  setAngleUnit(unit) {
-    this.#pointer.angleUnit = unit;
+  /** Of the numbers at the mouse. @param {"deg" | "rad"} angles @param {"m" | "mm"} lengths */
+  setUnits(angles, lengths) {
+    Object.assign(this.#units, { angles, lengths });
+  }
+
+  /** Take a tool in hand. @param {string} kind as RViz names its class; one that is not known: Interact */
+  setTool(kind) {
+    this.#pointer.hold(this.#tools[kind] ?? this.#interact);
   }
 
   /** In this browser only. @param {string} link @param {boolean} visible */
@@ -225,11 +251,9 @@ class Studio3d {
     return this.events.dispatchEvent(new CustomEvent(type, { detail, cancelable: true }));
   }
 
-  /** While a link is dragged, Escape means that and nothing else. @param {{ key: string }} stroke */
+  /** While something is dragged, Escape means that and nothing else. @param {{ key: string }} stroke */
   #endsDrag({ key }) {
-    if (key !== "Escape" || !this.#pointer.dragging) return false;
-    this.#pointer.cancel();
-    return true;
+    return key === "Escape" && this.#pointer.cancel();
   }
 
   /** @param {KeyboardEvent} event */

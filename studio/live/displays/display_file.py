@@ -1,4 +1,4 @@
-"""Keeps the displays of a document: one small file per entry in the data folder."""
+"""Keeps the displays and tools of a document: one small file per entry in the data folder."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import msgspec
 
 from studio.files import write_whole
 from studio.live.displays.display_list import DISPLAYS_MAX, DisplaySpec
+from studio.rviz.tools import TOOLS_MAX, ToolSpec
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,11 +23,13 @@ _log = logging.getLogger(__name__)
 
 
 class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
-    """The content of the file; displays in the order of the list."""
+    """The content of the file; displays and tools in the order of their lists."""
 
     displays: tuple[DisplaySpec, ...] = ()
     groups_off: tuple[str, ...] = ()
     fixed_frame: str = ""
+    tools: tuple[ToolSpec, ...] = ()
+    """None: RViz's first set."""
 
 
 _DECODER: Final = msgspec.json.Decoder(KeptDisplays)
@@ -48,7 +51,8 @@ class DisplayFile:
             kept = _DECODER.decode(self._path.read_bytes())
         except (OSError, *_BROKEN):
             return KeptDisplays()
-        return msgspec.structs.replace(kept, displays=kept.displays[:DISPLAYS_MAX])
+        displays, tools = kept.displays[:DISPLAYS_MAX], kept.tools[:TOOLS_MAX]
+        return msgspec.structs.replace(kept, displays=displays, tools=tools)
 
     def delete(self) -> None:
         """Delete the file; thread-safe."""
