@@ -13,6 +13,7 @@ import { movable, position, robot } from "./document.js";
 import { lights } from "./origin.js";
 import { moveJoint } from "./requests.js";
 import { mayMove } from "./ros.js";
+import { followSelection, outlined, selectNothing, takePicked } from "./selected-items.js";
 import {
   hiddenLinks,
   hovered,
@@ -99,6 +100,8 @@ function askFor(frame) {
  * @property {(frames: readonly string[]) => void} setChain a line leads from one to the next
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
+ * @property {(items: readonly {display: string, path: string, box: readonly number[] | null}[]) => void} setOutlines boxes around what is selected
+ * @property {() => void} focusOutlines bring it to the middle
  * @property {(angles: "deg" | "rad", lengths: "m" | "mm") => void} setUnits of the numbers at the mouse
  * @property {(kind: string) => void} setTool take a tool in hand, by RViz's class without its package
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
@@ -197,6 +200,8 @@ function tell(view) {
       view.setLit(lit.changed_links, lit.moved_links);
     }),
     effect(() => view.setCanDrag(mayMove.value)),
+    effect(() => view.setOutlines(outlined.value)),
+    followSelection(),
     effect(() => view.setUnits(degrees.value ? "deg" : "rad", millimetres.value ? "mm" : "m")),
     tellLinks(view),
   ];
@@ -241,6 +246,8 @@ function listen(view) {
     viewportConnected.value = connected;
   });
   on("drag", takeDrag);
+  on("picked", takePicked);
+  on("select_nothing", selectNothing);
   on("key", (stroke, event) => {
     // Prevented, the view leaves the key to the page.
     if (isStroke(stroke) && onKey(stroke)) event.preventDefault();

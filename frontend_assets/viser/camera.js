@@ -8,6 +8,8 @@ const FOCUS_FILL = 0.45;
 /** Long enough a lens that round things at the border stay round. */
 const FIELD_OF_VIEW_DEG = 42;
 const NEAREST_M = 0.05;
+/** Around what may be as small as a point. */
+const ROOM_M = 0.1;
 const SMOOTH_S = 0.18;
 /** After so long, and so many pictures, without another mesh the robot is there, and what an edit
  * adds moves no camera. */
@@ -88,6 +90,16 @@ export class CameraView {
     const corners = this.#robot.corners([link]);
     this.#untouched = false;
     this.#look(corners.length ? corners : this.#around(link), this.#direction(), FOCUS_FILL, true);
+  }
+
+  /** Bring points of the scene to the middle, with some room around them. @param {Vector3[]} points */
+  focusOn(points) {
+    const [first] = points;
+    if (!first) return;
+    this.#untouched = false;
+    const aside = first.clone().set(ROOM_M, ROOM_M, ROOM_M);
+    const around = points.flatMap((one) => [one.clone().add(aside), one.clone().sub(aside)]);
+    this.#look(around, this.#direction(), FOCUS_FILL, true);
   }
 
   /** Bring a place of the scene to the middle, from the same side and as far away.
