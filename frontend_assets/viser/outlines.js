@@ -24,6 +24,9 @@ const EDGES = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((corner) =>
 );
 /** What is seen smaller gets a square of this size, px. */
 const LEAST_PX = 7;
+/** Many would cover what they are around. */
+const MANY = 100;
+const LEAST_OF_MANY_PX = 2;
 /** @type {[number, number, number]} */
 const BELOW = [-0.5, -0.5, -0.5];
 /** @type {[number, number, number]} */
@@ -80,6 +83,7 @@ export class Outlines {
     if (!paint) return;
     /** @type {Map<Object3D, Lens | null>} */
     const lenses = new Map();
+    const least_px = this.#items.length > MANY ? LEAST_OF_MANY_PX : LEAST_PX;
     paint.beginPath();
     for (const item of this.#items) {
       const object = this.#nodeOf(item);
@@ -87,9 +91,9 @@ export class Outlines {
       if (!lenses.has(object)) lenses.set(object, lensOf(this.#door, object));
       const lens = lenses.get(object);
       const box = item.box ?? boxOf(object);
-      if (lens && box) trace(paint, lens, box);
+      if (lens && box) trace(paint, lens, box, least_px);
     }
-    stroke(paint, getComputedStyle(this.#canvas));
+    stroke(paint, getComputedStyle(this.#canvas), this.#items.length > MANY);
   }
 
   /** @returns {CanvasRenderingContext2D | null} */
@@ -113,8 +117,8 @@ export class Outlines {
   }
 }
 
-/** Add a box to what is drawn. @param {CanvasRenderingContext2D} paint @param {Lens} lens @param {readonly number[]} box */
-function trace(paint, lens, box) {
+/** Add a box to what is drawn. @param {CanvasRenderingContext2D} paint @param {Lens} lens @param {readonly number[]} box @param {number} least_px */
+function trace(paint, lens, box, least_px) {
   const [x = 0, y = 0, z = 0, long = 0, wide = 0, high = 0] = box;
   const seen = boxSeen(lens, [x, y, z], turnOf(box), [long, wide, high], BELOW, ABOVE);
   if (!seen) return;
@@ -123,7 +127,8 @@ function trace(paint, lens, box) {
   const [left, top] = [Math.min(...xs), Math.min(...ys)];
   const [across, down] = [Math.max(...xs) - left, Math.max(...ys) - top];
   if (Math.max(across, down) < LEAST_PX) {
-    paint.rect(left + across / 2 - LEAST_PX / 2, top + down / 2 - LEAST_PX / 2, LEAST_PX, LEAST_PX);
+    const [x, y] = [left + (across - least_px) / 2, top + (down - least_px) / 2];
+    paint.rect(x, y, least_px, least_px);
     return;
   }
   for (const [from = 0, to = 0] of EDGES) {
@@ -132,12 +137,13 @@ function trace(paint, lens, box) {
   }
 }
 
-/** First dark or bright, then the colour: it is seen on anything. @param {CanvasRenderingContext2D} paint @param {CSSStyleDeclaration} style */
-function stroke(paint, style) {
+/** First dark or bright, then the colour: it is seen on anything. @param {CanvasRenderingContext2D} paint
+ * @param {CSSStyleDeclaration} style @param {boolean} many thin lines, or there is nothing to see between them */
+function stroke(paint, style, many) {
   paint.lineWidth = 3.5;
   paint.strokeStyle = style.getPropertyValue("--measure-edge");
-  paint.stroke();
-  paint.lineWidth = 1.5;
+  if (!many) paint.stroke();
+  paint.lineWidth = many ? 1 : 1.5;
   paint.strokeStyle = style.getPropertyValue("--selected");
   paint.stroke();
 }
