@@ -48,7 +48,7 @@ export const outlined = computed(() =>
   [...selectedItems.value.values()].flatMap(({ ref, view, gone }) => {
     if (gone || !view) return [];
     const path = ref.display === "" ? ref.key : view.path;
-    return [{ display: ref.display, path, box: view.box }];
+    return [{ display: ref.display, path, shape: view.shape, box: view.box }];
   }),
 );
 

@@ -100,7 +100,7 @@ function askFor(frame) {
  * @property {(frames: readonly string[]) => void} setChain a line leads from one to the next
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
- * @property {(items: readonly {display: string, path: string, box: readonly number[] | null}[]) => void} setOutlines boxes around what is selected
+ * @property {(items: readonly {display: string, path: string, shape: string, box: readonly number[] | null}[]) => void} setOutlines boxes around what is selected
  * @property {() => void} focusOutlines bring it to the middle
  * @property {(angles: "deg" | "rad", lengths: "m" | "mm") => void} setUnits of the numbers at the mouse
  * @property {(kind: string) => void} setTool take a tool in hand, by RViz's class without its package

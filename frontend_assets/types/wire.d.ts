@@ -1501,6 +1501,7 @@ export interface ItemView {
   stamp: string;
   place: [number, number, number] | null;
   box: number[] | null;
+  shape: string;
 }
 
 /** Answer to `describe_items`; items that are not named are gone. */

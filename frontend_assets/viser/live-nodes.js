@@ -73,5 +73,8 @@ export function groupName(display, path) {
   return `${ROOT}${quoted(display)}/${quoted(path)}`;
 }
 
+/** The node of a shape that is one mesh. @param {string} group name of its node @param {string} shape */
+export const meshName = (group, shape) => `${group}/${quoted(`${shape}.mesh`)}`;
+
 /** @param {string} part */
 const quoted = (part) => encodeURIComponent(part) || "%";

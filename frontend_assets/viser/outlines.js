@@ -5,7 +5,7 @@
 import { isSeen } from "./extent.js";
 import { inside, lensOf } from "./lens.js";
 import { boxSeen } from "./live-picking.js";
-import { groupName } from "./live-nodes.js";
+import { groupName, meshName } from "./live-nodes.js";
 import { boxCorners, RobotView } from "./robot.js";
 
 /**
@@ -14,6 +14,7 @@ import { boxCorners, RobotView } from "./robot.js";
  * @typedef {object} Outlined
  * @property {string} display id; empty: it is a link of the robot
  * @property {string} path of its group, or the name of the link
+ * @property {string} shape its name in the group, where that is drawn by itself; empty: it is not
  * @property {readonly number[] | null} box middle, edges and turn (w, x, y, z, or nothing) in the frame of its
  *   group; null: as large as what is drawn of it
  */
@@ -112,8 +113,10 @@ export class Outlines {
   }
 
   /** @param {Outlined} item */
-  #nodeOf({ display, path }) {
-    return this.#door.node(display ? groupName(display, path) : RobotView.nodeName(path));
+  #nodeOf({ display, path, shape, box }) {
+    if (!display) return this.#door.node(RobotView.nodeName(path));
+    const group = groupName(display, path);
+    return this.#door.node(shape && !box ? meshName(group, shape) : group);
   }
 }
 

@@ -135,6 +135,7 @@ CLOUD_PROPERTIES: Final = (
     ),
 )  # fmt: skip
 
+_SHAPE: Final = "points"
 _WHITE: Final = np.full(3, 255, dtype=np.uint8)
 _SIZE: Final = "Size (m)"
 _WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time", POINTS_AT_MOST}
@@ -380,7 +381,16 @@ class CloudDisplay(Display):
             return None
         cloud = kept.cloud
         box = box_at(cloud.positions[row].tolist(), (float(self.values[_SIZE]),) * 3)
-        return Item(self.ITEM, str(index), kept.path, cloud.frame, cloud.stamp_ns, box)
+        return Item(
+            self.ITEM,
+            str(index),
+            kept.path,
+            cloud.frame,
+            cloud.stamp_ns,
+            box,
+            shape=_SHAPE,
+            row=row,
+        )
 
     def facts(self, key: str) -> tuple[Fact, ...]:
         """Return the index of a point, where it is, and its fields."""
@@ -432,7 +442,7 @@ class CloudDisplay(Display):
             self._precise |= needs_precision(one.cloud.positions, float(self.values[_SIZE]))
             shape = points_of(one.cloud, one.colours, self.values, precise=self._precise)
             cloud = one.cloud
-            one.placed = Placed(cloud.frame, cloud.stamp_ns, {"points": shape}, sweep=cloud.sweep)
+            one.placed = Placed(cloud.frame, cloud.stamp_ns, {_SHAPE: shape}, sweep=cloud.sweep)
         return one.placed
 
     def _decay_ns(self) -> int:

@@ -91,9 +91,12 @@ class Item(NamedTuple):
         path: Of the group that it is drawn in.
         frame: Of the message.
         stamp_ns: Of the message, since the epoch; 0: it has none.
-        box: Around it; None: as large as what is drawn of its group.
+        box: Around it; None: as large as what is drawn of its group, or of the shape.
         xyz: Where it is in the frame of its group, m; None: in the middle of its box.
         wxyz: How it is turned there; None: it has no direction.
+        shape: What is drawn of it in the group; empty: all.
+        row: Which point of the shape it is; None: it is none. Points of a sweep are drawn elsewhere
+            than their message says.
     """
 
     kind: ItemKind
@@ -104,6 +107,8 @@ class Item(NamedTuple):
     box: Box | None
     xyz: Xyz | None = None
     wxyz: Wxyz | None = None
+    shape: str = ""
+    row: int | None = None
 
 
 class Fact(NamedTuple):

@@ -14,7 +14,10 @@ ITEMS_MAX: Final = 4000
 DETAILS_MAX: Final = 40
 """Items that are described in full at once."""
 _NODES_MAX: Final = 2000
-PartName: TypeAlias = Annotated[str, StringConstraints(max_length=400, pattern=r"^[^\x00]*$")]
+PART_NAME_MAX: Final = 400
+PartName: TypeAlias = Annotated[
+    str, StringConstraints(max_length=PART_NAME_MAX, pattern=r"^[^\x00]*$")
+]
 """Of a group, a shape or an item within one display; checked where it is used."""
 Row: TypeAlias = Annotated[int, Field(ge=0, lt=1 << 31)]
 
@@ -90,7 +93,9 @@ class ItemView(Message):
     """m in the fixed frame; None: its frame is not connected with that."""
     box: tuple[float, ...] | None
     """Around it in the frame of its group: middle x, y, z and edges x, y, z, m, then the turn w, x,
-    y, z unless there is none. None: as large as all that is drawn of the group."""
+    y, z unless there is none. None: as large as what is drawn of the shape."""
+    shape: str
+    """Name of the shape in the group that it is drawn as; empty: all of them."""
 
 
 class FactView(Message):

@@ -185,7 +185,7 @@ function pickedOf({ display, path, shape, node }, rows, place) {
 }
 
 /** When others have waited long enough, a promise of a time after their turn. @param {number} atOnce_ms */
-function pauses(atOnce_ms) {
+export function pauses(atOnce_ms) {
   let began_ms = performance.now();
   return () => {
     if (performance.now() - began_ms < atOnce_ms) return null;
@@ -196,7 +196,7 @@ function pauses(atOnce_ms) {
 }
 
 /** @param {Generator<number | null>} rows @param {() => Promise<void> | null} pause @returns {Promise<number[]>} */
-async function gathered(rows, pause) {
+export async function gathered(rows, pause) {
   const found = [];
   for (const row of rows) {
     if (row !== null) found.push(row);

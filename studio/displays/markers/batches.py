@@ -162,10 +162,19 @@ def shapes_of(markers: Rows) -> dict[str, Shape]:
 
 def _named(shapes: Mapping[str, Shape], namespace: str | None) -> dict[str, Shape]:
     """Return names that no other namespace has, without slashes whatever its own is."""
-    mark = "rest"
-    if namespace is not None:
-        mark = hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()
+    mark = _mark(namespace)
     return {f"{mark}-{name}": shape for name, shape in shapes.items()}
+
+
+def named_mesh(row: int, namespace: str | None) -> str:
+    """Return the name of the shape of one marker's mesh by its row in the table."""
+    return f"{_mark(namespace)}-mesh-{row}"
+
+
+def _mark(namespace: str | None) -> str:
+    if namespace is None:
+        return "rest"
+    return hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()
 
 
 def _placed(place: _Place, parts: list[dict[str, Shape]], before: Placed | None) -> Placed:

@@ -9,7 +9,7 @@ import numpy as np
 
 from studio.displays.display import Display, Received, Status, TopicRole
 from studio.displays.drawing import NOTHING
-from studio.displays.markers.batches import MarkerBatches
+from studio.displays.markers.batches import MarkerBatches, named_mesh
 from studio.displays.markers.kinds import SENTENCES, Problem
 from studio.displays.markers.selection import box_of_marker, key_of, key_text, marker_facts
 from studio.displays.markers.store import REFUSED_MAX, MarkerStore
@@ -151,7 +151,9 @@ class MarkersDisplay(Display):
         stamp_ns, named = batch.stamp_ns, key_of(key)
         name = marker_name(named) if named else key
         pose = xyz_of(marker.positions[0]), wxyz_of(marker.rotations_wxyz[0])
-        return Item("marker", name, path, batch.frame, stamp_ns, box_of_marker(marker), *pose)
+        box = box_of_marker(marker)
+        shape = "" if box is not None else named_mesh(int(marker.rows[0]), batch.namespace)
+        return Item("marker", name, path, batch.frame, stamp_ns, box, *pose, shape)
 
     def facts(self, key: str) -> tuple[Fact, ...]:
         """Return what is known of a marker."""

@@ -58,7 +58,10 @@ def key_of(text: str) -> Key | None:
 
 
 def box_of_marker(marker: Rows) -> Box | None:
-    """Return a box around the one marker of some rows, in its frame."""
+    """Return a box around the one marker of some rows, in its frame.
+
+    None for a mesh, which is as large as its file says.
+    """
     kind = int(marker.types[0])
     position, wxyz = marker.positions[0], marker.rotations_wxyz[0]
     scale = np.abs(marker.scales[0])
@@ -72,7 +75,7 @@ def box_of_marker(marker: Rows) -> Box | None:
     if kind == Kind.TEXT:
         wide = scale[2] * _LETTER_SHARE * max(map(len, marker.texts[0].split("\n")), default=1)
         return box_at(position, (wide, wide, scale[2]))
-    return box_at(position, scale, wxyz)
+    return None if kind == Kind.MESH else box_at(position, scale, wxyz)
 
 
 def _around_points(marker: Rows, scale: Floats) -> Box | None:

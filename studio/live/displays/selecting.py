@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 import numpy as np
 
-from studio.displays.drawing import NO_TURN
+from studio.displays.drawing import NO_TURN, Points
 from studio.displays.robot_model import link_facts
-from studio.displays.selection import Item, Picked, orientation_fact, position_fact
+from studio.displays.selection import Item, Picked, orientation_fact, position_fact, xyz_of
 from studio.displays.turning import product, turned
 from studio.errors import FrameError
 from studio.protocol.selection import (
     ITEMS_MAX,
+    PART_NAME_MAX,
     FactView,
     ItemDetails,
     ItemRef,
@@ -80,7 +81,7 @@ class Selecting:
         found: dict[tuple[str, str], None] = {}
         rest = _Turns()
         for node in command.nodes:
-            for key in self._keys_at(node):
+            for key in filter(_is_sendable, self._keys_at(node)):
                 found[node.display, key] = None
             await rest.after()
         items = tuple(ItemRef(display=one, key=key) for one, key in islice(found, ITEMS_MAX))
@@ -118,7 +119,8 @@ class Selecting:
             is_there = ref.key in self._robot.links
             return Item("link", ref.key, "", ref.key, 0, None) if is_there else None
         drawn = self._drawn.get(ref.display)
-        return drawn.display.item(ref.key) if drawn is not None else None
+        item = drawn.display.item(ref.key) if drawn is not None else None
+        return item if item is None or drawn is None else _as_drawn(item, drawn.shown)
 
     def _view(self, ref: ItemRef, item: Item) -> ItemView:
         pose = self._pose_of(ref.display, item)
@@ -132,6 +134,7 @@ class Selecting:
             stamp=_stamp(item.stamp_ns),
             place=None if pose is None else _placed(pose, item)[0],
             box=_box_numbers(item),
+            shape=item.shape,
         )
 
     def _details(self, ref: ItemRef) -> ItemDetails | None:
@@ -166,6 +169,11 @@ class Selecting:
         return drawn.shown.poses.get(item.path) if drawn is not None else None
 
 
+def _is_sendable(key: str) -> bool:
+    """Whether a page could ask for the item: namespaces of markers are made by others."""
+    return len(key) <= PART_NAME_MAX and "\0" not in key
+
+
 class _Turns:
     """Lets others have their turn once this took long."""
 
@@ -177,6 +185,18 @@ class _Turns:
         if time.perf_counter() - self._began_s > _AT_ONCE_S:
             await asyncio.sleep(0)
             self._began_s = time.perf_counter()
+
+
+def _as_drawn(item: Item, shown: Shown) -> Item:
+    """Return a point of a sweep where it is drawn, which is not where its message has it."""
+    placed = shown.drawing.get(item.path)
+    if item.row is None or item.box is None or placed is None or placed.sweep is None:
+        return item
+    shape = placed.shapes.get(item.shape)
+    if not isinstance(shape, Points) or item.row >= len(shape.positions):
+        return item
+    middle = xyz_of(shape.positions[item.row].tolist())
+    return item._replace(box=item.box._replace(middle=middle))
 
 
 def _refs_of(command: DescribeItems) -> Iterator[ItemRef]:
