@@ -39,6 +39,8 @@ export const itemDetails = signal(new Map());
 export const leftOut = signal(0);
 /** Those whose details are looked at. @type {Signal<ReadonlySet<string>>} */
 export const openItems = signal(new Set());
+/** Whether a click adds to the selection, as it does with Shift: a finger has no keys. */
+export const adding = signal(false);
 /** The frame that places are said in. */
 export const placesIn = signal("");
 export const itemsRefused = signal("");
@@ -72,7 +74,8 @@ export function changedBy(before, refs, how) {
 let turn = 0;
 
 /** @param {Picked} picked */
-export async function takePicked({ nodes, links, how, left_out: lost }) {
+export async function takePicked({ nodes, links, how: asked, left_out: lost }) {
+  const how = asked === "replace" && adding.value ? "add" : asked;
   turn += 1;
   const mine = turn;
   const items = await itemsAt(nodes);
@@ -175,17 +178,17 @@ export function described(before, views) {
 }
 
 /** What is asked about: when it changes it is asked at once. */
-const asked = computed(() => [...selectedItems.value.keys(), "", ...openItems.value].join("\n"));
+const watched = computed(() => [...selectedItems.value.keys(), "", ...openItems.value].join("\n"));
 const count = computed(() => selectedItems.value.size);
 const followFew = polled(
   describe,
   EVERY_MS,
-  () => asked.value !== "" && count.value > 0 && count.value <= MANY,
+  () => watched.value !== "" && count.value > 0 && count.value <= MANY,
 );
 const followMany = polled(
   describe,
   EVERY_OF_MANY_MS,
-  () => asked.value !== "" && count.value > MANY,
+  () => watched.value !== "" && count.value > MANY,
 );
 
 /** Keep asking while there is a selection. @returns {() => void} the end of it */

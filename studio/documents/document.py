@@ -61,6 +61,8 @@ from studio.live.displays.display_file import DisplayFile
 from studio.live.displays.document_displays import COMMANDS as DISPLAY_COMMANDS
 from studio.live.displays.document_displays import DocumentDisplays
 from studio.live.displays.robot_reading import RobotReader
+from studio.live.displays.selecting import COMMANDS as SELECTION_COMMANDS
+from studio.live.displays.selecting import Selecting
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
@@ -162,6 +164,7 @@ class Document:
             services.wire,
             audience,
         )
+        self.selecting = Selecting(self.live.drawn)
 
     @property
     def title(self) -> str:
@@ -425,3 +428,4 @@ COMMANDS.include(VARIANT_COMMANDS, lambda document, _: document.variants)
 COMMANDS.include(POSE_COMMANDS, lambda document, _: document.poses)
 COMMANDS.include(FEED_COMMANDS, lambda document, _: document.feed)
 COMMANDS.include(DISPLAY_COMMANDS, lambda document, _: document.live)
+COMMANDS.include(SELECTION_COMMANDS, lambda document, _: document.selecting)

@@ -11,6 +11,7 @@ import { allDigits, shownMeasure, shownNumber } from "../../lib/numbers.js";
 import { EmptyState, Icon, IconButton } from "../../lib/ui.js";
 import { liveDisplays } from "../../model/live-displays.js";
 import {
+  adding,
   deselect,
   idOf,
   itemDetails,
@@ -46,6 +47,7 @@ function Bar({ items }) {
   return html`<div class="panel-bar selection-bar">
     <strong role="status">${t("selection.count", { count: shownCount(items.length) })}</strong>
     <span class="selection-tools">
+      <${AddSwitch} />
       <${IconButton} icon="target" label=${t("selection.focus")} onClick=${() => viewport.value?.focusOutlines()} />
       <${IconButton} icon="copy" label=${t("selection.copy")} disabled=${middle === null} onClick=${() => middle && copyPlace(middle)} />
       <${IconButton} icon="close" label=${t("selection.clear")} onClick=${selectNothing} />
@@ -56,6 +58,13 @@ function Bar({ items }) {
       html`<span class="selection-middle" title=${t("selection.middle.hint", { frame: placesIn.value })}><span class="muted">${t("selection.middle")}</span><${Numbers} values=${middle} unit="m" /></span>`
     }
   </div>`;
+}
+
+function AddSwitch() {
+  const toggle = () => {
+    adding.value = !adding.value;
+  };
+  return html`<${IconButton} icon="plus" label=${t("selection.add")} pressed=${adding.value} onClick=${toggle} />`;
 }
 
 /** @param {number} count @returns {string | number} 1 chooses other words */

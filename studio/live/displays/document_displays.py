@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
-from studio.protocol.commands import Commands, Limits, OnCopies, Scope
+from studio.live.displays.selecting import AllDrawn
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
@@ -34,7 +35,6 @@ from studio.protocol.displays import (
 )
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
-from studio.protocol.selection import DescribeItems, PickItems
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -47,10 +47,8 @@ if TYPE_CHECKING:
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
     from studio.live.displays.robot_reading import RobotReader
-    from studio.live.displays.selecting import Selecting
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
-    from studio.protocol.selection import ItemsDescribed, ItemsPicked
 
 
 _TICK_S: Final = 1 / 30
@@ -247,19 +245,10 @@ class DocumentDisplays:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
         return self._room.get(display).placing.shown
 
-    async def pick(self, command: PickItems) -> ItemsPicked:
-        """Return which items were pointed at."""
-        return await self._selecting().pick(command)
-
-    async def describe(self, command: DescribeItems) -> ItemsDescribed:
-        """Return where selected items are now, and what is known of some of them."""
-        return await self._selecting().describe(command)
-
-    def _selecting(self) -> Selecting:
-        from studio.live.displays.selecting import Selecting  # noqa: PLC0415 - imports displays
-
+    def drawn(self) -> AllDrawn:
+        """Return what is drawn in the scene, for those who point at it."""
         frames = self._room.frames
-        return Selecting(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
+        return AllDrawn(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
 
     def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
         """Return the kinds of displays."""
@@ -445,10 +434,6 @@ COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
 COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c))
 COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
-COMMANDS.viewer(PickItems, lambda displays, c, _: displays.pick(c), limits=Limits(per_second=10))
-COMMANDS.viewer(
-    DescribeItems, lambda displays, c, _: displays.describe(c), limits=Limits(per_second=8)
-)
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))

@@ -6,29 +6,30 @@ import asyncio
 import time
 from contextlib import suppress
 from itertools import islice
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 import numpy as np
 
 from studio.displays.drawing import NO_TURN, Points
-from studio.displays.robot_model import link_facts
 from studio.displays.selection import Item, Picked, orientation_fact, position_fact, xyz_of
 from studio.displays.turning import product, turned
 from studio.errors import FrameError
+from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.selection import (
     ITEMS_MAX,
     PART_NAME_MAX,
+    DescribeItems,
     FactView,
     ItemDetails,
     ItemRef,
     ItemsDescribed,
     ItemsPicked,
     ItemView,
+    PickItems,
 )
-from studio.scene.picked_rows import rows_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from numpy.typing import NDArray
 
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Pose, Wxyz, Xyz
     from studio.displays.selection import Fact
     from studio.live.displays.placing import Lookup, Shown
-    from studio.protocol.selection import DescribeItems, PickedNode, PickItems
+    from studio.protocol.selection import PickedNode
     from studio.robot.values import Robot
 
 _AT_ONCE_S: Final = 0.01
@@ -61,20 +62,28 @@ class Drawn(Protocol):
         ...
 
 
+class AllDrawn(NamedTuple):
+    """What is drawn in the scene of a document."""
+
+    displays: Mapping[str, Drawn]
+    """By id."""
+    robot: Robot
+    """The document's own."""
+    lookup: Lookup
+    """Looks up frames in the fixed frame."""
+    fixed: str
+    """The fixed frame."""
+
+
 class Selecting:
     """Answers for the displays of one document; used on the event loop only.
 
     Args:
-        drawn: Those at work by id.
-        robot: The document's own.
-        lookup: Looks up frames in the fixed frame.
-        fixed: The fixed frame.
+        now: Returns what is drawn now.
     """
 
-    def __init__(
-        self, drawn: Mapping[str, Drawn], robot: Robot, lookup: Lookup, fixed: str
-    ) -> None:
-        self._drawn, self._robot, self._lookup, self._fixed = drawn, robot, lookup, fixed
+    def __init__(self, now: Callable[[], AllDrawn]) -> None:
+        self._now = now
 
     async def pick(self, command: PickItems) -> ItemsPicked:
         """Return the items that were pointed at; parts that are not there any more are ignored."""
@@ -102,11 +111,16 @@ class Selecting:
                 details.append(made)
             await rest.after()
         return ItemsDescribed(
-            request=command.request, fixed=self._fixed, items=tuple(views), details=tuple(details)
+            request=command.request,
+            fixed=self._now().fixed,
+            items=tuple(views),
+            details=tuple(details),
         )
 
     def _keys_at(self, node: PickedNode) -> Iterable[str]:
-        drawn = self._drawn.get(node.display)
+        from studio.scene.picked_rows import rows_of  # noqa: PLC0415 - imports viser
+
+        drawn = self._now().displays.get(node.display)
         placed = drawn.shown.drawing.get(node.path) if drawn is not None else None
         shape = placed.shapes.get(node.shape) if placed is not None else None
         if drawn is None or shape is None:
@@ -115,10 +129,11 @@ class Selecting:
         return drawn.display.picked(Picked(node.path, node.shape, rows, node.place))
 
     def _item(self, ref: ItemRef) -> Item | None:
+        now = self._now()
         if ref.display == _ROBOT:
-            is_there = ref.key in self._robot.links
+            is_there = ref.key in now.robot.links
             return Item("link", ref.key, "", ref.key, 0, None) if is_there else None
-        drawn = self._drawn.get(ref.display)
+        drawn = now.displays.get(ref.display)
         item = drawn.display.item(ref.key) if drawn is not None else None
         return item if item is None or drawn is None else _as_drawn(item, drawn.shown)
 
@@ -141,10 +156,7 @@ class Selecting:
         item = self._item(ref)
         if item is None:
             return None
-        if ref.display == _ROBOT:
-            facts = link_facts(self._robot, ref.key)
-        else:
-            facts = self._drawn[ref.display].display.facts(ref.key)
+        facts = self._facts(ref)
         pose = self._pose_of(ref.display, item)
         in_fixed: list[Fact] = []
         if pose is not None:
@@ -159,13 +171,22 @@ class Selecting:
             in_fixed=tuple(map(_fact_view, in_fixed)),
         )
 
+    def _facts(self, ref: ItemRef) -> tuple[Fact, ...]:
+        now = self._now()
+        if ref.display != _ROBOT:
+            return now.displays[ref.display].display.facts(ref.key)
+        from studio.displays.robot_model import link_facts  # noqa: PLC0415 - reads robots
+
+        return link_facts(now.robot, ref.key)
+
     def _pose_of(self, display: str, item: Item) -> Pose | None:
         """Return the pose of the group of an item in the fixed frame."""
+        now = self._now()
         if display == _ROBOT:
             with suppress(FrameError):
-                return self._lookup(item.frame, 0)
+                return now.lookup(item.frame, 0)
             return None
-        drawn = self._drawn.get(display)
+        drawn = now.displays.get(display)
         return drawn.shown.poses.get(item.path) if drawn is not None else None
 
 
@@ -185,6 +206,11 @@ class _Turns:
         if time.perf_counter() - self._began_s > _AT_ONCE_S:
             await asyncio.sleep(0)
             self._began_s = time.perf_counter()
+
+
+COMMANDS: Final = Commands[Selecting](Scope.DOCUMENT)
+COMMANDS.viewer(PickItems, lambda one, c, _: one.pick(c), limits=Limits(per_second=10))
+COMMANDS.viewer(DescribeItems, lambda one, c, _: one.describe(c), limits=Limits(per_second=8))
 
 
 def _as_drawn(item: Item, shown: Shown) -> Item:

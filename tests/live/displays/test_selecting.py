@@ -15,7 +15,7 @@ from studio.displays.markers.display import MarkerDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.errors import FrameError
 from studio.live.displays.placing import Shown
-from studio.live.displays.selecting import Selecting
+from studio.live.displays.selecting import AllDrawn, Selecting
 from studio.protocol.selection import (
     DescribeItems,
     ItemKeys,
@@ -76,7 +76,7 @@ def lookup(frame: str, stamp_ns: int) -> Pose:
 
 
 def selecting(displays: Mapping[str, Drawn]) -> Selecting:
-    return Selecting(displays, ROBOT, lookup, "world")
+    return Selecting(lambda: AllDrawn(displays, ROBOT, lookup, "world"))
 
 
 def node(display: str, path: str, shape: str, part: str, *rows: int) -> PickedNode:
