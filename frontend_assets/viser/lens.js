@@ -7,7 +7,7 @@
 
 /**
  * Where places of one node are seen in the window, by the camera's own matrices: it may be one of
- * perspective or not. `at` gives nothing for what is not in front of it.
+ * perspective or not. `at` gives nothing for what is behind an eye with perspective.
  */
 export class Lens {
   /** px from the left edge of the window and from its upper edge, and m in front of the camera. */
@@ -48,7 +48,8 @@ export class Lens {
     this.depth_m = depth[0] * x + depth[1] * y + depth[2] * z + depth[3];
     const own = this.#w;
     const w = own[0] * x + own[1] * y + own[2] * z + own[3];
-    if (!(this.depth_m > 0) || !(w > 0)) return false;
+    // Without perspective all is seen that lies between the planes, beside the eye and behind it, too.
+    if (!(w > 0)) return false;
     const [right, down] = [this.#x, this.#y];
     this.x = (right[0] * x + right[1] * y + right[2] * z + right[3]) / w;
     this.y = (down[0] * x + down[1] * y + down[2] * z + down[3]) / w;
@@ -75,28 +76,6 @@ export function lensOf(door, object) {
   const clip = camera.projectionMatrix.clone().multiply(view);
   const upward = camera.projectionMatrix.elements[5] ?? 1;
   return new Lens(clip.elements, view.elements, canvas.getBoundingClientRect(), upward);
-}
-
-/**
- * The line of sight through a place of the window, whatever the camera: it begins in the plane of the
- * eye. Null: there is no picture.
- * @param {Door} door @param {number} x @param {number} y @returns {{ origin: Vector3, direction: Vector3 } | null}
- */
-export function sightThrough(door, x, y) {
-  const { canvas, camera } = door.mutable ?? {};
-  if (!canvas || !camera) return null;
-  const frame = canvas.getBoundingClientRect();
-  const right = ((x - frame.left) / frame.width) * 2 - 1;
-  const up = 1 - ((y - frame.top) / frame.height) * 2;
-  // Two depths give the line, whichever of them is nearer: viser's renderer counts depth backwards.
-  const one = camera.position.clone().set(right, up, 0.5).unproject(camera);
-  const other = camera.position.clone().set(right, up, 0.25).unproject(camera);
-  const back = camera.position.clone().setFromMatrixColumn(camera.matrixWorld, 2).normalize();
-  const direction = other.clone().sub(one).normalize();
-  if (direction.dot(back) > 0) direction.multiplyScalar(-1);
-  const eye = camera.position.clone().setFromMatrixPosition(camera.matrixWorld);
-  const ahead = eye.sub(one).dot(back) / direction.dot(back);
-  return { origin: one.addScaledVector(direction, ahead), direction };
 }
 
 /** @param {Matrix4} matrix @param {Vector3} point @returns {[number, number, number]} the point in the axes that the matrix is of */

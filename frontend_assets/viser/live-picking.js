@@ -5,8 +5,9 @@
 /** @import { Hit, Object3D, Pointing, Vector3 } from "./viser.d.ts" */
 
 import { fromHalf } from "./extent.js";
-import { inside, isIn, lensOf, sightThrough, touches } from "./lens.js";
+import { inside, isIn, lensOf, touches } from "./lens.js";
 import { liveNodes } from "./live-nodes.js";
+import { rayThrough } from "./picking.js";
 import { pixelsToLine } from "./screen.js";
 
 /** @typedef {[number, number, number]} Triple */
@@ -73,7 +74,7 @@ function metOf(door, detail, node, spot, reach_px) {
   if (kind === "LineSegmentsMessage" || kind === "ArrowMessage")
     return lineAt(lens, props, spot, reach_px);
   if (kind === "BatchedAxesMessage") return axesAt(lens, props, spot, reach_px);
-  const sight = sightThrough(door, spot.x, spot.y);
+  const sight = rayThrough(door, spot.x, spot.y);
   if (!sight) return null;
   if (kind === "BatchedMeshesMessage") return solidAt(lens, props, localSight(node.object, sight));
   return surfaceAt(door, node, sight);
