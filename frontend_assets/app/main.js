@@ -26,7 +26,6 @@ import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
 import { addTools } from "../model/tools.js";
 import { activePanel, dialog, isFree, languageChoice, size, theme } from "../model/view.js";
-import { viewport } from "../model/viewport.js";
 import { addViewCommands } from "../model/views.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";

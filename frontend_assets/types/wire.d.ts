@@ -500,6 +500,16 @@ export interface Demos {
   elsewhere: string[];
 }
 
+/** Ask where items are now, and for all that is known of a few of them. */
+export interface DescribeItems {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "describe_items";
+  items: ItemKeys[];
+  detailed?: ItemRef[];
+}
+
 /** One value that a part reports. */
 export interface DiagnosticValue {
   key: string;
@@ -793,6 +803,14 @@ export interface Examples {
   type: "examples";
   request: number;
   examples: ExampleEntry[];
+}
+
+/** One thing known of an item. */
+export interface FactView {
+  name: string;
+  value: string | boolean | number | number[];
+  unit: string;
+  kind: string;
 }
 
 /** One feedback message of a running goal. */
@@ -1540,6 +1558,57 @@ export interface InterfacesAnswer {
   names: string[];
   own: string[];
   faults: InterfaceFaultView[];
+}
+
+/** All that is known of an item. */
+export interface ItemDetails {
+  display: string;
+  key: string;
+  facts: FactView[];
+  in_fixed: FactView[];
+}
+
+/** Items of one display. */
+export interface ItemKeys {
+  display: string;
+  keys: string[];
+}
+
+/** An item of a display by its key; without a display it is a link of the document's robot. */
+export interface ItemRef {
+  display: string;
+  key: string;
+}
+
+/** An item as it is now. */
+export interface ItemView {
+  display: string;
+  key: string;
+  kind: string;
+  name: string;
+  path: string;
+  frame: string;
+  stamp: string;
+  place: [number, number, number] | null;
+  box: number[] | null;
+  shape: string;
+}
+
+/** Answer to `describe_items`; items that are not named are gone. */
+export interface ItemsDescribed {
+  type: "items_described";
+  request: number;
+  fixed: string;
+  items: ItemView[];
+  details: ItemDetails[];
+}
+
+/** Answer to `pick_items`: each item once. */
+export interface ItemsPicked {
+  type: "items_picked";
+  request: number;
+  items: ItemRef[];
+  left_out: number;
 }
 
 /** Positions of all movable joints by name, after a command; streams are binary frames. */
@@ -2301,6 +2370,25 @@ export interface PauseScene {
   id?: string;
   type: "pause_scene";
   paused: boolean;
+}
+
+/** Ask what the items are that were pointed at. */
+export interface PickItems {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "pick_items";
+  nodes: PickedNode[];
+}
+
+/** A node of a display in the 3D view, and which of its parts were pointed at. */
+export interface PickedNode {
+  display: string;
+  path: string;
+  shape: string;
+  node: string;
+  rows: number[];
+  place: [number, number, number] | null;
 }
 
 /** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
@@ -3780,6 +3868,7 @@ export type Command =
   | DeletePose
   | DeleteVariant
   | DeleteView
+  | DescribeItems
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3871,6 +3960,7 @@ export type Command =
   | OpenRvizText
   | PauseClass
   | PauseScene
+  | PickItems
   | PressKey
   | Publish
   | PublishJoints
@@ -3983,6 +4073,8 @@ export type Event =
   | InterfaceAnswer
   | InterfacesAnswer
   | InterfacesAdded
+  | ItemsDescribed
+  | ItemsPicked
   | JointPositions
   | Leading
   | LeftWork

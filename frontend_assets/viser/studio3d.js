@@ -17,11 +17,13 @@ import { FocusCamera } from "./tools/focus.js";
 import { Interact } from "./tools/interact.js";
 import { Measure } from "./tools/measure.js";
 import { MoveCamera } from "./tools/move-camera.js";
+import { Outlines } from "./outlines.js";
 import { pick, pickAnything } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
 import { PoseOnGround } from "./tools/pose.js";
+import { Select } from "./tools/select.js";
 import { RobotView } from "./robot.js";
 import { SurfacePoint } from "./tools/point.js";
 import { Surfaces } from "./surface.js";
@@ -33,8 +35,9 @@ import { Units } from "./tools/units.js";
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
  * `touch {}` (a hand is on the camera), `view {kind, values}` (it is another, or has other values),
  * `turned {turn}` (of the camera), `focus {link}` (null: of no link), `measure {anchor}`, `pose
- * {x, y, yaw}` and `point {point, what}` (pointed at with a tool, in the fixed frame), `drag {joint,
- * value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * {x, y, yaw}` and `point {point, what}` (pointed at with a tool, in the fixed frame), `picked {nodes,
+ * links, how, left_out}` and `select_nothing {}` (of the tool Select), `drag {joint, value, phase, x,
+ * y}`, `connection {connected}`, and `key {key, code,
  * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
  */
 class Studio3d {
@@ -62,6 +65,8 @@ class Studio3d {
   #units = new Units();
   /** @type {(type: string, detail: object) => void} */
   #tellPage = (type, detail) => void this.#tell(type, detail);
+  #detail = new CloudDetail(this.#door, (oneIn) => this.#tell("detail", { oneIn }));
+  #outlines = new Outlines(this.#door);
   #interact = new Interact(
     this.#door,
     this.#robot,
@@ -80,6 +85,7 @@ class Studio3d {
     Interact: this.#interact,
     MoveCamera: new MoveCamera(),
     FocusCamera: new FocusCamera(this.#door, this.#surfaces, this.#camera, this.#tellPage),
+    Select: new Select(this.#door, this.#robot, this.#detail, this.#tellPage),
     Measure: new Measure(this.#measuring, this.#tellPage),
     SetInitialPose: this.#pose,
     SetGoal: this.#pose,
@@ -100,7 +106,6 @@ class Studio3d {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
     this.ready = this.#door.ready.then(() => undefined);
     new Live(this.#door);
-    new CloudDetail(this.#door, (oneIn) => this.#tell("detail", { oneIn }));
     new Removed(this.#door);
     this.#door.onConnection((connected) => this.#tell("connection", { connected }));
     forwardKeys(
@@ -292,6 +297,16 @@ class Studio3d {
     this.#pointer.hold(this.#tools[kind] ?? this.#interact);
   }
 
+  /** Boxes are drawn around these. @param {readonly import("./outlines.js").Outlined[]} items */
+  setOutlines(items) {
+    this.#outlines.set(items);
+  }
+
+  /** Bring what is outlined to the middle. */
+  focusOutlines() {
+    this.#camera.focusOn(this.#outlines.corners());
+  }
+
   /** In this browser only. @param {string} link @param {boolean} visible */
   setLinkVisible(link, visible) {
     this.#looks.setVisible(link, visible);
@@ -362,7 +377,15 @@ class Studio3d {
 
   /** While something is dragged, Escape means that and nothing else. @param {{ key: string }} stroke */
   #endsDrag({ key }) {
-    return key === "Escape" && this.#pointer.cancel();
+    if (key !== "Escape") return false;
+    return this.#pointer.cancel() || this.#endsSelection();
+  }
+
+  /** With the tool Select in hand Escape empties the selection, if there is one. */
+  #endsSelection() {
+    if (this.#pointer.tool !== this.#tools.Select || this.#outlines.count === 0) return false;
+    this.#tell("select_nothing", {});
+    return true;
   }
 
   /** @param {KeyboardEvent} event */

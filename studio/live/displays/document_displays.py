@@ -19,6 +19,7 @@ from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_clock import SceneClock
+from studio.live.displays.selecting import AllDrawn
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
@@ -341,6 +342,11 @@ class DocumentDisplays:
     def shown(self, display: str) -> Shown:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
         return self._room.get(display).placing.shown
+
+    def drawn(self) -> AllDrawn:
+        """Return what is drawn in the scene, for those who point at it."""
+        frames = self._room.frames
+        return AllDrawn(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
 
     def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
         """Return the kinds of displays."""
