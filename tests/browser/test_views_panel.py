@@ -143,7 +143,7 @@ def use_the_cube(views: Views) -> None:
 
 def use_the_keys(views: Views) -> None:
     flat = views.page.get_by_role("button", name="Orthographic: without perspective")
-    views.page.locator(".views-kind").click(position={"x": 4, "y": 4})
+    views.page.locator(".views-shelf h3").first.click()  # out of all boxes
     views.page.keyboard.press("5")
     wait_until("no perspective", lambda: views.page.evaluate(TURN)["flat"])
     assert flat.get_attribute("aria-pressed") == "true"

@@ -44,12 +44,6 @@ PANELS_WINDOW = (1060, 940)
 DIALOGS_WINDOW = (720, 640)
 CLASS_WINDOW = (800, 760)
 _CLASS_ADDRESS = "http://robots.example:8765/"
-_SAVE_VIEW = """async ([how, name, pitch]) => {
-  const script = document.querySelector('script[type="module"]').src;
-  const views = await import(new URL("../model/views.js", script));
-  if (how === "sharedCount") return views.sharedViews.value.length;
-  await views[how]({ kind: "Orbit", name, values: { Distance: 1.2, Pitch: pitch } });
-}"""
 _NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
 OF_CLASSES = ("people", "class", "own_nodes")
 """The panel and the windows about a class, of which the demo has none."""
@@ -157,10 +151,6 @@ def wanted(name: str) -> bool:
 
 def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
-    if wanted("views"):
-        camera.page.evaluate(_SAVE_VIEW, ["saveOwn", "From above", 1.4])
-        if camera.page.evaluate(_SAVE_VIEW, ["sharedCount", "", 0.0]) == 0:
-            camera.page.evaluate(_SAVE_VIEW, ["saveShared", "Gripper", 0.2])
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in GROUP_OF:
         if wanted(panel) and panel not in NOT_OF_THE_DEMO:
