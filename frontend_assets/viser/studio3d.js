@@ -199,20 +199,17 @@ class Studio3d {
     return this.#camera.turn;
   }
 
-  /** Whether something is under the mouse. */
+  /** Whether the mouse is over the picture. */
   isPointing() {
-    return this.#pointedAnything() !== null;
+    return this.#hands.over !== null;
   }
 
-  /** Turn to what is under the mouse. */
+  /** Turn to what is under the mouse; whether anything is. */
   lookAtPointed() {
-    const point = this.#pointedAnything();
-    if (point) this.#camera.lookAt(point);
-  }
-
-  #pointedAnything() {
     const over = this.#hands.over;
-    return (over && this.#surfaces.at(over.x, over.y)?.point) ?? null;
+    const point = over && this.#surfaces.at(over.x, over.y)?.point;
+    if (point) this.#camera.lookAt(point);
+    return Boolean(point);
   }
 
   /** Whether this browser draws lightly, by software, and with what. */

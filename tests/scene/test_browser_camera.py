@@ -267,11 +267,11 @@ def test_f_turns_to_what_is_under_the_mouse_and_fits_where_nothing_is(view: Scen
     eye = camera(view)["eye"]
     view.page.mouse.move(*place)
     view.until("studio3d.isPointing()")
-    view.run("studio3d.lookAtPointed()")
+    assert view.run("studio3d.lookAtPointed()")
     assert camera(view)["eye"] == pytest.approx(eye, abs=1e-3)
     assert view.place_of("camera/visual/0") == pytest.approx((WIDTH / 2, HEIGHT / 2), abs=12)
     view.page.mouse.move(5, 5)
-    view.until("!studio3d.isPointing()")
+    view.until("!studio3d.lookAtPointed()")
 
 
 def test_zero_is_rvizs(view: ScenePage):
