@@ -39,6 +39,10 @@ export class Pointer {
     );
   }
 
+  get tool() {
+    return this.#tool;
+  }
+
   /** Take another tool in hand. @param {Tool} tool */
   hold(tool) {
     if (tool === this.#tool) return;

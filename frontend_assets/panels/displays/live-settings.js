@@ -17,6 +17,8 @@ import { Choice, PropertyEditor } from "../property-editor.js";
 /** @param {DisplayView} display @param {number} level @param {(id: string) => boolean} isOpen @returns {Row[]} */
 export function settingsOf(display, level, isOpen) {
   const kind = kinds.value.get(display.kind);
+  // One of a config file that there is not here has no settings that could be shown.
+  if (!kind && kinds.value.size > 0) return [];
   if (!kind) return [{ id: `setting:${display.id}`, level, label: t("loading"), icon: "" }];
   const properties = [...kind.properties, ...display.more];
   const byName = new Map(properties.map((one) => [one.name, one]));
@@ -33,6 +35,7 @@ export function settingsOf(display, level, isOpen) {
       label,
       icon: "",
       hint: property?.doc ?? label,
+      ...(property?.doc && { help: { title: path, text: property.doc } }),
       expandable: folds,
       expanded: folds && isOpen(idOf(path)),
       kind: "setting",
@@ -58,6 +61,10 @@ function listeningRows(display, kind, level, isOpen) {
       icon: "",
       kind: "setting",
       hint: kind.types.join("\n"),
+      help: {
+        title: t("live.topic"),
+        text: t("live.topic.help", { types: kind.types.join(", ") }),
+      },
       controls:
         () => html`<${PickBox} label=${t("live.topic")} text=${topic} placeholder=${t("live.topic.none")}
         disabled=${!mayEdit.value} choices=${() => topicsFor(kind)} none=${t("live.topic.nothing", { type: kind.types[0] ?? "" })}
@@ -68,6 +75,7 @@ function listeningRows(display, kind, level, isOpen) {
       level,
       label: t("live.listening"),
       icon: "",
+      help: { title: t("live.listening"), text: t("live.listening.help") },
       kind: "setting",
       expandable: true,
       expanded: open,
