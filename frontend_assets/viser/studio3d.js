@@ -18,7 +18,7 @@ import { Interact } from "./tools/interact.js";
 import { Measure } from "./tools/measure.js";
 import { MoveCamera } from "./tools/move-camera.js";
 import { Outlines } from "./outlines.js";
-import { pick, pickAnything } from "./picking.js";
+import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
@@ -201,7 +201,9 @@ class Studio3d {
 
   #pointedAnything() {
     const over = this.#hands.over;
-    return over && pickAnything(this.#door, this.#robot, over.x, over.y);
+    const found = over && this.#surfaces.at(over.x, over.y);
+    // A line of the floor is nothing to look at.
+    return found && (found.link ?? found.display) !== null ? found.point : null;
   }
 
   /** Whether this browser draws lightly, by software, and with what. */
