@@ -212,7 +212,9 @@ class Studio3d {
 
   #pointedAnything() {
     const over = this.#hands.over;
-    return (over && this.#surfaces.at(over.x, over.y)?.point) ?? null;
+    const found = over && this.#surfaces.at(over.x, over.y);
+    // A line of the floor is nothing to look at.
+    return found && (found.link ?? found.display) !== null ? found.point : null;
   }
 
   /** Whether this browser draws lightly, by software, and with what. */

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
-    from studio.live.displays.document_tools import ToolUse
+    from studio.live.displays.document_tools import Pointed, ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
@@ -62,7 +62,6 @@ if TYPE_CHECKING:
     from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
-    from studio.protocol.tools import UseTool
 
 
 _TICK_S: Final = 1 / 30
@@ -372,9 +371,9 @@ class DocumentDisplays:
         # Thousands of frames as JSON take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
-    async def tool_use(self, command: UseTool) -> ToolUse:
+    async def tool_use(self, pointed: Pointed) -> ToolUse:
         """Return what a tool is to send; subscribes to TF for a while."""
-        return self.tools.use(command, await self._frames(wait=True))
+        return self.tools.use(pointed, await self._frames(wait=True))
 
     async def _frames(self, *, wait: bool) -> SceneFrames:
         """Return the frames of now; subscribes to TF for a while.
