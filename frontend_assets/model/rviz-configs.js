@@ -11,7 +11,7 @@ import { saveAsFile } from "../lib/files.js";
 import { latestSender } from "../lib/latest.js";
 import { ask } from "./requests.js";
 import { dialog } from "./view.js";
-import { shownView, viewport } from "./viewport.js";
+import { currentView, useView } from "./views.js";
 import { subscribe } from "./wire.js";
 
 /** @type {RvizConfigState} */
@@ -60,17 +60,14 @@ export async function openConfigOf(file) {
 function takeOpened(answer) {
   if (answer?.type !== "rviz_config_opened") return false;
   const { view, page } = answer;
-  if (view) viewport.value?.useView({ kind: view.kind, values: view.values }, true);
+  if (view) useView(view);
   if (page) pagePart.take(page);
   dialog.value = { kind: "rviz_opened", opened: answer };
   return true;
 }
 
 /** @returns {import("../types/wire.d.ts").ViewValues | null} of this page */
-function viewNow() {
-  const view = viewport.value?.getView() ?? shownView.value;
-  return view && { kind: view.kind, name: "", values: view.values };
-}
+const viewNow = () => currentView();
 
 /** @param {string} name @returns {string} the part of the page, for files that hold it */
 const partFor = (name) => (name.endsWith(STUDIO) ? pagePart.told() : "");

@@ -262,6 +262,11 @@ export class CameraView {
     return root && this.#vector(...place).applyMatrix4(root);
   }
 
+  /** How it is turned, or is about to be. @returns {Turn} */
+  get turn() {
+    return this.#goal().turn;
+  }
+
   /** Distance from the eye to what it looks at, m. */
   distance() {
     return this.#goal().distance;

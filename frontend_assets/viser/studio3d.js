@@ -142,12 +142,25 @@ class Studio3d {
     this.#camera.drag("turn", dx, dy);
   }
 
-  /** Turn to what is under the mouse; whether there is something. */
+  /** How the camera is turned. @returns {readonly [number, number, number, number]} x, y, z, w */
+  getTurn() {
+    return this.#camera.turn;
+  }
+
+  /** Whether something is under the mouse. */
+  isPointing() {
+    return this.#pointedAnything() !== null;
+  }
+
+  /** Turn to what is under the mouse. */
   lookAtPointed() {
-    const over = this.#hands.over;
-    const point = over && pickAnything(this.#door, this.#robot, over.x, over.y);
+    const point = this.#pointedAnything();
     if (point) this.#camera.lookAt(point);
-    return Boolean(point);
+  }
+
+  #pointedAnything() {
+    const over = this.#hands.over;
+    return over && pickAnything(this.#door, this.#robot, over.x, over.y);
   }
 
   /** Whether this browser draws lightly, by software, and with what. */

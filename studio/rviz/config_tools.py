@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from studio.errors import RvizConfigError
 from studio.rviz.config_displays import NAME_MAX, Loss
 from studio.rviz.config_text import scalar_of
 from studio.rviz.config_values import (
@@ -35,17 +36,23 @@ _ALWAYS_HERE: Final = "Interact"
 
 
 def read_tools(entries: Sequence[Entry]) -> tuple[tuple[ToolSpec, ...], list[Loss]]:
-    """Return the tools of a file, without ids, and what of them is only kept."""
+    """Return the tools of a file, without ids, and what of them is only kept.
+
+    Raises:
+        RvizConfigError: There are too many.
+    """
     tools: list[ToolSpec] = []
     losses: list[Loss] = []
     for entry in entries:
         kind = _kind_of(entry)
         if kind is None:
             losses.append(Loss("no_tool", text_at(entry, "Class")))
-        elif len(tools) < TOOLS_MAX:
+        else:
             tool, lost = _read(entry, kind)
             tools.append(tool)
             losses += lost
+    if len(tools) > TOOLS_MAX:
+        raise RvizConfigError(f"it has more than {TOOLS_MAX} tools")
     return tuple(tools), losses
 
 

@@ -12,6 +12,7 @@ import { t } from "../../lib/i18n.js";
 import { PickBox } from "../../lib/pick-box.js";
 import { remember } from "../../lib/remembered.js";
 import { Icon, IconButton, MenuButton, openMenu, ProgressBar } from "../../lib/ui.js";
+import { FIRST } from "../../lib/view-poses.js";
 import { documentId, mayEdit, mayManage, role } from "../../model/connection.js";
 import {
   displays,
@@ -36,13 +37,25 @@ import { dialog, mouseMode, theme } from "../../model/view.js";
 import {
   attachViewport,
   keepTargetFrame,
+  shownView,
   targetFrame,
   targetTrouble,
   VIEWS,
   viewport,
 } from "../../model/viewport.js";
+import {
+  canFlatten,
+  isFlat,
+  ownViews,
+  sharedViews,
+  showsCube,
+  toggleFlat,
+  useKind,
+  useView,
+} from "../../model/views.js";
 import { PlaceLink } from "../parts.js";
 import { MeasureCard } from "./measure-card.js";
+import { ViewCube } from "./view-cube.js";
 
 /** Whether the 3D view is part of the layout: index.html then has its client fetched at once. */
 const SHOWN = "scene.shown";
@@ -59,6 +72,7 @@ export function ScenePanel() {
     <iframe ref=${frame} title=${t("panel.scene")} class=${theme.value}
       src=${id ? `${documentAddress(id)}/viser/` : "about:blank"}></iframe>
     <${Tools} />
+    <${ViewCube} />
     <${MeasureCard} />
     <${Cover} />
     <${MeshProgress} />
@@ -74,6 +88,8 @@ function Tools() {
     <${MenuButton} label=${t("scene.views")} disabled=${off} items=${viewItems}>
       <${Icon} name="views" /><${Icon} name="chevronDown" size=${12} />
     <//>
+    <${IconButton} icon="cube" label=${t("scene.orthographic")} hint=${canFlatten.value ? `${t("scene.orthographic")} (5)` : t("scene.orthographic.always")}
+      disabled=${off || !canFlatten.value} pressed=${isFlat.value} onClick=${toggleFlat} />
     <span class="divider"></span>
     <${LayerToggle} name="frames" icon="axes" />
     <${LayerToggle} name="names" icon="frames" />
@@ -89,8 +105,34 @@ function Tools() {
   </div>`;
 }
 
-const viewItems = () =>
-  VIEWS.map((name) => ({ label: t(`view.${name}`), run: () => viewport.value?.view(name) }));
+const KINDS = Object.keys(FIRST);
+
+const viewItems = () => [
+  ...VIEWS.map((name) => ({ label: t(`view.${name}`), run: () => viewport.value?.view(name) })),
+  ...savedItems(),
+  { label: t("scene.kinds"), heading: true },
+  ...KINDS.map((kind) => ({
+    label: kind,
+    checked: shownView.value?.kind === kind,
+    run: () => useKind(kind),
+  })),
+  { label: t("scene.settings"), heading: true },
+  {
+    label: t("scene.cube"),
+    checked: showsCube.value,
+    run: () => {
+      showsCube.value = !showsCube.value;
+    },
+  },
+];
+
+/** Those of the robot and of this browser, if there are any. */
+function savedItems() {
+  const views = [...sharedViews.value, ...ownViews.value];
+  if (views.length === 0) return [];
+  const items = views.map((view) => ({ label: view.name, run: () => useView(view) }));
+  return [{ label: t("scene.saved"), heading: true }, ...items];
+}
 
 const mouseItems = () =>
   /** @type {const} */ (["rviz", "trackpad"]).map((mode) => ({
