@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.displays.properties import Value
+    from studio.rviz.config_text import Tree
     from studio.rviz.config_values import Entry, Path
 
 
@@ -36,6 +37,7 @@ _RVIZ2_KINDS: Final = _words(
 )
 
 _TOPIC: Final = {
+    "DepthCloud": "Depth Map Topic",
     "RobotModel": "Description Topic",
     "InteractiveMarkers": "Interactive Markers Namespace",
 }
@@ -48,6 +50,10 @@ _RVIZ1_TOPIC: Final = {
     "MarkerArray": "Marker Topic",
     "RobotModel": "Robot Description",
 }
+_WITHOUT_QOS: Final = frozenset({"DepthCloud", "InteractiveMarkers"})
+"""Kinds whose topic has no QoS below it in RViz2."""
+PLUGINS: Final = "plugins/"
+"""Before the kinds of the owner's own displays, whose properties only their files know."""
 UPDATE_TOPIC: Final = ("Update Topic", "Value")
 """Of a Map: always its topic and this."""
 UPDATES: Final = "_updates"
@@ -133,7 +139,8 @@ def more_of(kind: str) -> Entry:
     if display is None or not display.TOPICS:
         return dict(_MORE.get(kind, {}))
     block = topic_block('""', filtered=kind not in _UNFILTERED)
-    return {**_MORE.get(kind, {}), topic_key(kind): block}
+    topic: Tree = '""' if kind in _WITHOUT_QOS else block
+    return {**_MORE.get(kind, {}), topic_key(kind): topic}
 
 
 def missing_of(entry: Entry, kind: str) -> Mapping[str, Value]:
@@ -150,6 +157,20 @@ def kind_of(class_name: str) -> str:
     name = _RVIZ1_KINDS.get(name, name)
     known = package in _PACKAGES and name in _BY_KIND
     return name if known else class_name if slash else f"unknown/{class_name}"
+
+
+def class_in_rviz2(class_name: str) -> str:
+    """Return RViz2's name of a class of RViz 1; another stays as it is."""
+    package, _, name = class_name.partition("/")
+    if package != RVIZ1:
+        return class_name
+    name = _RVIZ1_KINDS.get(name, name)
+    return f"{'rviz_common' if name in _OF_RVIZ_COMMON else _RVIZ2}/{name}"
+
+
+_OF_RVIZ_COMMON: Final = frozenset({
+    "Displays", "Group", "Help", "Selection", "Time", "Tool Properties", "Views"
+})  # fmt: skip
 
 
 def class_of(kind: str) -> str:

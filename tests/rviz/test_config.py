@@ -372,3 +372,16 @@ def test_wrong_types_anywhere_are_kept_or_refused(
     except RvizConfigError:
         return
     assert str(yaml.safe_load(write_config(read))) == str(yaml.safe_load(text))
+
+
+def test_the_owners_own_displays_are_found_again_with_their_values():
+    wished = ConfigDisplay(
+        "plugins/Heat", "Heat", False, "", "/heat", values={"A/B": 0.1, "C": "#ff0000", "D": True}
+    )
+    entry = write_display(wished)
+    assert text_at(entry, "Class") == "plugins/Heat"
+    read, losses = read_display(entry)
+    assert losses == []
+    assert replace(read, entry={}) == wished
+    changed = replace(read, values={**read.values, "A/B": 2.5})
+    assert yaml.safe_load(write_tree(write_display(changed)))["A"] == {"B": 2.5}

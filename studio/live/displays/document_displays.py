@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from msgspec import structs
 
 from studio.errors import CommandError, StudioError
-from studio.live.displays.display_file import KeptDisplays
+from studio.live.displays.display_file import Keeper, KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
@@ -45,7 +45,7 @@ from studio.protocol.roles import Visitor
 from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene, SceneTime
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from studio.displays.properties import Value
     from studio.live.connection.ros_connection import RosConnection
@@ -105,8 +105,7 @@ class DocumentDisplays:
         self._robots: RobotModels | None = None
         """Made with the room."""
         self._ticking: asyncio.Task[None] | None = None
-        self._keeping: asyncio.Task[None] | None = None
-        self._unkept: KeptDisplays | None = None
+        self._keeper = Keeper(file)
         self._seen_s = time.monotonic()
         self._clock = SceneClock()
         self._fault = ""
@@ -146,6 +145,12 @@ class DocumentDisplays:
         self._beside = structs.replace(self._beside, **changes)
         self._changed()
 
+    def set_entries(self, entries: Sequence[dict[str, Any]]) -> None:
+        """Note what a config file says of each display from now on."""
+        for spec, entry in zip(tuple(self._list), entries, strict=True):
+            self._list.change(replace(spec, entry=entry))
+        self._respecify()
+
     async def connect_if_needed(self) -> None:
         """Ensure a connection where a display has a topic, or the fixed frame is no link."""
         frame = self._fixed_frame
@@ -163,7 +168,10 @@ class DocumentDisplays:
             self._remove(one.id)
         for spec in missing.values():
             self._restore_one(spec)
-        if gone or missing:
+        options = {"background": other.background, "frame_rate": other.frame_rate}
+        if self._beside != structs.replace(self._beside, **options):
+            self.keep_beside(**options)
+        elif gone or missing:
             self._changed()
 
     @property
@@ -411,8 +419,7 @@ class DocumentDisplays:
             await self._robots.close()
         if self._made is not None:
             self._made.close_all()
-        if self._keeping is not None:
-            await self._keeping
+        await self._keeper.close()
 
     async def _connect(self) -> None:
         """Ensure a connection; if there is none, the displays' states say why."""
@@ -447,15 +454,7 @@ class DocumentDisplays:
             self._robot.scene.live.show(spec.id, visible=self._list.is_shown(spec))
 
     def _keep(self) -> None:
-        self._unkept = self.kept
-        if self._keeping is None or self._keeping.done():
-            self._keeping = asyncio.create_task(self._write())
-
-    async def _write(self) -> None:
-        """Keep the newest until there is no newer: a slider changes faster than the disk."""
-        while self._unkept is not None:
-            kept, self._unkept = self._unkept, None
-            await asyncio.to_thread(self._file.write, kept)
+        self._keeper.keep(self.kept)
 
     @property
     def fixed_frame_in_use(self) -> str:
