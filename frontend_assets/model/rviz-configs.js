@@ -15,7 +15,14 @@ import { currentView, useView } from "./views.js";
 import { subscribe } from "./wire.js";
 
 /** @type {RvizConfigState} */
-const NONE = { type: "rviz_config_state", name: "", path: "", changed: false, undo: false };
+const NONE = {
+  type: "rviz_config_state",
+  name: "",
+  path: "",
+  changed: false,
+  rviz1: false,
+  undo: false,
+};
 /** @type {Signal<RvizConfigState>} */
 export const rvizConfig = signal(NONE);
 /** With a dot behind it when saving would change it; empty: none is open. */
@@ -74,22 +81,29 @@ const partFor = (name) => (name.endsWith(STUDIO) ? pagePart.told() : "");
 
 /**
  * @param {string} path empty: the file that is open
- * @param {{replace?: boolean}} [options]
+ * @param {{replace?: boolean, rviz2?: boolean}} [options] `rviz2`: one of RViz 1 becomes one that RViz 2 opens
  * @returns {Promise<{path: string, isThere: boolean} | null>} null: it was refused, which is said
  */
-export async function saveConfig(path, { replace = false } = {}) {
+export async function saveConfig(path, { replace = false, rviz2 = false } = {}) {
   const page = partFor(path || rvizConfig.value.name);
   const view = viewNow();
-  const answer = await ask({ type: "save_rviz_file", path, replace, page, ...(view && { view }) });
+  const answer = await ask({
+    type: "save_rviz_file",
+    path,
+    replace,
+    page,
+    rviz2,
+    ...(view && { view }),
+  });
   if (answer?.type !== "rviz_file_saved") return null;
   return { path: answer.path, isThere: answer.is_there };
 }
 
-/** @param {".rviz" | ".studio.yaml"} ending have the browser save it */
-export async function downloadConfig(ending) {
+/** @param {".rviz" | ".studio.yaml"} ending have the browser save it @param {{rviz2?: boolean}} [options] */
+export async function downloadConfig(ending, { rviz2 = false } = {}) {
   const view = viewNow();
   const page = ending === STUDIO ? pagePart.told() : "";
-  const answer = await ask({ type: "get_rviz_text", page, ...(view && { view }) });
+  const answer = await ask({ type: "get_rviz_text", page, rviz2, ...(view && { view }) });
   if (answer?.type !== "rviz_text") return;
   const stem = answer.name.replace(/(\.studio)?\.(rviz|yaml)$/, "");
   saveAsFile(`${stem}${ending}`, answer.text, "application/yaml");
