@@ -208,8 +208,8 @@ export function OpenedConfigDialog({ opened, onClose }) {
       groups.length > 0 &&
       html`<p class="dialog-text">${t("rviz.opened.kept")}</p>
     <ul class="config-losses" tabindex="0" aria-label=${t("rviz.opened.kept")}>${groups.map(
-      ({ reason, whats }) => html`<li key=${reason}><strong>${t(`rviz.loss.${reason}`)}</strong>
-        <ul>${whats.map((one) => html`<li key=${one}>${one}</li>`)}</ul></li>`,
+      ({ reason, classes }) => html`<li key=${reason}><strong>${t(`rviz.loss.${reason}`)}</strong>
+        <ul>${classes.map((one) => html`<li key=${one}>${one}</li>`)}</ul></li>`,
     )}</ul>`
     }
     <footer><button type="button" class="button" disabled=${!rvizConfig.value.undo} onClick=${undo}><${Icon} name="undo" />${t("command.rviz_undo")}</button>

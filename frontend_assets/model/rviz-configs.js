@@ -131,7 +131,7 @@ export const setFrameRate = (frame_rate) => ask({ type: "set_view_options", fram
  * What of a file is only kept, by reason, so that each is one sentence.
  *
  * @param {readonly LossView[]} losses
- * @returns {{reason: LossView["reason"], whats: string[]}[]} classes, with their properties where these are meant
+ * @returns {{reason: LossView["reason"], classes: string[]}[]} classes, with their properties where these are meant
  */
 export function lossGroups(losses) {
   /** @type {Map<LossView["reason"], string[]>} */
@@ -142,8 +142,8 @@ export function lossGroups(losses) {
     groups.set(reason, [...(groups.get(reason) ?? []), said]);
   }
   return REASONS.flatMap((reason) => {
-    const whats = groups.get(reason);
-    return whats ? [{ reason, whats }] : [];
+    const classes = groups.get(reason);
+    return classes ? [{ reason, classes }] : [];
   });
 }
 

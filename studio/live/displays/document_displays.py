@@ -326,9 +326,9 @@ class DocumentDisplays:
         values: dict[str, Value] = {**spec.values, command.name: value}
         self._change(replace(spec, values=values))
 
-    async def fix(self, command: SetFixedFrame) -> None:
-        """Draw everything in another frame."""
-        frame, frames = command.frame.strip().removeprefix("/"), self._room.frames
+    async def fix(self, frame: str) -> None:
+        """Draw everything in another frame; empty: in that of the robot's root link."""
+        frame, frames = frame.strip().removeprefix("/"), self._room.frames
         frames.chosen = frame
         self._room.renew()
         self._changed()
@@ -556,7 +556,7 @@ COMMANDS.viewer(GetSceneTime, lambda displays, c, _: displays.time(c))
 COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
-COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c))
+COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c.frame))
 COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
