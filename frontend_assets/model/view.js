@@ -47,6 +47,9 @@ export const soughtSite = signal(null);
 /** @type {Signal<"wide" | "medium" | "phone">} */
 export const size = signal("wide");
 
+/** Whether the 3D view is all that is seen, as RViz's full screen. */
+export const fullView = signal(new URLSearchParams(globalThis.location?.search).has("fullscreen"));
+
 /** @typedef {"recent" | "browse" | "examples" | "new" | "paste" | "ros"} OpenTab */
 /** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "class"} | {kind: "class_name"} | {kind: "nodes"} | {kind: "remark", document: string} | {kind: "layouts"} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "rviz_open"} | {kind: "rviz_save"} | {kind: "rviz_opened", opened: import("../types/wire.d.ts").RvizConfigOpened} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
 /** The one window over the page. @type {Signal<Shown | null>} */

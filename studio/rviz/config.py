@@ -184,7 +184,7 @@ def tree_of(config: RvizConfig) -> Entry:
     displays = _written(config, "")
     if displays:
         manager = _changed(manager, _DISPLAYS, displays)
-    manager = merge_tools(manager, config.tools)
+    manager = merge_tools(manager, config.tools, is_new=not config.rest)
     manager = merge_views(manager, config.views)
     if config.view is not None:
         manager = merge_view(manager, config.view)

@@ -320,7 +320,7 @@ def test_the_tool_that_the_studio_always_has_is_not_added_to_a_file():
         (config("[5]"), "no properties"),
         (config("[" + "{}," * (DISPLAYS_MAX + 1) + "]"), "more than 200 displays"),
         (config("[" + "{Class: rviz/Grid}," * 49_000 + "]"), "more than"),
-        (config(more="  Tools: [" + "{Class: rviz/Select}," * 51 + "]"), "more than 50 tools"),
+        (config(more="  Tools: [" + "{Class: rviz/Select}," * 51 + "]"), "more than 49 tools"),
         (config(more="  Views: {Saved: [" + "{Class: rviz/FPS}," * 101 + "]}"), "100 saved views"),
         (config("[{Class: rviz/Group, Displays: " * 9 + "[{}]" + "}]" * 9), "nested deeper"),
     ],

@@ -13,10 +13,15 @@ from msgspec import structs
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import Keeper, KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
+from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
+from studio.live.displays.document_tools import DocumentTools
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_clock import SceneClock
+from studio.live.displays.selecting import AllDrawn
+from studio.live.displays.topic_offers import COMMANDS as TOPIC_COMMANDS
+from studio.live.displays.topic_offers import TopicOffers, first_topic, full_name
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
@@ -29,7 +34,6 @@ from studio.protocol.displays import (
     FrameFollowed,
     GetDisplayKinds,
     GetTf,
-    GetTopics,
     LiveDisplays,
     RemoveDisplay,
     RestoreDisplays,
@@ -38,7 +42,6 @@ from studio.protocol.displays import (
     SetFixedFrame,
     SwitchDisplays,
     TfFrames,
-    Topics,
 )
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
@@ -51,12 +54,15 @@ if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
+    from studio.live.displays.document_tools import ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
     from studio.live.displays.robot_reading import RobotReader
+    from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
+    from studio.protocol.tools import UseTool
 
 
 _TICK_S: Final = 1 / 30
@@ -100,7 +106,9 @@ class DocumentDisplays:
         self._list = DisplayList()
         self._beside = KeptDisplays()
         """What is kept beside the displays: options of the view, and an opened config."""
-        self.views = SavedViews(audience, self._views_changed)
+        self.views = SavedViews(audience, self._beside_changed)
+        self.tools = DocumentTools(audience, self._beside_changed)
+        self.offers = TopicOffers(wire)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -127,6 +135,7 @@ class DocumentDisplays:
             displays=tuple(self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
+            tools=self.tools.kept,
             views=self.views.specs,
         )
 
@@ -136,6 +145,7 @@ class DocumentDisplays:
             self._remove(one.id)
         self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
+        self.tools.mirror(kept.tools)
         self.views.replace(kept.views)
         self._room.renew()
         self._changed()
@@ -160,7 +170,8 @@ class DocumentDisplays:
             await self._connect()
 
     def mirror(self, other: KeptDisplays) -> None:
-        """Have the displays that another document has; how they look here stays as it is."""
+        """Have the displays and tools of another document; how displays look here stays."""
+        self.tools.mirror(other.tools)
         missing = {(one.kind, one.name, one.topic): one for one in other.displays}
         before = tuple(self._list)
         gone = [one for one in before if not missing.pop((one.kind, one.name, one.topic), None)]
@@ -189,6 +200,7 @@ class DocumentDisplays:
         """Take up the displays of the last time."""
         kept = self._file.read()
         self.views.restore(kept.views)
+        self.tools.restore(kept.tools)
         if kept.fixed_frame:
             self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
@@ -196,7 +208,9 @@ class DocumentDisplays:
         self._go_on()
 
     def _take(self, kept: KeptDisplays) -> None:
-        self._beside = structs.replace(kept, displays=(), groups_off=(), fixed_frame="", views=())
+        self._beside = structs.replace(
+            kept, displays=(), groups_off=(), fixed_frame="", tools=(), views=()
+        )
         for spec in kept.displays:
             self._restore_one(spec)
         for group in all_groups(one.group for one in self._list):
@@ -216,12 +230,13 @@ class DocumentDisplays:
         self._go_on()
         yield self._displays()
         yield self.views.event()
+        yield self.tools.event()
         if self._states.event is not None:
             yield self._states.event
 
     async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
-        topic = _full_name(command.topic) or _first_topic(command.kind)
+        topic = full_name(command.topic) or first_topic(command.kind)
         spec = self._list.add(command.kind, topic)
         try:
             self._room.open(spec)
@@ -308,7 +323,7 @@ class DocumentDisplays:
         """Listen to another topic, or otherwise."""
         before = self._list.get(command.display)
         listening = Listening(command.reliable, command.latched, command.depth)
-        spec = replace(before, topic=_full_name(command.topic), listening=listening)
+        spec = replace(before, topic=full_name(command.topic), listening=listening)
         old = None
         if spec.topic != before.topic:
             old = self._room.close(spec.id)
@@ -339,35 +354,43 @@ class DocumentDisplays:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
         return self._room.get(display).placing.shown
 
+    def drawn(self) -> AllDrawn:
+        """Return what is drawn in the scene, for those who point at it."""
+        frames = self._room.frames
+        return AllDrawn(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
+
     def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
         """Return the kinds of displays."""
         from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
 
         return DisplayKinds(request=command.request, kinds=kind_views())
 
-    async def topics(self, command: GetTopics) -> Topics:
-        """Return the topics; none without a connection."""
-        link = self._wire.current
-        if link is None:
-            return Topics(request=command.request, topics=())
-        from studio.live.displays.topic_views import topic_views  # noqa: PLC0415 - imports all
-
-        found = await asyncio.to_thread(topic_views, link)
-        return Topics(request=command.request, topics=found)
-
     async def tf(self, command: GetTf) -> TfFrames:
         """Return all frames, and the pose of one in another; subscribes to TF for a while."""
-        is_first = not self._is_on
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
-        frames = self._room.frames
-        if is_first and not command.pose_only:
-            await frames.wait_for_first()
-        frames.step()
+        frames = await self._frames(wait=not command.pose_only)
         if command.pose_only:
             return frames.answer(command, frames.fixed)
         # Thousands of frames as JSON take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
+
+    async def tool_use(self, command: UseTool) -> ToolUse:
+        """Return what a tool is to send; subscribes to TF for a while."""
+        return self.tools.use(command, await self._frames(wait=True))
+
+    async def _frames(self, *, wait: bool) -> SceneFrames:
+        """Return the frames of now; subscribes to TF for a while.
+
+        Args:
+            wait: Whether the first transforms are waited for, if TF was not subscribed before.
+        """
+        is_first = not self._is_on
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        frames = self._room.frames
+        if is_first and wait:
+            await frames.wait_for_first()
+        frames.step()
+        return frames
 
     def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
         """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
@@ -445,7 +468,7 @@ class DocumentDisplays:
         self.on_list()
         self.on_change()
 
-    def _views_changed(self) -> None:
+    def _beside_changed(self) -> None:
         self._keep()
         self.on_change()
 
@@ -558,24 +581,8 @@ COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
 COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c.frame))
 COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
-COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
-
-
-def _first_topic(kind: str) -> str:
-    """Return the topic of a new display of a kind.
-
-    Raises:
-        DisplayError: There is no such kind.
-    """
-    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
-
-    return display_of_kind(kind).FIRST_TOPIC
-
-
-def _full_name(topic: str) -> str:
-    """Return a topic as the graph names it."""
-    topic = topic.strip()
-    return f"/{topic}" if topic and topic[0] not in "/~" else topic
+COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
+COMMANDS.include(TOPIC_COMMANDS, lambda displays, _: displays.offers)
