@@ -351,3 +351,33 @@ def test_a_file_of_rviz_1_keeps_its_names_until_it_is_saved_for_rviz2(tmp_path: 
         assert tree["Views"]["Current"]["Class"] == "rviz_default_plugins/Orbit"
 
     with_arm(tmp_path, work)
+
+
+NAMING = """Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Description File: {}
+      Description Source: File
+      Name: Robot
+      Value: true
+"""
+
+
+def test_a_robot_outside_the_folders_is_not_read_though_a_config_file_names_it(tmp_path: Path):
+    folder = tmp_path / "robot"
+    folder.mkdir()
+    (tmp_path / "secret.urdf").write_text(ROBOT.replace("base", "secret_link"))
+
+    def remarks(one: Opened) -> str:
+        told = [each for each in one.ear.events if each["type"] == "display_states"]
+        states: list[dict[str, Any]] = told[-1]["states"] if told else []
+        return " ".join(each["sentence"] for state in states for each in state["remarks"])
+
+    async def work(one: Opened) -> None:
+        for name in (str(tmp_path / "secret.urdf"), "../secret.urdf", "package://../secret.urdf"):
+            one.ear.events.clear()
+            await one.do(OpenRvizText(name="a.rviz", text=NAMING.format(name)))
+            await until(lambda: bool(remarks(one)) and "on its way" not in remarks(one))
+            assert "secret_link" not in str(one.ear.events)
+
+    with_arm(folder, work)
