@@ -28,6 +28,8 @@ _IMU: Final = "rviz_imu_plugin"
 _RVIZ2: Final = "rviz_default_plugins"
 _PACKAGES: Final = frozenset({RVIZ1, _RVIZ2, "rviz_common", _IMU, "studio"})
 _BY_KIND: Final = {one.KIND: one for one in DISPLAYS}
+_MOVEIT: Final = {"moveit_rviz_plugin/Trajectory": "DisplayTrajectory"}
+"""Displays of MoveIt that are here under the name of their message."""
 _RVIZ1_KINDS: Final = {"WrenchStamped": "Wrench"}
 _RVIZ2_KINDS: Final = _words(
     "AccelStamped Axes Camera DepthCloud Effort FluidPressure Grid GridCells Illuminance Image"
@@ -38,6 +40,7 @@ _RVIZ2_KINDS: Final = _words(
 
 _TOPIC: Final = {
     "DepthCloud": "Depth Map Topic",
+    "DisplayTrajectory": "Trajectory Topic",
     "RobotModel": "Description Topic",
     "InteractiveMarkers": "Interactive Markers Namespace",
 }
@@ -50,7 +53,7 @@ _RVIZ1_TOPIC: Final = {
     "MarkerArray": "Marker Topic",
     "RobotModel": "Robot Description",
 }
-_WITHOUT_QOS: Final = frozenset({"DepthCloud", "InteractiveMarkers"})
+_WITHOUT_QOS: Final = frozenset({"DepthCloud", "DisplayTrajectory", "InteractiveMarkers"})
 """Kinds whose topic has no QoS below it in RViz2."""
 PLUGINS: Final = "plugins/"
 """Before the kinds of the owner's own displays, whose properties only their files know."""
@@ -65,6 +68,7 @@ _PLACES: Final[Mapping[tuple[str, str], Path]] = {
     ("MarkerArray", "Namespaces"): (OURS, "Namespaces"),
 }
 LISTS: Final = {
+    "Camera": "Visibility",
     "RobotModel": "Links",
     "TF": "Frames",
     "Marker": "Namespaces",
@@ -75,7 +79,9 @@ LINK_PARTS: Final = ("Alpha", "Show Axes")
 """What can be set of each link."""
 
 _OURS_ONLY: Final = frozenset({
-    ("Axes", "Alpha"), ("Image", "Alpha"), ("Image", "Far clip"), ("Image", "Edge color"),
+    ("Axes", "Alpha"), ("Camera", "Max Value"), ("Camera", "Median window"),
+    ("Camera", "Min Value"), ("Camera", "Normalize Range"), ("Image", "Alpha"),
+    ("Image", "Far clip"), ("Image", "Edge color"),
     ("TF", "Marker Alpha"), ("TF", "Name Height"), ("Marker", "Namespaces"),
     ("MarkerArray", "Namespaces"), ("RobotModel", "Description Node"),
     ("RobotModel", "Description Parameter"),
@@ -113,6 +119,7 @@ def topic_block(topic: str, *, filtered: bool) -> Entry:
 
 
 _MORE: Final[Mapping[str, Entry]] = {
+    "DepthCloud": {**_CLOUD, "Topic Filter": "true"},
     "Effort": {"Joints": {}, "Robot Description": "/robot_description"},
     "FluidPressure": _CLOUD,
     "Illuminance": _CLOUD,
@@ -153,6 +160,8 @@ _MISSING: Final[Mapping[str, Mapping[str, Value]]] = {"TF": {"Show Names": False
 
 def kind_of(class_name: str) -> str:
     """Return the kind of a class, or the whole class, with a slash in it, where there is none."""
+    if (moveit := _MOVEIT.get(class_name)) in _BY_KIND:
+        return str(moveit)
     package, slash, name = class_name.partition("/")
     name = _RVIZ1_KINDS.get(name, name)
     known = package in _PACKAGES and name in _BY_KIND
@@ -177,6 +186,8 @@ def class_of(kind: str) -> str:
     """Return RViz2's class of a kind; one that RViz2 lacks is of a package of ours."""
     if kind == "Imu":
         return f"{_IMU}/Imu"
+    if moveit := next((one for one, own in _MOVEIT.items() if own == kind), None):
+        return moveit
     return f"{_RVIZ2 if kind in _RVIZ2_KINDS else 'studio'}/{kind}"
 
 
