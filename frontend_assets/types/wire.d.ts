@@ -1305,6 +1305,7 @@ export interface GetRvizText {
   type: "get_rviz_text";
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Ask for the time now; /clock is subscribed for some seconds after. */
@@ -2886,6 +2887,7 @@ export interface RvizConfigState {
   name: string;
   path: string;
   changed: boolean;
+  rviz1: boolean;
   undo: boolean;
 }
 
@@ -2982,6 +2984,7 @@ export interface SaveRvizFile {
   replace?: boolean;
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Keep the present arguments and values as a new variant. */
