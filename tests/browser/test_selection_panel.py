@@ -57,7 +57,9 @@ _PLACE = """([node, place]) => {
   const frame = document.querySelector("iframe");
   const { __viserMutable: viser } = frame.contentWindow;
   const object = viser.nodeRefFromName[node];
-  if (!object?.visible) return null;
+  const hasShapes = Object.entries(viser.nodeRefFromName)
+    .some(([name, shape]) => shape && name.startsWith(`${node}/`));
+  if (!object?.visible || !hasShapes) return null;
   object.updateWorldMatrix(true, false);
   const seen = viser.camera.position.clone().set(...place).applyMatrix4(object.matrixWorld)
     .project(viser.camera);

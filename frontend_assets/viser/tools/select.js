@@ -68,9 +68,8 @@ export class Select extends Tool {
     setCursor("");
   }
 
-  /** A finger moves the camera; a tap is a click. @param {Spot} spot */
+  /** @param {Spot} spot */
   down(spot) {
-    if (spot.touch) return false;
     this.#from = spot;
     return true;
   }
