@@ -12,6 +12,7 @@ import { isStroke, onKey } from "../lib/commands.js";
 import { isKind, targetOf } from "../lib/view-poses.js";
 import { connection, documentId } from "./connection.js";
 import { movable, position, robot } from "./document.js";
+import { background, frameRate } from "./live-displays.js";
 import { lights } from "./origin.js";
 import { moveJoint } from "./requests.js";
 import { mayMove } from "./ros.js";
@@ -114,6 +115,8 @@ function askFor(frame) {
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
+ * @property {(colour: string) => void} setBackground empty: that of the theme
+ * @property {(hz: number) => void} setFrameRate pictures per second at most; 0: no limit
  * @property {(link: string, visible: boolean) => void} setLinkVisible
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
@@ -127,6 +130,9 @@ function askFor(frame) {
  * @property {() => void} focusOutlines bring it to the middle
  * @property {(angles: "deg" | "rad", lengths: "m" | "mm") => void} setUnits of the numbers at the mouse
  * @property {(kind: string) => void} setTool take a tool in hand, by RViz's class without its package
+ * @property {(kind: string, values: Record<string, boolean | number | string>) => void} setToolProperties by RViz's names
+ * @property {() => boolean} cancelTool give up what is under way; whether anything was
+ * @property {(words: {displays: Record<string, string>, floor: string, nothing: string}) => void} setWords what things are called at the mouse
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
  * @property {(measures: readonly {ends: readonly Anchor[], label: string}[]) => void} setMeasures
  * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
@@ -225,6 +231,8 @@ function tell(view) {
     }),
     effect(() => view.setTheme(theme.value)),
     effect(() => view.setMouse(mouseMode.value)),
+    effect(() => view.setBackground(background.value)),
+    effect(() => view.setFrameRate(frameRate.value)),
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
     effect(() => {

@@ -31,6 +31,16 @@ export interface AddInterfaces {
   texts: Record<string, string>;
 }
 
+/** Add a tool at the end. */
+export interface AddTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "add_tool";
+  kind: string;
+  name?: string;
+}
+
 /** A type that was taken up. */
 export interface AddedInterface {
   name: string;
@@ -1331,6 +1341,14 @@ export interface GetTf {
   frame?: string;
   seen_from?: string;
   pose_only?: boolean;
+}
+
+/** Ask for the kinds of tools. */
+export interface GetToolKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_tool_kinds";
 }
 
 /** Ask who publishes a topic and who subscribes to it, how, and what keeps them apart. */
@@ -2661,6 +2679,15 @@ export interface RemoveMember {
   person: string;
 }
 
+/** Remove a tool; one Interact tool stays. */
+export interface RemoveTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "remove_tool";
+  tool: string;
+}
+
 /**
  * Change the name at a place to `name`, wherever it is used, as one undo step.
  *
@@ -2685,6 +2712,16 @@ export interface RenamePose {
   type: "rename_pose";
   name: string;
   new_name: string;
+}
+
+/** Give a tool another name. */
+export interface RenameTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_tool";
+  tool: string;
+  name: string;
 }
 
 /** Give a variant another name and note. */
@@ -3161,6 +3198,17 @@ export interface SetParameter {
   value_type?: string;
 }
 
+/** Change a property of a tool, by RViz's name. */
+export interface SetToolProperty {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_tool_property";
+  tool: string;
+  name: string;
+  value: boolean | number | string;
+}
+
 /** Change what all views of the document have in common; what is None stays. */
 export interface SetViewOptions {
   request?: number;
@@ -3432,6 +3480,52 @@ export interface TfPose {
   chain: string[];
 }
 
+/** A kind of tool. */
+export interface ToolKindView {
+  kind: string;
+  name: string;
+  doc: string;
+  icon: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_tool_kinds`, in the order of RViz's toolbar. */
+export interface ToolKinds {
+  type: "tool_kinds";
+  request: number;
+  kinds: ToolKindView[];
+}
+
+/** Answer to `use_tool`: what was sent where. */
+export interface ToolUsed {
+  type: "tool_used";
+  request: number;
+  sent_as: "topic" | "action";
+  name: string;
+  frame: string;
+  xyz: [number, number, number];
+  wxyz: [number, number, number, number];
+  subscriptions: number;
+  operation: number;
+}
+
+/** A tool as it is set. */
+export interface ToolView {
+  id: string;
+  kind: string;
+  name: string;
+  icon: string;
+  key: string;
+  publishes: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All tools of a document, in order. */
+export interface Tools {
+  type: "tools";
+  tools: ToolView[];
+}
+
 /** A publisher or a subscription. */
 export interface TopicEnd {
   node: string;
@@ -3563,6 +3657,20 @@ export interface UrdfChanges {
   hunks: DiffLineView[][];
   left_out: number;
   fault: string;
+}
+
+/** Publish what was pointed at with a tool, or send it as a goal. */
+export interface UseTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "use_tool";
+  tool: string;
+  fixed_frame?: string;
+  x: number;
+  y: number;
+  z?: number;
+  yaw?: number;
 }
 
 /** Answer to `read_values`: only what the text names; `now` and `auto` stay as they are. */
@@ -3737,6 +3845,7 @@ export interface ZeroJoints {
 export type Command =
   | AddDisplay
   | AddInterfaces
+  | AddTool
   | AnimateJoints
   | ApplyFix
   | ApplyPose
@@ -3816,6 +3925,7 @@ export type Command =
   | GetServices
   | GetText
   | GetTf
+  | GetToolKinds
   | GetTopicEnds
   | GetTopicRates
   | GetTopics
@@ -3864,8 +3974,10 @@ export type Command =
   | Reload
   | RemoveDisplay
   | RemoveMember
+  | RemoveTool
   | Rename
   | RenamePose
+  | RenameTool
   | RenameVariant
   | RenameView
   | RenewCode
@@ -3898,6 +4010,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetToolProperty
   | SetViewOptions
   | ShowCopy
   | ShowFocus
@@ -3915,6 +4028,7 @@ export type Command =
   | UndoRvizConfig
   | UndoTo
   | UpdateVariant
+  | UseTool
   | Watch
   | ZeroJoints;
 
@@ -4015,6 +4129,9 @@ export type Event =
   | TextsChanged
   | TextsFound
   | TfFrames
+  | ToolKinds
+  | ToolUsed
+  | Tools
   | TopicEnds
   | TopicRates
   | TopicTable

@@ -119,6 +119,8 @@ export interface Hit {
   object: Object3D;
   /** Its corners by their numbers, and where it faces in the mesh's own axes. */
   face?: { a: number; b: number; c: number; normal: Vector3 } | null;
+  /** Which of a mesh that is drawn many times. */
+  instanceId?: number;
   /** Which of the triangles. */
   faceIndex?: number | null;
 }

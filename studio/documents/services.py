@@ -25,6 +25,7 @@ USED_LATER: Final = (
     *("studio.rviz.config", "studio.live.connection.followed_joints"),
     *("studio.live.panels.goal_work", "studio.live.panels.parameter_work"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
+    "studio.live.panels.tool_work",
     "studio.documents.lessons.graph_checks",
     *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),

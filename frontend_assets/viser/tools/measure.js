@@ -3,6 +3,9 @@
 
 import { setCursor, Tool } from "./tool.js";
 
+/** RViz's first colour, dark yellow: with it, lines have that of the theme, which is seen on its background. */
+const RVIZ_COLOUR = "#808000";
+
 /** A click takes what it is aimed at as an end of a measure; no joint is dragged. */
 export class Measure extends Tool {
   #measuring;
@@ -44,6 +47,7 @@ export class Measure extends Tool {
   }
 
   draw() {
-    this.#measuring.draw();
+    const colour = String(this.values["Line color"] ?? RVIZ_COLOUR);
+    this.#measuring.draw(colour === RVIZ_COLOUR ? "" : colour);
   }
 }

@@ -28,6 +28,8 @@ export function far(spot, from) {
  * unless `takesModified`.
  */
 export class Tool {
+  /** Its properties by RViz's names. @type {Readonly<Record<string, boolean | number | string>>} */
+  values = {};
   /** Whether it is offered presses with Shift or Ctrl. */
   takesModified = false;
 
