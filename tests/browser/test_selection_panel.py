@@ -42,10 +42,9 @@ _ADD = """async ([kind, topic]) => {
   await addDisplay(kind, topic);
   return liveDisplays.value.at(-1).id;
 }"""
-_TAKE = """async () => {
+_LOOK_DOWN = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   const { viewport } = await import(new URL("../model/viewport.js", script));
-  viewport.value.setTool("Select");
   viewport.value.setCamera({ position: [0, -0.001, 6], target: [0, 0, 0] });
 }"""
 _DISTANCE = """() => {
@@ -110,8 +109,12 @@ class Selecting:
         self.page.set_viewport_size(WIDE)
         connect(tab)
         self.ids = {name: self.page.evaluate(_ADD, list(one)) for name, one in displays.items()}
-        self.page.evaluate(_TAKE)
+        self.page.evaluate(_LOOK_DOWN)
         self.page.evaluate(SHOW_PANEL, "selection")
+        self.page.keyboard.press("s")
+        expect(self.page.get_by_role("button", name="Select", exact=True)).to_have_attribute(
+            "aria-pressed", "true"
+        )
         self.panel = self.page.locator("section.selection")
 
     def place(self, display: str, path: str, x: float, y: float, z: float) -> tuple[float, float]:
@@ -229,7 +232,7 @@ def select_in_a_rectangle(view: Selecting) -> None:
     far = view.page.evaluate(_DISTANCE)
     view.panel.get_by_role("button", name="Focus the camera on the selection").click()
     wait_until("the camera is near", lambda: view.page.evaluate(_DISTANCE) != far)
-    view.page.evaluate(_TAKE)
+    view.page.evaluate(_LOOK_DOWN)
     cube = view.place("cubes", "g0", -1.0, 0.0, 0.6)
     view.click(cube)
     view.expect_count("1 selected")
