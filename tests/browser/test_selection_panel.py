@@ -47,6 +47,10 @@ _LOOK_DOWN = """async () => {
   const { viewport } = await import(new URL("../model/viewport.js", script));
   viewport.value.setCamera({ position: [0, -0.001, 6], target: [0, 0, 0] });
 }"""
+_IN_HAND = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  return (await import(new URL("../model/tools.js", script))).toolInHand.value?.kind;
+}"""
 _DISTANCE = """() => {
   const { camera, cameraControl } = document.querySelector("iframe").contentWindow.__viserMutable;
   const at = () => camera.position.clone();
@@ -112,9 +116,7 @@ class Selecting:
         self.page.evaluate(_LOOK_DOWN)
         self.page.evaluate(SHOW_PANEL, "selection")
         self.page.keyboard.press("s")
-        expect(self.page.get_by_role("button", name="Select", exact=True)).to_have_attribute(
-            "aria-pressed", "true"
-        )
+        wait_until("the tool is in hand", lambda: self.page.evaluate(_IN_HAND) == "Select")
         self.panel = self.page.locator("section.selection")
 
     def place(self, display: str, path: str, x: float, y: float, z: float) -> tuple[float, float]:
