@@ -302,7 +302,7 @@ class Studio3d {
 
   /** Give up what is under way with the tool in hand. @returns {boolean} whether anything was */
   cancelTool() {
-    return this.#pointer.cancel();
+    return this.#pointer.cancel() || this.#endsSelection();
   }
 
   /** Take a tool in hand. @param {string} kind as RViz names its class; one that is not known: Interact */

@@ -82,6 +82,17 @@ _START_NODES = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   await (await import(new URL("../model/student-nodes.js", script))).startNodes();
 }"""
+_SELECT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { liveDisplays } = await import(new URL("../model/live-displays.js", script));
+  const { takePicked } = await import(new URL("../model/selected-items.js", script));
+  const { id: display } = liveDisplays.value.find(({ kind }) => kind === "LaserScan");
+  const scan = { display, path: "0", shape: "points", node: "points", place: null };
+  const take = (rows, how) =>
+    takePicked({ nodes: [{ ...scan, rows }], links: [], how, left_out: 0 });
+  await take([10], "replace");
+  await take([11, 12, 13], "add");
+}"""
 _DOCK_OF = """(id) => {
   const script = document.querySelector('script[type="module"]').src;
   return import(new URL("panels.js", script)).then(({ panelTitle }) => {
@@ -282,6 +293,9 @@ def take_wired(browser: Browser, data: Path) -> None:
                         show_type(tab.page)
                     if panel == "lessons":
                         show_lesson(tab.page)
+                    if panel == "selection":
+                        tab.page.evaluate(_SELECT)
+                        tab.page.locator(".selection-facts").first.wait_for()
                     tab.page.wait_for_timeout(_STILL_MS)
                     highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
