@@ -105,6 +105,7 @@ def drag_by_finger(tab: StudioPage, name: str, above: str) -> None:
 
 def test_displays_are_grouped_dragged_renamed_and_removed_as_in_rviz(tab: StudioPage):
     page = tab.page
+    page.get_by_role("treeitem", name="Robot model").click()  # its links would stand between
     page.evaluate(ADD_AXES)
     become(tab, "1 Axes", "1 Axes 2", "1 Axes 3")
     into_a_new_group(tab, "Axes 2", "Arm")
