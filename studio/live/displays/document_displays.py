@@ -272,10 +272,7 @@ class DocumentDisplays:
 
     def arrange_group(self, command: ArrangeGroup) -> None:
         """Name or move a group with all that is in it."""
-        if command.before is not None:
-            self._list.move_group(command.group, command.before)
-        if command.to is not None:
-            self._list.regroup(command.group, command.to)
+        self._list.arrange_group(command.group, command.to, command.before)
         self._respecify()
         self._changed()
 
@@ -315,6 +312,7 @@ class DocumentDisplays:
         """Change a property."""
         spec = self._list.get(command.display)
         value = self._room.get(spec.id).set(command.name, command.value)
+        self._room.draw_once((spec.id,))
         values: dict[str, Value] = {**spec.values, command.name: value}
         self._change(replace(spec, values=values))
 
