@@ -88,7 +88,7 @@ def drag_by_finger(tab: StudioPage, name: str, above: str) -> None:
     """At its icon, to the upper end of another row."""
     session: Any = tab.page.context.new_cdp_session(tab.page)
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
-    (x, y), (to_x, to_y) = middle(row(tab, name).locator(".icon").first), middle(row(tab, above))
+    (x, y), (to_x, to_y) = middle(row(tab, name).locator("> .icon")), middle(row(tab, above))
 
     def touch(kind: str, *points: tuple[float, float]) -> None:
         places = [{"x": at[0], "y": at[1]} for at in points]

@@ -85,6 +85,7 @@ def test_time_follows_the_clock_stands_in_a_pause_and_begins_anew_with_a_reset(
         wait_until("messages", lambda: received(tab) > 20)
         tab.page.evaluate(SHOW_PANEL, "time")
         tab.page.keyboard.press("Control+Shift+Enter")  # so that both panels are seen
+        tab.page.evaluate(SHOW_PANEL, "displays")
         wait_until("the clock's time", shows(tab, "ros", "500.00"))
         teller.second = 512
         wait_until("it has run", shows(tab, "ros_elapsed", "12.00"))
