@@ -12,7 +12,7 @@ import { Dialog, SearchBox } from "../lib/ui.js";
 const OF_PANELS = /^(next_panel|previous_panel|maximize|move_panel|float_panel|layout\.\d+)$/;
 /** Commands of the 3D view. */
 const OF_SCENE =
-  /^(look_at|fit|zero_view|orthographic|fullscreen|leave_fullscreen|measure.*|end_measuring|deselect)$/;
+  /^(look_at|fit|zero_view|orthographic|fullscreen|leave_fullscreen|measure.*|tool.*|end_measuring|deselect)$/;
 
 /** @type {readonly Row[]} */
 const AT_TABS = [

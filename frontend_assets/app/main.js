@@ -24,7 +24,8 @@ import {
 } from "../model/requests.js";
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
-import { activePanel, dialog, isFree, languageChoice, theme } from "../model/view.js";
+import { addTools } from "../model/tools.js";
+import { activePanel, dialog, isFree, languageChoice, size, theme } from "../model/view.js";
 import { addViewCommands } from "../model/views.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
@@ -34,6 +35,7 @@ import { addLayoutCommands, openPanelMenu } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
+import { followPagePart } from "./page-part.js";
 import { dockPanels, PANELS, panelTitle } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
@@ -71,6 +73,15 @@ function startDock(element) {
   });
   arrangement = followSize(dock, element, PANELS);
   addLayoutCommands(dock, element);
+  if (new URLSearchParams(location.search).has("fullscreen")) beginAlone(dock);
+}
+
+/** The 3D view alone, as `studio open --fullscreen` asks. @param {ReturnType<typeof createDock>} dock */
+function beginAlone(dock) {
+  dock.show("scene");
+  const alone = commandById("fullscreen");
+  if (alone) alone.run();
+  else if (size.peek() !== "phone") dock.toggleMaximized();
 }
 
 function addPageCommands() {
@@ -194,6 +205,7 @@ effect(() => {
   if (languageChoice.value) useLanguage(nearestLanguage(languageChoice.value));
 });
 addMeasuring();
+addTools();
 addPageCommands();
 addViewCommands();
 followState();
@@ -204,6 +216,7 @@ if (root) render(html`<${Shell} onDock=${startDock} />`, root);
 followMissing();
 followDisk();
 followGraphics();
+followPagePart();
 followPresenter();
 listenToDrops();
 connect(async () => {
