@@ -107,6 +107,7 @@ export function ProgressBar({ label, done, total }) {
  * @property {string} [icon]
  * @property {string} [hint] shown small at the right
  * @property {boolean} [checked] a tick: one of several choices
+ * @property {string} [mark] what a dot at the right says of it, as that it is open
  * @property {boolean} [disabled]
  * @property {boolean} [heading] a line of text, no choice
  */
@@ -192,6 +193,13 @@ function menuEntry(item, choose) {
     const hint = document.createElement("kbd");
     hint.textContent = item.hint;
     entry.append(hint);
+  }
+  if (item.mark) {
+    const mark = document.createElement("span");
+    mark.className = "menu-mark";
+    mark.title = item.mark;
+    entry.append(mark);
+    entry.setAttribute("aria-description", item.mark);
   }
   if (entry instanceof HTMLButtonElement) {
     entry.type = "button";

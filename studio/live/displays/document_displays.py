@@ -18,7 +18,8 @@ from studio.live.displays.document_tools import DocumentTools
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
-from studio.live.displays.scene_clock import SceneClock
+from studio.live.displays.scene_times import COMMANDS as TIME_COMMANDS
+from studio.live.displays.scene_times import SceneTimes
 from studio.live.displays.selecting import AllDrawn
 from studio.live.displays.topic_offers import COMMANDS as TOPIC_COMMANDS
 from studio.live.displays.topic_offers import TopicOffers, first_topic, full_name
@@ -45,7 +46,6 @@ from studio.protocol.displays import (
 )
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
-from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene, SceneTime
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -114,7 +114,7 @@ class DocumentDisplays:
         self._ticking: asyncio.Task[None] | None = None
         self._keeper = Keeper(file)
         self._seen_s = time.monotonic()
-        self._clock = SceneClock()
+        self.times = SceneTimes(lambda: self._room, self._look, self._changed)
         self._fault = ""
         self._checked_s = 0.0
         self._asked_until_s = 0.0
@@ -294,10 +294,7 @@ class DocumentDisplays:
 
     def arrange_group(self, command: ArrangeGroup) -> None:
         """Name or move a group with all that is in it."""
-        if command.before is not None:
-            self._list.move_group(command.group, command.before)
-        if command.to is not None:
-            self._list.regroup(command.group, command.to)
+        self._list.arrange_group(command.group, command.to, command.before)
         self._respecify()
         self._changed()
 
@@ -337,6 +334,7 @@ class DocumentDisplays:
         """Change a property."""
         spec = self._list.get(command.display)
         value = self._room.get(spec.id).set(command.name, command.value)
+        self._room.draw_once((spec.id,))
         values: dict[str, Value] = {**spec.values, command.name: value}
         self._change(replace(spec, values=values))
 
@@ -393,34 +391,19 @@ class DocumentDisplays:
 
     def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
         """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
+        self._look()
         frame = command.frame.strip().removeprefix("/")
         trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
         return FrameFollowed(request=command.request, trouble=trouble)
-
-    def time(self, command: GetSceneTime) -> SceneTime:
-        """Return the time of the view; subscribes to /clock for a while."""
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
-        return self._clock.told(command.request, self._room.frames.clock_ns, paused=self.is_paused)
 
     @property
     def is_paused(self) -> bool:
         """Whether drawing is paused."""
         return self._made is not None and self._made.is_paused
 
-    def pause(self, command: PauseScene) -> None:
-        """Pause drawing for all who look, or go on with the newest."""
-        self._room.pause(paused=command.paused)
-        self._clock.pause(self._room.frames.clock_ns, paused=command.paused)
-        self._changed()
-
-    def reset(self, _: ResetScene) -> None:
-        """Forget all that was received, and receive again what is latched."""
-        self._room.reset()
-        self._clock.reset()
-        self._checked_s = 0.0
+    def _look(self) -> None:
+        """Subscribe to TF and the clock for a while."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
 
     def let_go(self) -> None:
@@ -572,9 +555,6 @@ COMMANDS.controller(
 )
 COMMANDS.controller(ArrangeDisplay, lambda displays, c, _: displays.arrange(c))
 COMMANDS.controller(ArrangeGroup, lambda displays, c, _: displays.arrange_group(c))
-COMMANDS.controller(PauseScene, lambda displays, c, _: displays.pause(c))
-COMMANDS.controller(ResetScene, lambda displays, c, _: displays.reset(c))
-COMMANDS.viewer(GetSceneTime, lambda displays, c, _: displays.time(c))
 COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
@@ -583,5 +563,6 @@ COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
+COMMANDS.include(TIME_COMMANDS, lambda displays, _: displays.times)
 COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
 COMMANDS.include(TOPIC_COMMANDS, lambda displays, _: displays.offers)
