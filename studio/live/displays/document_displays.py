@@ -110,6 +110,11 @@ class DocumentDisplays:
         """All that is kept of them."""
         return KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
 
+    @property
+    def states(self) -> DisplayStates | None:
+        """The states sent last; None: nothing was drawn yet."""
+        return self._states.event
+
     def mirror(self, other: KeptDisplays) -> None:
         """Have the displays that another document has; how they look here stays as it is."""
         missing = {(one.kind, one.name, one.topic): one for one in other.displays}

@@ -26,7 +26,9 @@ _NAMED_MAX = 3
 _ADMIN_TIMEOUT_S: Final = 3.0
 _STARTING_S: Final = 1.0
 """Tokens of a process that starts may come so much later than its first publisher."""
+_LOOKS: Final = 4
 _ASKED_MAX: Final = 5
+_SESSIONS_MAX: Final = 1_000
 _STRANGE: Final = ""
 QUERY_TIMEOUT_S = 3.0
 
@@ -149,8 +151,11 @@ def unseen_nodes(wire: WireSession) -> UnseenNodes | None:
     session = wire.zenoh
     publishing = set(_publishing(session, wire.domain))
     unseen = publishing - _shown(session, wire.domain)
-    if unseen:
-        time.sleep(_STARTING_S)
+    for _ in range(_LOOKS):
+        if not unseen:
+            return None
+        # A router answers with a part of its tokens, or none, now and then.
+        time.sleep(_STARTING_S / _LOOKS)
         unseen -= _shown(session, wire.domain)
     if not unseen:
         return None
@@ -179,6 +184,18 @@ def router_versions(wire: WireSession) -> tuple[str, ...]:
     """Return the versions of Zenoh of the routers of this session, as far as reported."""
     zids = (str(zid) for zid in wire.zenoh.info.routers_zid())
     return _versions(wire.zenoh, (f"@/{zid}/router" for zid in zids))
+
+
+def versions_by_session(wire: WireSession, whatami: str) -> dict[str, str]:
+    """Return Zenoh's version of every router (`router`) or process (`peer`) that tells it, by id.
+
+    Processes of rmw_zenoh do, and routers; lasts some seconds where somebody does not answer.
+    """
+    found: dict[str, str] = {}
+    for answered, data in admin_answers(wire.zenoh, f"@/*/{whatami}", _ADMIN_TIMEOUT_S):
+        if len(found) < _SESSIONS_MAX and (version := _version(data)):
+            found[answered.split("/")[1]] = version
+    return found
 
 
 def _publishing(session: Session, domain: int) -> Iterator[str]:

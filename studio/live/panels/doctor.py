@@ -1,0 +1,222 @@
+"""The Doctor: what is wrong with the ROS 2 system, the document and the browser of who asks."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import StudioError
+from studio.live.doctor.here import look_here
+from studio.live.doctor.seen import Seen, SeenBrowser
+from studio.protocol.commands import Commands, Limits, Scope
+from studio.protocol.doctor import DoctorReport, ExamineSystem, GetDoctorReport, SystemExamined
+from studio.settings import repository_or_wheel
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
+    from studio.live.doctor.examination import Examination
+    from studio.live.doctor.seen import Answers, Heard, Here, SeenDocument, System, Unanswered
+    from studio.live.doctor.watching import Watching
+    from studio.protocol.connection import WireReport
+    from studio.protocol.doctor import LookingBrowser
+    from studio.ros.graph.diagnosis import DistroHashes
+
+LISTENS_S: Final = 3.0
+"""After so long rates, clocks and frames are known of all that comes once a second."""
+_ASK_EVERY_S: Final = 10.0
+_PLACE_EVERY_S: Final = 4.0
+_OFTEN: Final = Limits(bytes_max=2_000, per_second=4)
+_SELDOM: Final = Limits(bytes_max=2_000, per_second=1)
+
+
+@dataclass(slots=True)
+class _Visit:
+    """What is known of one connection."""
+
+    link: WireLink
+    watching: Watching
+    hashes: DistroHashes
+    answers: Answers | None = None
+    asked_s: float = -_ASK_EVERY_S
+    asking: asyncio.Task[None] | None = None
+
+
+class Doctor:
+    """Listens and asks while somebody wants to know, once for all who do.
+
+    Args:
+        connection: With the ROS 2 system.
+        unanswered: Returns the studio's own calls and goals that were not answered.
+    """
+
+    def __init__(
+        self, connection: RosConnection, unanswered: Callable[[], tuple[Unanswered, ...]]
+    ) -> None:
+        self._connection, self._unanswered = connection, unanswered
+        self.document_of: Callable[[str], SeenDocument | None] = lambda _id: None
+        """Returns what is known of an open document."""
+        self._visit: _Visit | None = None
+        self._looking = asyncio.Lock()
+        """Held while a thread works with the connection."""
+        self._here: Here | None = None
+        self._place: tuple[float, WireReport | None] = (-_PLACE_EVERY_S, None)
+
+    async def examine(self, command: ExamineSystem) -> SystemExamined:
+        """Return what is found as of now; later answers know more."""
+        seen = await self._seen(command)
+        found = await asyncio.to_thread(_examined, seen)
+        listened_s = seen.heard.listened_s if seen.heard else 0.0
+        is_known = seen.system is None or (seen.answers is not None and listened_s >= LISTENS_S)
+        return SystemExamined(
+            request=command.request,
+            listened_s=round(listened_s, 1),
+            listens_s=LISTENS_S,
+            is_complete=is_known,
+            findings=found.findings,
+            more=found.more,
+            subjects=found.subjects,
+        )
+
+    async def report(self, command: GetDoctorReport) -> DoctorReport:
+        """Return the same as an HTML file."""
+        seen = await self._seen(command)
+        html = await asyncio.to_thread(_reported, seen, command)
+        return DoctorReport(request=command.request, html=html)
+
+    async def let_go(self) -> None:
+        """Let go of the connection, which is about to end."""
+        visit, self._visit = self._visit, None
+        if visit is None:
+            return
+        async with self._looking:
+            await asyncio.to_thread(visit.watching.close)
+        if visit.asking is not None:
+            await asyncio.gather(visit.asking, return_exceptions=True)
+
+    async def _seen(self, command: LookingBrowser) -> Seen:
+        if self._here is None:
+            self._here = await asyncio.to_thread(_look_here)
+        system, heard, answers = await self._of_connection()
+        return Seen(
+            here=self._here,
+            place=None if system else await self._examined_place(),
+            system=system,
+            heard=heard,
+            answers=answers,
+            document=self.document_of(command.document),
+            browser=SeenBrowser(command.renderer, command.draws_by_software),
+            unanswered=self._unanswered(),
+        )
+
+    async def _of_connection(self) -> tuple[System | None, Heard | None, Answers | None]:
+        async with self._looking:
+            link = self._connection.current
+            if link is None:
+                return None, None, None
+            if self._visit is None or self._visit.link is not link:
+                self._visit = await asyncio.to_thread(_begun, link)
+            visit = self._visit
+            system, heard = await asyncio.to_thread(_looked, visit)
+        self._ask_again(visit, system)
+        return system, heard, visit.answers
+
+    def _ask_again(self, visit: _Visit, system: System) -> None:
+        """Ask routers and nodes beside, for some do not answer."""
+        is_asking = visit.asking is not None and not visit.asking.done()
+        if system.is_connected and not is_asking and _is_due(visit.asked_s, _ASK_EVERY_S):
+            visit.asking = asyncio.create_task(self._ask(visit, system))
+
+    async def _ask(self, visit: _Visit, system: System) -> None:
+        visit.answers = await asyncio.to_thread(_asked, visit.link, system)
+        visit.asked_s = time.monotonic()
+
+    async def _examined_place(self) -> WireReport | None:
+        """Return what there is where the studio would connect."""
+        at_s, report = self._place
+        if _is_due(at_s, _PLACE_EVERY_S):
+            report = await asyncio.to_thread(_look_at_place, self._connection)
+            self._place = time.monotonic(), report
+        return report
+
+
+def _is_due(at_s: float, every_s: float) -> bool:
+    return time.monotonic() - at_s >= every_s
+
+
+# What follows runs in threads, and imports Zenoh.
+
+
+def _begun(link: WireLink) -> _Visit:
+    from studio.live.doctor.watching import Watching  # noqa: PLC0415
+    from studio.ros.graph.diagnosis import DistroHashes  # noqa: PLC0415
+
+    return _Visit(link, Watching(link.context, link.types), DistroHashes(link.types))
+
+
+def _looked(visit: _Visit) -> tuple[System, Heard]:
+    from studio.live.doctor.asking import look  # noqa: PLC0415
+
+    link = visit.link
+    own = frozenset({link.zid})
+    system = look(link.context.wire, link.graph, link.types, visit.hashes, own=own)
+    return system, visit.watching.heard(system)
+
+
+def _asked(link: WireLink, system: System) -> Answers:
+    from studio.live.doctor.asking import ask  # noqa: PLC0415
+
+    return ask(link.context.wire, system)
+
+
+def _look_at_place(connection: RosConnection) -> WireReport | None:
+    from studio.live.connection.report import examine  # noqa: PLC0415
+
+    try:
+        return examine(connection.choice, ())
+    except StudioError:
+        return None  # the settings are not valid: the page says so where they are chosen
+
+
+def _look_here() -> Here:
+    from studio.live.doctor.subjects.network import NAMES  # noqa: PLC0415
+
+    return look_here(NAMES)
+
+
+def _examined(seen: Seen) -> Examination:
+    from studio.live.doctor.examination import examine  # noqa: PLC0415
+
+    return examine(seen)
+
+
+def _reported(seen: Seen, command: GetDoctorReport) -> str:
+    from studio.live.doctor.report import About, report_html, words_of  # noqa: PLC0415
+
+    words = words_of(repository_or_wheel("frontend_assets"), command.language)
+    made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
+    facts = tuple((words[f"doctor.fact.{name}"], value) for name, value in facts_of(seen))
+    return report_html(_examined(seen), About(command.language, facts, made), words)
+
+
+def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:
+    """Return what was examined, by the names of its facts."""
+    if seen.system is not None:
+        place = (seen.system.endpoint, seen.system.domain, seen.system.profile.distro)
+    elif seen.place is not None:
+        place = (seen.place.endpoint, seen.place.domain, seen.place.distro)
+    else:
+        return ()
+    router, domain, distro = place
+    nodes = (("nodes", str(len(seen.system.others))),) if seen.system else ()
+    return (("router", router), ("domain", str(domain)), ("distribution", distro), *nodes)
+
+
+COMMANDS: Final = Commands[Doctor](Scope.ROS)
+COMMANDS.viewer(ExamineSystem, lambda one, c, _: one.examine(c), limits=_OFTEN)
+COMMANDS.viewer(GetDoctorReport, lambda one, c, _: one.report(c), limits=_SELDOM)

@@ -1,0 +1,58 @@
+"""Nodes of one name, silent ones, and tokens that are none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.live.doctor.examination import examine
+from studio.ros.client import Context, Node
+from studio.ros.graph.diagnosis import UnseenNodes
+from studio.ros.wire.zenoh import declare_token
+from tests.support.wire import open_test_session
+
+if TYPE_CHECKING:
+    from tests.support.patient import Patient
+
+pytestmark = pytest.mark.network
+
+
+def test_two_nodes_of_one_name_are_one_finding(patient: Patient):
+    patient.node("twin")
+    patient.node("twin")
+    found = patient.until("duplicate-name", "2 nodes are called /twin")
+    assert len(found.evidence) == 2
+    assert [(one.kind, one.name) for one in found.about] == [("node", "/twin")]
+    assert "two-servers" not in patient.codes("/twin")
+
+
+def test_a_node_that_nobody_spins_does_not_answer(patient: Patient):
+    with open_test_session(patient.endpoint) as wire:
+        context = Context.over(wire)
+        Node("asleep", context=context)
+        found = patient.until("silent-node", "/asleep", asks=True)
+        context.shutdown()
+    assert found.level == "warn"
+    assert "/robot" not in found.sentence
+    seen = patient.seen(asks=True)
+    assert seen.answers is not None
+    assert seen.answers.asked >= 1
+    assert "/robot" not in seen.answers.silent
+
+
+def test_a_token_that_is_none_is_found(patient: Patient):
+    session = patient.robot.wire.zenoh
+    token = declare_token(session, "@ros2_lv/0/junk")
+    found = patient.until("token", "not understood")
+    token.undeclare()
+    assert "junk" in found.sentence
+
+
+def test_processes_that_the_router_does_not_show_are_an_error(patient: Patient):
+    seen = patient.seen(asks=True)
+    assert seen.answers is not None
+    unseen = replace(seen.answers, unseen=UnseenNodes(2, ("1.8.0",), ("1.10.2",)))
+    found = {one.code: one for one in examine(replace(seen, answers=unseen)).findings}
+    assert "2 processes publish (Zenoh 1.8.0)" in found["unseen-nodes"].sentence
