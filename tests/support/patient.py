@@ -70,7 +70,6 @@ class Patient:
 
     def seen(self, *, asks: bool = False) -> Seen:
         """What the Doctor sees now."""
-        self.context.graph.settle()
         own = frozenset({self._wire.zid})
         system = look(self._wire, self.context.graph, self._wire.types, self._hashes, own=own)
         answers = ask(self._wire, system) if asks else None

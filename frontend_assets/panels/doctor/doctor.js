@@ -212,8 +212,9 @@ function Looked({ subjects }) {
   return html`<details class="doctor-looked" open=${true}><summary>${t("doctor.looked")}</summary>
     <ul>${subjects.map(
       ({ subject, state, count, detail }) => html`<li key=${subject} class=${state}>
-        <${Icon} name=${STATES[state]} size=${13} /><span>${t(`doctor.subject.${subject}`)}</span>
-        <span class="muted">${[t(`doctor.state.${state}`), state === "not_examined" ? "" : String(count), detail].filter(Boolean).join(" · ")}</span></li>`,
+        <${Icon} name=${STATES[state]} size=${13} /><span>${t(`doctor.subject.${subject}`)}<span class="hidden-words"> ${t(`doctor.state.${state}`)}</span></span>
+        <span class="numbers">${state === "not_examined" ? "–" : count}</span>
+        <span class="muted">${state === "not_examined" ? t("doctor.state.not_examined") : detail}</span></li>`,
     )}</ul></details>`;
 }
 

@@ -16,7 +16,7 @@ import studio
 from studio.cli.graph import settle
 from studio.cli.terminal import harmless
 from studio.cli.wire import add_wire_options, opened_wire
-from studio.errors import NoRouterError
+from studio.errors import NoRouterError, SettingsError
 from studio.ros.names import is_hidden
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ _KINDS: Final = {"qos": "QoS", "foreign-hash": "hash"}
 """Findings that are called otherwise than by their code."""
 _NOBODY: Final = frozenset({"no-nodes", "other-domain"})
 """That nobody is there is no fault."""
+_NOT_JOINED: Final = 2
+"""As of every verb that joins no router."""
 _LISTENS_S: Final = 2.0
 _LISTENS_MAX_S: Final = 3_600.0
 _LOOK_EVERY_S: Final = 1.0
@@ -85,6 +87,8 @@ def _run(options: argparse.Namespace) -> int:
         _print_sections(_finding_sections(found, notes=False))
     else:
         _print_verdict(seen, found)
+    if seen.system is None:
+        return _NOT_JOINED
     return 1 if any(map(_is_fault, found.findings)) else 0
 
 
@@ -268,5 +272,9 @@ def _write_html(file: Path, seen: Seen, found: Examination) -> None:
     words = words_of(repository_or_wheel("frontend_assets"), "en")
     facts = tuple((words[f"doctor.fact.{name}"], value) for name, value in facts_of(seen))
     made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    write_whole(file, report_html(found, About("en", facts, made), words).encode())
+    html = report_html(found, About("en", facts, made), words)
+    try:
+        write_whole(file, html.encode())
+    except OSError as error:
+        raise SettingsError(f"{file} cannot be written: {error.strerror}.") from error
     print(f"Report: {file}", file=sys.stderr)

@@ -10,10 +10,14 @@ import time
 from collections import Counter
 from typing import TYPE_CHECKING, Final
 
-from studio.live.connection.report import count
 from studio.live.doctor.seen import Answers, Ends, System
 from studio.ros.attachment import GID_BYTES, packed
-from studio.ros.graph.diagnosis import DistroHashes, unseen_nodes, versions_by_session
+from studio.ros.graph.diagnosis import (
+    DistroHashes,
+    nodes_by_domain,
+    unseen_nodes,
+    versions_by_session,
+)
 from studio.ros.tokens import DataKey, EndpointKind
 from studio.ros.wire.zenoh import Replies, ZError, declare_querier
 
@@ -102,7 +106,7 @@ def _nodes_by_domain(wire: WireSession, system: System) -> dict[int, int]:
     """Count others' nodes; a router answers with a part of its tokens, or none, now and then."""
     most = Counter({system.domain: len(system.others)})
     for _ in range(_LOOKS):
-        most |= count(wire, system.own).nodes
+        most |= Counter(nodes_by_domain(wire, own=system.own))
     return {domain: nodes for domain, nodes in sorted(most.items()) if nodes}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, cast, get_args
 
-from studio.live.doctor.seen import short
+from studio.live.doctor.seen import OF_ONE_CODE_MAX, short
 from studio.problems import modules_of
 from studio.protocol.doctor import FINDINGS_MAX, Finding, Level, SubjectName, SubjectView
 
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 _LEVELS: Final[tuple[Level, ...]] = get_args(Level)
 _SUBJECTS: Final[tuple[SubjectName, ...]] = get_args(SubjectName)
-_OF_ONE_CODE_MAX: Final = 30
-"""So many findings of one code are shown: a thousand topics with one fault need no thousand."""
 _SENTENCE_MAX: Final = 700
 _LINE_MAX: Final = 400
 _LINES_MAX: Final = 12
@@ -83,7 +81,7 @@ def _bounded(findings: Iterator[Finding]) -> tuple[list[Finding], int]:
     left_out = 0
     for one in findings:
         counts[one.code] = counts.get(one.code, 0) + 1
-        if counts[one.code] <= _OF_ONE_CODE_MAX:
+        if counts[one.code] <= OF_ONE_CODE_MAX:
             kept.append(_shortened(one))
         else:
             left_out += 1

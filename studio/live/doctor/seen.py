@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from studio.problems import Problem
     from studio.protocol.connection import WireReport
     from studio.protocol.displays import DisplayState
+    from studio.protocol.doctor import Finding
     from studio.ros.graph.diagnosis import UnseenNodes
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
     from studio.ros.profiles import WireProfile
@@ -23,6 +25,8 @@ NAME_MAX: Final = 160
 """Letters of a name that are shown; those of peers may have any length."""
 NAMED_MAX: Final = 6
 """So many names stand in one sentence or drawing."""
+OF_ONE_CODE_MAX: Final = 30
+"""So many findings of one code are shown: a thousand topics with one fault need no thousand."""
 
 
 class Ends(NamedTuple):
@@ -269,6 +273,24 @@ class Seen:
     document: SeenDocument | None = None
     browser: SeenBrowser | None = None
     unanswered: tuple[Unanswered, ...] = ()
+
+
+class Written:
+    """Findings of one subject as they are made; beyond the limit of its code, the last comes again.
+
+    Those beyond are only counted, and ten thousand need not be written for that.
+    """
+
+    def __init__(self) -> None:
+        self._counts: Counter[str] = Counter()
+        self._last: dict[str, Finding] = {}
+
+    def __call__(self, code: str, write: Callable[[], Finding]) -> Finding:
+        """Return the finding that `write` makes, or one like it."""
+        self._counts[code] += 1
+        if self._counts[code] <= OF_ONE_CODE_MAX:
+            self._last[code] = write()
+        return self._last[code]
 
 
 @dataclass(frozen=True, slots=True)

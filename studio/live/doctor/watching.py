@@ -100,6 +100,11 @@ class Watching:
             offsets=tuple(self._offsets(watches.values(), system.own)),
         )
 
+    @property
+    def listens_to(self) -> tuple[str, ...]:
+        """Topics that are received at this moment."""
+        return self._rates.measured
+
     def close(self) -> None:
         """Listen no more."""
         with self._lock:

@@ -42,6 +42,9 @@ class _Visit:
     link: WireLink
     watching: Watching
     hashes: DistroHashes
+    system: System | None = None
+    version: int = -1
+    """Of the graph, when it was looked at."""
     answers: Answers | None = None
     asked_s: float = -_ASK_EVERY_S
     asking: asyncio.Task[None] | None = None
@@ -162,9 +165,12 @@ def _begun(link: WireLink) -> _Visit:
 def _looked(visit: _Visit) -> tuple[System, Heard]:
     from studio.live.doctor.asking import look  # noqa: PLC0415
 
-    link = visit.link
-    own = frozenset({link.zid})
-    system = look(link.context.wire, link.graph, link.types, visit.hashes, own=own)
+    link, version = visit.link, visit.link.graph.version
+    system = visit.system
+    if system is None or version != visit.version or system.is_connected != link.is_connected:
+        own = frozenset({link.zid})
+        system = look(link.context.wire, link.graph, link.types, visit.hashes, own=own)
+        visit.system, visit.version = system, version
     return system, visit.watching.heard(system)
 
 

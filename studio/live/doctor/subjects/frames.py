@@ -38,9 +38,9 @@ def looked_at(seen: Seen) -> Looked | None:
     if seen.heard is None:
         return None
     frames = seen.heard.frames
-    return Looked(
-        len(frames.reports) + frames.more, f"{len(frames.roots)} trees" if frames.roots else ""
-    )
+    trees = len(frames.roots)
+    told = "1 tree" if trees == 1 else f"{trees} trees"
+    return Looked(len(frames.reports) + frames.more, told if trees else "")
 
 
 def findings(seen: Seen) -> Iterator[Finding]:

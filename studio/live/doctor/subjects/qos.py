@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import NAMED_MAX, Looked, short
+from studio.live.doctor.seen import NAMED_MAX, Looked, Written, short
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.qos import DurabilityPolicy, qos_text, why_unmatched
 
@@ -34,19 +35,23 @@ def findings(seen: Seen) -> Iterator[Finding]:
     """Find profiles that do not go together, topic by topic."""
     if seen.system is None:
         return
+    written = Written()
     for name, ends in seen.system.topics.items():
-        yield from _unmatched(name, ends)
+        if ends.senders and ends.receivers:
+            yield from _unmatched(name, ends, written)
         if ends.senders:
             yield from _on_the_wire(name, ends, seen.heard)
 
 
-def _unmatched(name: str, ends: Ends) -> Iterator[Finding]:
+def _unmatched(name: str, ends: Ends, written: Written) -> Iterator[Finding]:
     for publisher in _of_each_kind(ends.senders):
         for subscription in _of_each_kind(ends.receivers):
             if publisher.type_name != subscription.type_name:
                 continue
             for reason in why_unmatched(publisher.qos, subscription.qos):
-                yield _would_not_match(name, reason, publisher, subscription)
+                yield written(
+                    "qos", partial(_would_not_match, name, reason, publisher, subscription)
+                )
 
 
 def _would_not_match(

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from itertools import groupby
-from typing import TYPE_CHECKING, Final
+from functools import partial
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import StudioError
-from studio.live.doctor.seen import NAMED_MAX, Looked, short
-from studio.protocol.doctor import Concern, Finding, Talk
+from studio.live.doctor.seen import NAMED_MAX, Ends, Looked, Written, short
+from studio.protocol.doctor import Concern, ConcernKind, Finding, Talk
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from studio.live.doctor.seen import Ends, Seen
-    from studio.protocol.doctor import ConcernKind, SubjectName
+    from studio.live.doctor.seen import Seen
+    from studio.protocol.doctor import SubjectName
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.types.library import TypeLibrary
 
@@ -31,11 +31,11 @@ def findings(seen: Seen) -> Iterator[Finding]:
     """Find types that clash, that are not known, and whose text has a fault."""
     if seen.system is None:
         return
-    system, unknown = seen.system, _Unknown(seen.system.types)
+    system, written, unknown = seen.system, Written(), _Unknown(seen.system.types)
     for name, ends in system.topics.items():
-        yield from _of_name(name, ends, "topic", unknown)
+        yield from _of_name(_Named(name, ends, "topic"), unknown, written)
     for name, ends in system.services.items():
-        yield from _of_name(name, ends, "service", unknown)
+        yield from _of_name(_Named(name, ends, "service"), unknown, written)
     for error in system.types.faults().values():
         yield Finding(
             code="interface-text", level="warn", subject=SUBJECT, sentence=short(str(error), 500)
@@ -59,55 +59,65 @@ class _Unknown:
         return self._why[type_name]
 
 
-def _of_name(name: str, ends: Ends, kind: ConcernKind, unknown: _Unknown) -> Iterator[Finding]:
-    both = [*ends.senders, *ends.receivers]
-    about = (Concern(kind=kind, name=name),)
-    names = sorted({one.type_name for one in both})
-    if len(names) > 1:
-        yield Finding(
-            code="type",
-            level="error",
-            subject=SUBJECT,
-            sentence=(
-                f"{short(name)} has {len(names)} types, "
-                f"{', '.join(map(short, names[:NAMED_MAX]))}: they never meet."
-            ),
-            evidence=_evidence(both),
-            about=about,
-            talk=_talk(name, ends),
-            line=f"ros2 {kind} info -v {short(name)}" if kind == "topic" else "",
-        )
-    ordered = sorted(both, key=lambda end: end.type_name) if len(names) > 1 else both
-    for type_name, same in groupby(ordered, key=lambda end: end.type_name):
-        yield from _of_hashes(name, type_name, list(same), ends, about)
+class _Named(NamedTuple):
+    """A topic or a service with its ends."""
+
+    name: str
+    ends: Ends
+    kind: ConcernKind
+
+
+def _of_name(named: _Named, unknown: _Unknown, written: Written) -> Iterator[Finding]:
+    both = [*named.ends.senders, *named.ends.receivers]
+    types = {one.type_name for one in both}
+    if len(types) > 1:
+        yield written("type", partial(_several_types, named, sorted(types)))
+    for type_name in types:
+        if len({one.type_hash for one in both if one.type_name == type_name}) > 1:
+            yield written("hash", partial(_several_forms, named, type_name))
         if why := unknown(type_name):
-            yield Finding(
-                code="unknown-type",
-                level="warn",
-                subject=SUBJECT,
-                sentence=f"{short(name)}: {short(why, 400)}",
-                about=about,
-            )
+            yield written("unknown-type", partial(_not_known, named, why))
 
 
-def _of_hashes(
-    name: str,
-    type_name: str,
-    same: list[GraphEndpoint],
-    ends: Ends,
-    about: tuple[Concern, ...],
-) -> Iterator[Finding]:
-    if len({one.type_hash for one in same}) < 2:
-        return
+def _several_types(named: _Named, types: list[str]) -> Finding:
+    name = short(named.name)
+    shown = ", ".join(map(short, types[:NAMED_MAX]))
+    return Finding(
+        code="type",
+        level="error",
+        subject=SUBJECT,
+        sentence=f"{name} has {len(types)} types, {shown}: they never meet.",
+        evidence=_evidence((*named.ends.senders, *named.ends.receivers)),
+        about=(Concern(kind=named.kind, name=named.name),),
+        talk=_talk(named),
+        line=f"ros2 topic info -v {name}" if named.kind == "topic" else "",
+    )
+
+
+def _several_forms(named: _Named, type_name: str) -> Finding:
+    both = (*named.ends.senders, *named.ends.receivers)
+    same = [one for one in both if one.type_name == type_name]
     who = ", ".join(f"{short(one.node.path)} {one.type_hash[:15]}" for one in same[:NAMED_MAX])
-    yield Finding(
+    return Finding(
         code="hash",
         level="error",
         subject=SUBJECT,
-        sentence=f"{short(name)}: {short(type_name)} has several forms, which never meet ({who}).",
+        sentence=(
+            f"{short(named.name)}: {short(type_name)} has several forms, which never meet ({who})."
+        ),
         evidence=_evidence(same),
-        about=about,
-        talk=_talk(name, ends),
+        about=(Concern(kind=named.kind, name=named.name),),
+        talk=_talk(named),
+    )
+
+
+def _not_known(named: _Named, why: str) -> Finding:
+    return Finding(
+        code="unknown-type",
+        level="warn",
+        subject=SUBJECT,
+        sentence=f"{short(named.name)}: {short(why, 400)}",
+        about=(Concern(kind=named.kind, name=named.name),),
     )
 
 
@@ -116,10 +126,9 @@ def _evidence(ends: Iterable[GraphEndpoint]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(lines))[:8]
 
 
-def _talk(name: str, ends: Ends) -> Talk:
+def _talk(named: _Named) -> Talk:
     def paths(some: tuple[GraphEndpoint, ...]) -> tuple[str, ...]:
         return tuple(dict.fromkeys(short(one.node.path) for one in some))[:NAMED_MAX]
 
-    return Talk(
-        sources=paths(ends.senders), name=short(name), targets=paths(ends.receivers), meets=False
-    )
+    sources, targets = paths(named.ends.senders), paths(named.ends.receivers)
+    return Talk(sources=sources, name=short(named.name), targets=targets, meets=False)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.live.doctor import asking
 from studio.live.doctor.examination import examine
 from studio.ros.client import Context, Node
 from studio.ros.graph.diagnosis import UnseenNodes
@@ -28,7 +29,10 @@ def test_two_nodes_of_one_name_are_one_finding(patient: Patient):
     assert "two-servers" not in patient.codes("/twin")
 
 
-def test_a_node_that_nobody_spins_does_not_answer(patient: Patient):
+def test_a_node_that_nobody_spins_does_not_answer(
+    patient: Patient, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(asking, "ANSWER_S", 0.4)
     with open_test_session(patient.endpoint) as wire:
         context = Context.over(wire)
         Node("asleep", context=context)

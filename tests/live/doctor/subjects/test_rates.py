@@ -12,6 +12,7 @@ from tests.support.patient import SCAN, STRING, Patient, stamped
 from tests.support.wire import wait_until
 
 pytestmark = pytest.mark.network
+SCANNED = stamped(SCAN, "base", 1)
 
 
 def heard(patient: Patient, topic: str) -> int:
@@ -37,11 +38,12 @@ def test_a_sensor_that_never_speaks_is_silent(patient: Patient):
 def test_a_topic_that_stops_is_silent_after_some_of_its_periods(patient: Patient):
     out = patient.publisher(SCAN, "/stopped_scan")
 
-    def came() -> bool:
-        out.publish(stamped(SCAN, "base", 1))
-        return heard(patient, "/stopped_scan") >= 12
-
-    wait_until("it has a pace", came)
+    assert heard(patient, "/stopped_scan") == 0  # it is listened to from now on
+    wait_until("its way is there", lambda: out.publish(SCANNED) or heard(patient, "/stopped_scan"))
+    before = heard(patient, "/stopped_scan")
+    for at in range(1, 13):
+        out.publish(SCANNED)
+        wait_until("each comes", lambda: heard(patient, "/stopped_scan") >= before + at)  # noqa: B023 - done within
     assert "silent-topic" not in patient.codes("/stopped_scan")
     patient.later_s = 4.0
     found = patient.until("silent-topic", "/stopped_scan")
