@@ -270,9 +270,8 @@ def _write_html(file: Path, seen: Seen, found: Examination) -> None:
     from studio.settings import repository_or_wheel
 
     words = words_of(repository_or_wheel("frontend_assets"), "en")
-    facts = tuple((words[f"doctor.fact.{name}"], value) for name, value in facts_of(seen))
     made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    html = report_html(found, About("en", facts, made), words)
+    html = report_html(found, About("en", facts_of(seen), made), words)
     try:
         write_whole(file, html.encode())
     except OSError as error:

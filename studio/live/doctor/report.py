@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal, cast, get_args
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast, get_args
 
 from studio.protocol.doctor import Level
 
@@ -22,6 +22,31 @@ if TYPE_CHECKING:
     from studio.protocol.doctor import Finding, SubjectView, Talk
 
 _HOMES: Final = re.compile(r"(?:/home|/Users|[A-Za-z]:\\Users)[/\\][^/\\\s\"'<>:]+")
+_Language: TypeAlias = Literal["en", "de"]
+_FACTS: Final[dict[_Language, dict[str, str]]] = {
+    "en": {
+        "router": "Router",
+        "domain": "Domain",
+        "distribution": "Distribution",
+        "nodes": "Nodes",
+    },
+    "de": {
+        "router": "Router",
+        "domain": "Domain",
+        "distribution": "Distribution",
+        "nodes": "Knoten",
+    },
+}
+_TITLE: Final[dict[_Language, str]] = {
+    "en": "Report of the Doctor",
+    "de": "Bericht des Doktors",
+}
+_PRIVATE: Final[dict[_Language, str]] = {
+    "en": "This report holds names of nodes, topics and files of the robot, and no names or "
+    "addresses of persons.",
+    "de": "Dieser Bericht enthält Namen von Knoten, Topics und Dateien des Roboters, aber keine "
+    "Namen oder Adressen von Personen.",
+}
 _LEVELS: Final[tuple[Level, ...]] = get_args(Level)
 _SIGNS: Final[dict[Level, str]] = {"error": "✖", "warn": "▲", "note": "●"}
 _POLICY: Final = "default-src 'none'; style-src 'unsafe-inline'"
@@ -57,16 +82,16 @@ class About:
 
     Attributes:
         language: Of its words.
-        facts: What was examined, by what it is: router, domain and so on.
+        facts: What was examined, by the name of the fact: `router`, `domain` and so on.
         made: When, as it is shown.
     """
 
-    language: Literal["en", "de"]
+    language: _Language
     facts: tuple[tuple[str, str], ...]
     made: str
 
 
-def words_of(assets: Path, language: Literal["en", "de"]) -> dict[str, str]:
+def words_of(assets: Path, language: _Language) -> dict[str, str]:
     """Return the words of the Doctor's panel, which the report shares.
 
     Args:
@@ -86,14 +111,14 @@ def report_html(examination: Examination, about: About, words: Mapping[str, str]
         f'<html lang="{about.language}"><head><meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
         '<meta name="viewport" content="width=device-width">',
-        f"<title>{_text(words['doctor.report'])}</title><style>{_STYLE}</style></head><body>",
-        f"<h1>{_text(words['doctor.report'])}</h1>",
+        f"<title>{_TITLE[about.language]}</title><style>{_STYLE}</style></head><body>",
+        f"<h1>{_TITLE[about.language]}</h1>",
         f'<p class="quiet">{_text(about.made)}</p>',
-        _table(about.facts),
+        _table(tuple((_FACTS[about.language][name], value) for name, value in about.facts)),
         *_findings(examination, words),
         f"<h2>{_text(words['doctor.looked'])}</h2>",
         _subjects(examination.subjects, words),
-        f'<p class="quiet">{_text(words["doctor.report.private"])}</p></body></html>',
+        f'<p class="quiet">{_text(_PRIVATE[about.language])}</p></body></html>',
     ]
     return "\n".join(parts) + "\n"
 

@@ -206,8 +206,7 @@ def _reported(seen: Seen, command: GetDoctorReport) -> str:
 
     words = words_of(repository_or_wheel("frontend_assets"), command.language)
     made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    facts = tuple((words[f"doctor.fact.{name}"], value) for name, value in facts_of(seen))
-    return report_html(_examined(seen), About(command.language, facts, made), words)
+    return report_html(_examined(seen), About(command.language, facts_of(seen), made), words)
 
 
 def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:
