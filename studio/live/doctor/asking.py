@@ -87,18 +87,27 @@ def _in_order(ends: tuple[GraphEndpoint, ...]) -> tuple[GraphEndpoint, ...]:
     return tuple(sorted(ends, key=lambda end: (end.node.path, end.token)))
 
 
-def ask(wire: WireSession, system: System) -> Answers:
-    """Ask all of it; takes some seconds where somebody does not answer, so call it in a thread."""
+def ask(wire: WireSession, system: System, before: Answers | None = None) -> Answers:
+    """Ask all of it; takes some seconds where somebody does not answer, so call it in a thread.
+
+    Args:
+        wire: The session.
+        system: The graph as it is now.
+        before: The answers of the last time, by which it is known who answers no more.
+    """
     nodes = _nodes_by_domain(wire, system)
     unseen = unseen_nodes(wire)
     asked, silent = _silent_nodes(wire, system)
+    sessions = versions_by_session(wire, "peer")
+    known = frozenset(before.sessions) | before.lost if before else frozenset[str]()
     return Answers(
         nodes_by_domain=nodes,
         unseen=unseen,
         routers=versions_by_session(wire, "router"),
-        sessions=versions_by_session(wire, "peer"),
+        sessions=sessions,
         asked=asked,
         silent=silent,
+        lost=(known - sessions.keys()) & {one.zid for one in system.nodes},
     )
 
 

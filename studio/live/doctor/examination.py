@@ -89,10 +89,12 @@ def _bounded(findings: Iterator[Finding]) -> tuple[list[Finding], int]:
 
 
 def _shortened(finding: Finding) -> Finding:
+    about = [one for one in finding.about if len(one.name) <= _LINE_MAX]
     return finding.model_copy(
         update={
             "sentence": short(finding.sentence, _SENTENCE_MAX),
             "line": short(finding.line, _LINE_MAX),
+            "about": tuple(about[:_LINES_MAX]),
             "evidence": tuple(short(one, _LINE_MAX) for one in finding.evidence[:_LINES_MAX]),
         }
     )

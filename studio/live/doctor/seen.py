@@ -190,6 +190,7 @@ class Answers:
         unseen: Processes whose nodes the router does not show.
         routers: Zenoh's version of each router that can be reached, by its id.
         sessions: Zenoh's version of each process that tells it, by its id.
+        lost: Processes that told it before, and do no more.
         asked: Nodes that were asked whether they answer.
         silent: Those of them that did not.
     """
@@ -200,6 +201,7 @@ class Answers:
     sessions: Mapping[str, str]
     asked: int
     silent: tuple[str, ...]
+    lost: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

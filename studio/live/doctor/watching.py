@@ -49,6 +49,8 @@ _UNPACED: Final = frozenset({_TF_STATIC, _EVENTS, _LOG})
 _HEADER: Final = "std_msgs/msg/Header"
 _EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
 _FRAMES_MAX: Final = 2_000
+_FRAME_LETTERS_MAX: Final = 300
+"""More than TF takes, so that a frame is compared whole."""
 _NOTICES_MAX: Final = 40
 _PARAMETERS_MAX: Final = 200
 _CLOCKS_MAX: Final = 16
@@ -153,7 +155,7 @@ class Watching:
             header=header
             and Header(
                 header.stamp_ns,
-                short(header.frame),
+                short(header.frame, _FRAME_LETTERS_MAX),
                 header.sent_ns,
                 header.received_ns,
                 self._name_of(header.gid),

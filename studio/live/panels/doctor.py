@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import StudioError
+from studio.errors import NotJoinedError, RouterGoneError, StudioError
 from studio.live.doctor.here import look_here
 from studio.live.doctor.seen import Seen, SeenBrowser
 from studio.protocol.commands import Commands, Limits, Scope
@@ -136,7 +136,7 @@ class Doctor:
             visit.asking = asyncio.create_task(self._ask(visit, system))
 
     async def _ask(self, visit: _Visit, system: System) -> None:
-        visit.answers = await asyncio.to_thread(_asked, visit.link, system)
+        visit.answers = await asyncio.to_thread(_asked, visit, system)
         visit.asked_s = time.monotonic()
 
     async def _examined_place(self) -> WireReport | None:
@@ -163,6 +163,18 @@ def _begun(link: WireLink) -> _Visit:
 
 
 def _looked(visit: _Visit) -> tuple[System, Heard]:
+    """Raises: RouterGoneError: The connection ended meanwhile."""
+    from studio.ros.wire.zenoh import ZError  # noqa: PLC0415
+
+    try:
+        system = _looked_at(visit)
+        return system, visit.watching.heard(system)
+    except (NotJoinedError, ZError):
+        raise RouterGoneError(visit.link.endpoint) from None
+
+
+def _looked_at(visit: _Visit) -> System:
+    """Return the graph, which is taken anew only when it changed."""
     from studio.live.doctor.asking import look  # noqa: PLC0415
 
     link, version = visit.link, visit.link.graph.version
@@ -171,13 +183,17 @@ def _looked(visit: _Visit) -> tuple[System, Heard]:
         own = frozenset({link.zid})
         system = look(link.context.wire, link.graph, link.types, visit.hashes, own=own)
         visit.system, visit.version = system, version
-    return system, visit.watching.heard(system)
+    return system
 
 
-def _asked(link: WireLink, system: System) -> Answers:
+def _asked(visit: _Visit, system: System) -> Answers | None:
     from studio.live.doctor.asking import ask  # noqa: PLC0415
+    from studio.ros.wire.zenoh import ZError  # noqa: PLC0415
 
-    return ask(link.context.wire, system)
+    try:
+        return ask(visit.link.context.wire, system, visit.answers)
+    except (StudioError, ZError):  # the connection ended meanwhile
+        return visit.answers
 
 
 def _look_at_place(connection: RosConnection) -> WireReport | None:

@@ -83,22 +83,30 @@ def _unseen(answers: Answers) -> Iterator[Finding]:
 
 def _silent(answers: Answers, system: System) -> Iterator[Finding]:
     there = {one.path: one for one in system.nodes}
-    for path in answers.silent:
-        node = there.get(path)
-        if node is None:  # it ended meanwhile
-            continue
-        has_process = node.zid in answers.sessions or not answers.sessions
-        why = (
-            "it is busy in a callback, was stopped, or is not spun"
-            if has_process
-            else "its process does not answer either, so it is dead or cut off, and the router "
-            "keeps its token for a minute"
+    dead = {one.path for one in system.nodes if one.zid in answers.lost}
+    for path in sorted(dead):
+        yield Finding(
+            code="dead-node",
+            level="error",
+            subject=SUBJECT,
+            sentence=(
+                f"{short(path)} is listed, and its process answers nobody any more: it was killed "
+                "or cut off, and the router keeps its token for a minute."
+            ),
+            evidence=(f"process {there[path].zid[:8]} told its version before, and does no more",),
+            about=(Concern(kind="node", name=path),),
         )
+    for path in answers.silent:
+        if path not in there or path in dead:  # it ended meanwhile, or is said above
+            continue
         yield Finding(
             code="silent-node",
             level="warn",
             subject=SUBJECT,
-            sentence=f"{short(path)} is listed and does not answer: {why}.",
+            sentence=(
+                f"{short(path)} is listed and does not answer: it is busy in a callback, is not "
+                "spun, was stopped, or is dead and its token not yet gone."
+            ),
             evidence=(f"{short(path)}/get_parameters gave no answer in 2 s",),
             line=f"ros2 param list {short(path)}",
             about=(Concern(kind="node", name=path),),

@@ -120,3 +120,14 @@ def test_a_transform_that_cannot_be_used_is_a_warning(patient: Patient):
         out.publish(bad)
 
     assert "quaternion is zero" in patient.until("bad-transform", "b_bad", do=send).sentence
+
+
+def test_names_without_end_are_bounded(patient: Patient):
+    out, endless = patient.publisher(TF, "/tf"), "x" * 100_000
+    patient.until(
+        "bad-transform",
+        "has more than",
+        do=lambda: out.publish(transform("world", endless, time.time_ns())),
+    )
+    found = patient.examined()
+    assert max(len(one.model_dump_json()) for one in found.findings) < 10_000

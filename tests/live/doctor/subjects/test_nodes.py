@@ -60,3 +60,24 @@ def test_processes_that_the_router_does_not_show_are_an_error(patient: Patient):
     unseen = replace(seen.answers, unseen=UnseenNodes(2, ("1.8.0",), ("1.10.2",)))
     found = {one.code: one for one in examine(replace(seen, answers=unseen)).findings}
     assert "2 processes publish (Zenoh 1.8.0)" in found["unseen-nodes"].sentence
+
+
+def test_a_process_that_answered_before_and_does_no_more_is_dead(patient: Patient):
+    seen = patient.seen(asks=True)
+    assert seen.answers is not None
+    zid = patient.robot.wire.zid
+    lost = replace(seen.answers, lost=frozenset({zid}), silent=("/robot",))
+    found = {one.code: one for one in examine(replace(seen, answers=lost)).findings}
+    assert found["dead-node"].level == "error"
+    assert "silent-node" not in found
+
+
+def test_who_answers_no_more_is_known_by_the_answers_before(patient: Patient):
+    seen = patient.seen(asks=True)
+    assert seen.system is not None
+    assert seen.answers is not None
+    before = replace(seen.answers, sessions={patient.robot.wire.zid: "1.8.0", "gone": "1.8.0"})
+    wire = patient.context.wire
+    again = asking.ask(wire, seen.system, before)
+    assert again.lost == {patient.robot.wire.zid}  # the other has no node any more
+    assert asking.ask(wire, seen.system, again).lost == again.lost
