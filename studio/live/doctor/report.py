@@ -34,7 +34,7 @@ _FACTS: Final[dict[_Language, dict[str, str]]] = {
         "router": "Router",
         "domain": "Domain",
         "distribution": "Distribution",
-        "nodes": "Knoten",
+        "nodes": "Nodes",
     },
 }
 _TITLE: Final[dict[_Language, str]] = {
@@ -44,7 +44,7 @@ _TITLE: Final[dict[_Language, str]] = {
 _PRIVATE: Final[dict[_Language, str]] = {
     "en": "This report holds names of nodes, topics and files of the robot, and no names or "
     "addresses of persons.",
-    "de": "Dieser Bericht enthält Namen von Knoten, Topics und Dateien des Roboters, aber keine "
+    "de": "Dieser Bericht enthält Namen von Nodes, Topics und Dateien des Roboters, aber keine "
     "Namen oder Adressen von Personen.",
 }
 _LEVELS: Final[tuple[Level, ...]] = get_args(Level)
