@@ -11,7 +11,7 @@ import { Dialog, SearchBox } from "../lib/ui.js";
 /** Commands that have to do with where panels stand. */
 const OF_PANELS = /^(next_panel|previous_panel|maximize|move_panel|layout\.\d+)$/;
 /** Commands of the 3D view. */
-const OF_SCENE = /^(fit|measure.*|end_measuring|deselect)$/;
+const OF_SCENE = /^(look_at|fit|zero_view|orthographic|measure.*|end_measuring|deselect)$/;
 
 /** @type {readonly Row[]} */
 const AT_TABS = [

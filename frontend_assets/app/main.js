@@ -24,7 +24,7 @@ import {
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
 import { activePanel, dialog, isFree, languageChoice, theme } from "../model/view.js";
-import { viewport } from "../model/viewport.js";
+import { addViewCommands } from "../model/views.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
 import { followGraphics } from "./graphics.js";
@@ -101,13 +101,6 @@ function addPageCommands() {
       run: () => void redo(),
     },
     {
-      id: "fit",
-      icon: "fit",
-      keys: ["F"],
-      enabled: () => viewport.value !== null && isFree(),
-      run: () => viewport.value?.fit(),
-    },
-    {
       id: "zero_joints",
       icon: "zero",
       enabled: () => EDITING.enabled() && mayMove.value && movable.value.length > 0,
@@ -178,6 +171,7 @@ effect(() => {
 });
 addMeasuring();
 addPageCommands();
+addViewCommands();
 followState();
 listenToKeys();
 const root = document.getElementById("app");

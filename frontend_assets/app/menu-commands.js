@@ -7,6 +7,7 @@ import { commandById } from "../lib/commands.js";
 import { LANGUAGES, language, t } from "../lib/i18n.js";
 import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { unsaved } from "../model/document.js";
+import { paused, pauseScene, resetScene } from "../model/live-displays.js";
 import { closeDocument, goTo, reload } from "../model/requests.js";
 import { canCompare, compareSides } from "../model/variants.js";
 import { dialog, isFree, languageChoice, notify, themeChoice } from "../model/view.js";
@@ -26,6 +27,7 @@ export function menuCommands() {
     ...exportCommands(),
     ...themeCommands(),
     ...graphicsCommands(),
+    ...sceneCommands(),
     { id: "ros", icon: "link", enabled: isFree, run: showRos },
     { id: "log_out", icon: "lock", enabled: () => mayManage.value && isFree(), run: askToLogOut },
     ...languageCommands(),
@@ -78,6 +80,20 @@ function openingCommands() {
         dialog.value = { kind: "save_as" };
       },
     },
+  ];
+}
+
+/** @returns {Command[]} what RViz's Time panel does, for all who look at the document */
+function sceneCommands() {
+  return [
+    {
+      id: "pause_scene",
+      icon: "pause",
+      label: () => t(paused.value ? "command.continue_scene" : "command.pause_scene"),
+      enabled: onDocument,
+      run: () => void pauseScene(!paused.value),
+    },
+    { id: "reset_scene", icon: "reset", enabled: onDocument, run: () => void resetScene() },
   ];
 }
 

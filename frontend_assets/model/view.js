@@ -54,20 +54,21 @@ export const dialog = signal(null);
 /** No window waits for an answer; the palette is gone before what it found begins. */
 export const isFree = () => dialog.value === null || dialog.value.kind === "palette";
 
-/** @typedef {{id: number, text: string, bad: boolean}} Notice */
+/** @typedef {{label: string, run: () => void}} NoticeAction what a click on it does, as to take back what was done */
+/** @typedef {{id: number, text: string, bad: boolean, action: NoticeAction | null}} Notice */
 /** @type {Signal<readonly Notice[]>} */
 export const notices = signal([]);
 let noticeCount = 0;
 
-/** @param {string} text @param {{bad?: boolean}} [options] shown for some seconds; a bad one longer */
-export function notify(text, { bad = false } = {}) {
+/** @param {string} text @param {{bad?: boolean, action?: NoticeAction}} [options] shown for some seconds; what wants a decision longer */
+export function notify(text, { bad = false, action } = {}) {
   noticeCount += 1;
   const id = noticeCount;
   notices.value = [
     ...notices.value.filter((one) => one.text !== text).slice(-2),
-    { id, text, bad },
+    { id, text, bad, action: action ?? null },
   ];
-  setTimeout(() => dismiss(id), bad ? 9000 : 3500);
+  setTimeout(() => dismiss(id), bad || action ? 9000 : 3500);
 }
 
 /** @param {number} id of a notice */

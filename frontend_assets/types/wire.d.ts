@@ -114,6 +114,17 @@ export interface ArrangeDisplay {
   before?: string | null;
 }
 
+/** Give a group, with all that is in it, another path or place; what is None stays. */
+export interface ArrangeGroup {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "arrange_group";
+  group: string;
+  to?: string | null;
+  before?: string | null;
+}
+
 /** Ask for control, or no longer. */
 export interface AskControl {
   request?: number;
@@ -267,6 +278,14 @@ export interface CloseLesson {
   document?: string;
   id?: string;
   type: "close_lesson";
+}
+
+/** Forget which file was opened; what is shown stays. */
+export interface CloseRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "close_rviz_config";
 }
 
 /** One Python file of a demo. */
@@ -435,6 +454,15 @@ export interface DeleteVariant {
   name: string;
 }
 
+/** Delete a saved view. */
+export interface DeleteView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "delete_view";
+  view: string;
+}
+
 /** Answer to `get_demo_code`: the file that is run first, then those of its own package. */
 export interface DemoCode {
   type: "demo_code";
@@ -565,6 +593,7 @@ export interface DisplayState {
   id: string;
   rate_hz: number;
   age_s: number | null;
+  received: number;
   lost: number;
   remarks: Remark[];
 }
@@ -573,6 +602,7 @@ export interface DisplayState {
 export interface DisplayStates {
   type: "display_states";
   states: DisplayState[];
+  fixed_frame: FixedFrameState;
   fixed_frame_trouble: string;
 }
 
@@ -852,6 +882,13 @@ export interface Fix {
   edits: Replacement[];
 }
 
+/** Whether there is such a frame, as RViz's global status has it. */
+export interface FixedFrameState {
+  frame: string;
+  level: "ok" | "warn" | "error";
+  sentence: string;
+}
+
 /** What the presenter has selected, points at and has open; see `show_focus`. */
 export interface Focus {
   type: "focus";
@@ -932,6 +969,15 @@ export interface ForgetRecent {
   document?: string;
   id?: string;
   type: "forget_recent";
+  path: string;
+}
+
+/** Take a file out of those opened lately; answered with the list. */
+export interface ForgetRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "forget_rviz_file";
   path: string;
 }
 
@@ -1270,6 +1316,24 @@ export interface GetRenaming {
   name: string;
 }
 
+/** Ask for the text of an `.rviz` file with all that is shown. */
+export interface GetRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_rviz_text";
+  view?: ViewValues | null;
+  page?: string;
+}
+
+/** Ask for the time now; /clock is subscribed for some seconds after. */
+export interface GetSceneTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_scene_time";
+}
+
 /** Ask for the services that have a server. */
 export interface GetServices {
   request?: number;
@@ -1338,6 +1402,14 @@ export interface GetUrdfChanges {
   document?: string;
   id?: string;
   type: "get_urdf_changes";
+}
+
+/** Ask for the kinds of views. */
+export interface GetViewKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_view_kinds";
 }
 
 /** Give control to a person who is there. */
@@ -1697,6 +1769,14 @@ export interface ListRecent {
   type: "list_recent";
 }
 
+/** Ask for the `.rviz` files of the robot's packages, and those opened lately. */
+export interface ListRvizFiles {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "list_rviz_files";
+}
+
 /** Ask for the topics that have a publisher or a subscription. */
 export interface ListTopics {
   request?: number;
@@ -1718,6 +1798,9 @@ export interface LiveDisplays {
   displays: DisplayView[];
   groups_off: string[];
   fixed_frame: string;
+  paused: boolean;
+  background: string;
+  frame_rate: number;
 }
 
 /** Set what a parameter file has for a node, one parameter after another. */
@@ -1760,6 +1843,13 @@ export interface LookUp {
   file: string;
   offset: number;
   type: "look_up";
+}
+
+/** Something of a file that is only kept, and written back as it is. */
+export interface LossView {
+  reason: "no_display" | "no_property" | "no_value" | "no_tool" | "no_view" | "no_panel" | "no_option" | "window";
+  what: string;
+  names: string[];
 }
 
 /** Take down the hand of a person; of everybody, if none is named. */
@@ -1870,6 +1960,16 @@ export interface Misfit {
   subscriber: string;
   reasons: string[];
   heard: boolean;
+}
+
+/** Put a saved view before another; empty: at the end. */
+export interface MoveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "move_view";
+  view: string;
+  before?: string;
 }
 
 /** Your own copies, to all pages of a person. */
@@ -2003,6 +2103,25 @@ export interface OpenRecent {
   id?: string;
   type: "open_recent";
   path: string;
+}
+
+/** Show what an `.rviz` file says instead of the displays that there are. */
+export interface OpenRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_file";
+  path: string;
+}
+
+/** The same with the text of a file that this browser has. */
+export interface OpenRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_text";
+  name: string;
+  text: string;
 }
 
 /** Answer to `open_path`: go to `/d/<document>`. */
@@ -2202,6 +2321,15 @@ export interface PauseClass {
   document?: string;
   id?: string;
   type: "pause_class";
+}
+
+/** Pause drawing, or go on; messages are received meanwhile, and drawn when it goes on. */
+export interface PauseScene {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "pause_scene";
+  paused: boolean;
 }
 
 /** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
@@ -2473,13 +2601,14 @@ export interface Remark {
   mend: Mend | null;
 }
 
-/** Remove a display. */
+/** Remove a display, or a group with all that is in it; `restore_displays` takes it back. */
 export interface RemoveDisplay {
   request?: number;
   document?: string;
   id?: string;
   type: "remove_display";
-  display: string;
+  display?: string;
+  group?: string;
 }
 
 /** Send a person out; their browser cannot join again until it is let in. */
@@ -2526,6 +2655,16 @@ export interface RenameVariant {
   name: string;
   new_name: string;
   note?: string;
+}
+
+/** Give a saved view another name. */
+export interface RenameView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_view";
+  view: string;
+  name: string;
 }
 
 /** Answer to `get_renaming`: the first of `count` places, in `files` files. */
@@ -2579,6 +2718,18 @@ export interface Replacement {
   text: string;
 }
 
+/**
+ * Forget all messages and transforms received, and begin to count the time anew.
+ *
+ * All is subscribed again, so that latched messages come once more.
+ */
+export interface ResetScene {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "reset_scene";
+}
+
 /** Put a site back to its text on disk. */
 export interface ResetSite {
   request?: number;
@@ -2604,6 +2755,15 @@ export interface ResolveCollisions {
   state?: string;
 }
 
+/** Put displays back that were removed, where they stood and as they were set. */
+export interface RestoreDisplays {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "restore_displays";
+  displays: string[];
+}
+
 /** Edits of an earlier run were restored; `at` empty: nothing to report any more. */
 export interface Restored {
   type: "restored";
@@ -2627,6 +2787,60 @@ export interface RobotState {
   root: string;
   links: LinkView[];
   joints: JointView[];
+}
+
+/** Answer: the file is shown. */
+export interface RvizConfigOpened {
+  type: "rviz_config_opened";
+  request: number;
+  name: string;
+  displays: number;
+  tools: number;
+  views: number;
+  losses: LossView[];
+  view: ViewValues | null;
+  page: string;
+}
+
+/** The `.rviz` file of a document. */
+export interface RvizConfigState {
+  type: "rviz_config_state";
+  name: string;
+  path: string;
+  changed: boolean;
+  undo: boolean;
+}
+
+/** An `.rviz` file. */
+export interface RvizFileEntry {
+  path: string;
+  name: string;
+  time_s: number | null;
+  is_there: boolean;
+}
+
+/** Answer: where it was written; or that there is a file already, which is as it was. */
+export interface RvizFileSaved {
+  type: "rviz_file_saved";
+  request: number;
+  path: string;
+  is_there: boolean;
+}
+
+/** Answer: those opened lately, the newest first, then those of the packages. */
+export interface RvizFiles {
+  type: "rviz_files";
+  request: number;
+  files: RvizFileEntry[];
+  folder: string;
+}
+
+/** Answer: the text. */
+export interface RvizText {
+  type: "rviz_text";
+  request: number;
+  name: string;
+  text: string;
 }
 
 /** Write the edited bytes of these changed files of the document, or of all. */
@@ -2680,6 +2894,18 @@ export interface SavePose {
   replace?: boolean;
 }
 
+/** Write an `.rviz` file; without a path the one that was opened. */
+export interface SaveRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_rviz_file";
+  path?: string;
+  replace?: boolean;
+  view?: ViewValues | null;
+  page?: string;
+}
+
 /** Keep the present arguments and values as a new variant. */
 export interface SaveVariant {
   request?: number;
@@ -2690,10 +2916,36 @@ export interface SaveVariant {
   note?: string;
 }
 
+/** Save a view with the document, for all who look at it. */
+export interface SaveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_view";
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+  before?: string;
+}
+
 /** These files were written. */
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** A view that is saved with the document. */
+export interface SavedView {
+  id: string;
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All views that are saved with a document, in order. */
+export interface SavedViews {
+  type: "saved_views";
+  views: SavedView[];
 }
 
 /** A panel was opened in the page, which checks of the page ask about. */
@@ -2703,6 +2955,18 @@ export interface SawPanel {
   id?: string;
   type: "saw_panel";
   panel: string;
+}
+
+/** Answer to `get_scene_time`; all in seconds, with hundredths that mean something. */
+export interface SceneTime {
+  type: "scene_time";
+  request: number;
+  ros_s: number;
+  ros_elapsed_s: number;
+  wall_s: number;
+  wall_elapsed_s: number;
+  from_clock: boolean;
+  paused: boolean;
 }
 
 /** Send a copy back to its owner with a remark. */
@@ -2856,6 +3120,16 @@ export interface SetParameter {
   value_type?: string;
 }
 
+/** Change what all views of the document have in common; what is None stays. */
+export interface SetViewOptions {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_view_options";
+  background?: string | null;
+  frame_rate?: number | null;
+}
+
 /**
  * How serious a Problem is.
  *
@@ -2887,8 +3161,9 @@ export interface ShowFocus {
 /**
  * Where the presenter's camera and pointer are; they go to who follows as a binary frame.
  *
- * The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the camera's
- * eye, what it looks at, and the pointer, which is NaN where there is none.
+ * The frame is the byte 2, a byte that is 1 without perspective, six bytes of nothing, and
+ * thirteen little-endian float32: the camera's eye, what it looks at, the pointer, which is NaN
+ * where there is none, where the top of the picture points, and the angle that it sees.
  */
 export interface ShowView {
   request?: number;
@@ -2898,6 +3173,9 @@ export interface ShowView {
   eye: [number, number, number];
   target: [number, number, number];
   pointer?: [number, number, number] | null;
+  up?: [number, number, number];
+  flat?: boolean;
+  field?: number;
 }
 
 /** A state to compare: the present robot, the one on disk, or a variant. */
@@ -3034,7 +3312,7 @@ export interface SubjectView {
   detail: string;
 }
 
-/** Show or hide displays: one, or all of a group. */
+/** Show or hide displays: one, a group as a whole, or each one of them. */
 export interface SwitchDisplays {
   request?: number;
   document?: string;
@@ -3204,6 +3482,7 @@ export interface TopicView {
   types: string[];
   publishers: number;
   kind: string;
+  kinds: string[];
 }
 
 /** Answer to `get_topics`. */
@@ -3226,6 +3505,14 @@ export interface Undo {
   document?: string;
   id?: string;
   type: "undo";
+}
+
+/** Show what was shown before an `.rviz` file was opened; until something else is changed. */
+export interface UndoRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "undo_rviz_config";
 }
 
 /** Undo, or redo, until this many steps are done; refused when the list is no longer `of`. */
@@ -3310,6 +3597,27 @@ export interface Variants {
   path: string;
   only_here: string;
   trouble: string;
+}
+
+/** A kind of view. */
+export interface ViewKindView {
+  kind: string;
+  doc: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_view_kinds`, in RViz's order. */
+export interface ViewKinds {
+  type: "view_kinds";
+  request: number;
+  kinds: ViewKindView[];
+}
+
+/** A view of the 3D view, by RViz's names. */
+export interface ViewValues {
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
 }
 
 /** Volume of all visuals or all collisions of a link, m3; an upper bound. */
@@ -3421,6 +3729,7 @@ export type Command =
   | ApplyPose
   | ApplyVariant
   | ArrangeDisplay
+  | ArrangeGroup
   | AskControl
   | CallService
   | CancelCall
@@ -3429,12 +3738,14 @@ export type Command =
   | ChoosePackage
   | CloseDocument
   | CloseLesson
+  | CloseRvizConfig
   | CompareVariants
   | Complete
   | ConnectWire
   | DeleteLesson
   | DeletePose
   | DeleteVariant
+  | DeleteView
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3454,6 +3765,7 @@ export type Command =
   | FollowOperations
   | FollowParameters
   | ForgetRecent
+  | ForgetRvizFile
   | ForgetWork
   | GatherAll
   | GetActions
@@ -3487,6 +3799,8 @@ export type Command =
   | GetParameters
   | GetReferences
   | GetRenaming
+  | GetRvizText
+  | GetSceneTime
   | GetServices
   | GetText
   | GetTf
@@ -3495,6 +3809,7 @@ export type Command =
   | GetTopics
   | GetUrdf
   | GetUrdfChanges
+  | GetViewKinds
   | GiveControl
   | HandIn
   | Lead
@@ -3503,11 +3818,13 @@ export type Command =
   | ListInterfaces
   | ListPlaces
   | ListRecent
+  | ListRvizFiles
   | ListTopics
   | LoadParameters
   | LookUp
   | LowerHand
   | MendAll
+  | MoveView
   | NewRobot
   | NewUntitled
   | OpenCopy
@@ -3517,7 +3834,10 @@ export type Command =
   | OpenLink
   | OpenPath
   | OpenRecent
+  | OpenRvizFile
+  | OpenRvizText
   | PauseClass
+  | PauseScene
   | PressKey
   | Publish
   | PublishJoints
@@ -3534,17 +3854,22 @@ export type Command =
   | Rename
   | RenamePose
   | RenameVariant
+  | RenameView
   | RenewCode
   | ReplaceTexts
+  | ResetScene
   | ResetSite
   | ResolveCollisions
+  | RestoreDisplays
   | ReturnControl
   | Save
   | SaveAs
   | SaveCopy
   | SaveLesson
   | SavePose
+  | SaveRvizFile
   | SaveVariant
+  | SaveView
   | SawPanel
   | SendBack
   | SendGoal
@@ -3560,6 +3885,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetViewOptions
   | ShowCopy
   | ShowFocus
   | ShowView
@@ -3573,6 +3899,7 @@ export type Command =
   | SwitchDisplays
   | TakeControl
   | Undo
+  | UndoRvizConfig
   | UndoTo
   | UpdateVariant
   | Watch
@@ -3658,7 +3985,14 @@ export type Event =
   | RenamingAnswer
   | Restored
   | RobotState
+  | RvizConfigOpened
+  | RvizConfigState
+  | RvizFileSaved
+  | RvizFiles
+  | RvizText
   | Saved
+  | SavedViews
+  | SceneTime
   | Services
   | Sites
   | Stopped
@@ -3678,6 +4012,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Variants
+  | ViewKinds
   | WireFeed
   | WireReport
   | WireRobots

@@ -1,6 +1,8 @@
 /** @import { Door } from "./door.js" */
 /** @import { Vector3 } from "./viser.d.ts" */
 
+import { depthOf } from "./orthographic.js";
+
 /** @typedef {[number, number]} Place px from the upper left corner of the picture */
 
 /** Where a point of the scene is seen; null: behind the eye, or there is no picture.
@@ -8,9 +10,7 @@
 export function placeOf(door, point) {
   const { canvas, camera } = door.mutable ?? {};
   if (!canvas || !camera) return null;
-  const eye = point.clone().setFromMatrixPosition(camera.matrixWorld);
-  const back = point.clone().setFromMatrixColumn(camera.matrixWorld, 2);
-  if (point.clone().sub(eye).dot(back) > -camera.near) return null;
+  if (depthOf(camera, point) < camera.near) return null;
   const seen = point.clone().project(camera);
   const frame = canvas.getBoundingClientRect();
   return [

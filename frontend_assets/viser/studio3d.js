@@ -1,15 +1,17 @@
+/** @import { Value, Values } from "../lib/view-poses.js" */
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
 
 import { Aim, Measuring } from "./measuring.js";
-import { CameraView, Follow } from "./camera.js";
+import { CameraView } from "./camera.js";
 import { ChainLine, Guide, Marks } from "./marks.js";
 import { CloudDetail } from "./cloud-detail.js";
 import { Door, Removed } from "./door.js";
+import { Hands } from "./hands.js";
 import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
 import { Live } from "./live.js";
 import { Looks } from "./link-appearance.js";
-import { pick } from "./picking.js";
+import { pick, pickAnything } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
@@ -19,7 +21,8 @@ import { RobotView } from "./robot.js";
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `touch {}` (a hand is on the camera), `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * `touch {}` (a hand is on the camera), `view {kind, values}` (it is another, or has other values),
+ * `turned {turn}` (of the camera), `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
  * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
  */
 class Studio3d {
@@ -27,8 +30,9 @@ class Studio3d {
   #door = new Door();
   #robot = new RobotView(this.#door);
   #quality = new Quality(this.#door, (hz) => this.#tell("slow", { hz }));
-  #camera = new CameraView(this.#door, this.#robot, new LiveExtent(this.#door));
-  #follow = new Follow(this.#door, this.#robot, this.#camera);
+  #camera = new CameraView(this.#door, this.#robot, new LiveExtent(this.#door), (type, detail) =>
+    this.#tell(type, detail),
+  );
   #light = new Light(this.#door);
   #still = new Still(this.#door);
   #picture = new Picture(this.#door);
@@ -50,6 +54,9 @@ class Studio3d {
     this.#measuring,
     (type, detail) => this.#tell(type, detail),
   );
+
+  /** After the pointer, which may take a press for itself. */
+  #hands = new Hands(this.#door, this.#camera);
 
   constructor() {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
@@ -92,9 +99,66 @@ class Studio3d {
     this.#camera.focus(link);
   }
 
-  /** Let the camera go with a frame. @param {string} frame empty: with none */
-  setTarget(frame) {
-    this.#follow.set(frame);
+  /** Let the camera go with a frame, with it in the middle. @param {string} frame empty: with none */
+  follow(frame) {
+    this.#camera.follow(frame);
+  }
+
+  /** The view as it is now, by RViz's names. @returns {{kind: string, values: Values}} */
+  getView() {
+    const { kind, values } = this.#camera.current;
+    return { kind, values };
+  }
+
+  /** @param {{kind: string, values: Values}} view @param {boolean} [animate] */
+  useView(view, animate) {
+    this.#camera.use(view, animate);
+  }
+
+  /** Another kind of view, which shows the same. @param {string} kind */
+  setViewKind(kind) {
+    this.#camera.setKind(kind);
+  }
+
+  /** @param {string} name @param {Value} value */
+  setViewValue(name, value) {
+    this.#camera.setValue(name, value);
+  }
+
+  /** RViz's Zero of the view. */
+  zero() {
+    this.#camera.zero();
+  }
+
+  /** Show the same point from another side. @param {readonly [number, number, number]} direction */
+  seeFrom(direction) {
+    this.#camera.seeFrom(direction);
+  }
+
+  /** Turn the view as a drag of the mouse does. @param {number} dx px @param {number} dy px */
+  turnBy(dx, dy) {
+    this.#camera.drag("turn", dx, dy);
+  }
+
+  /** How the camera is turned. @returns {readonly [number, number, number, number]} x, y, z, w */
+  getTurn() {
+    return this.#camera.turn;
+  }
+
+  /** Whether something is under the mouse. */
+  isPointing() {
+    return this.#pointedAnything() !== null;
+  }
+
+  /** Turn to what is under the mouse. */
+  lookAtPointed() {
+    const point = this.#pointedAnything();
+    if (point) this.#camera.lookAt(point);
+  }
+
+  #pointedAnything() {
+    const over = this.#hands.over;
+    return over && pickAnything(this.#door, this.#robot, over.x, over.y);
   }
 
   /** Whether this browser draws lightly, by software, and with what. */
@@ -144,7 +208,7 @@ class Studio3d {
 
   /** @param {"rviz" | "trackpad"} mode */
   setMouse(mode) {
-    this.#camera.setMouse(mode);
+    this.#hands.mouse = mode;
   }
 
   /** Whether links may be dragged here. @param {boolean} can */

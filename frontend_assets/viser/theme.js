@@ -102,6 +102,9 @@ export class Theme {
 const FIRST_ORDER = 10_000;
 const VISER_PLATE = "vec4(1.0, 1.0, 1.0, 0.85 * vAlpha)";
 const VISER_INK = "vec4(0.0, 0.0, 0.0, a)";
+/** By which words keep their size on the screen; ours holds without perspective, too. */
+const VISER_DEPTH = "-(viewMatrix * vec4(labelPos, 1.0)).z";
+const OUR_DEPTH = "(projectionMatrix * viewMatrix * vec4(labelPos, 1.0)).w";
 
 /** sRGB, 0 to 1. @type {Record<"dark" | "light", { plate: number[], ink: number[] }>} */
 const COLOURS = {
@@ -162,6 +165,7 @@ export class Plates {
       .replace(VISER_PLATE, "vec4(studioPlate, 0.85 * vAlpha)")
       .replace(VISER_INK, "vec4(studioInk, a)");
     if (shader === material.fragmentShader) return;
+    material.vertexShader = material.vertexShader.replace(VISER_DEPTH, OUR_DEPTH);
     material.fragmentShader = `uniform vec3 studioPlate;\nuniform vec3 studioInk;\n${shader}`;
     Object.assign(material.uniforms, { studioPlate: this.#plate, studioInk: this.#ink });
     material.needsUpdate = true;

@@ -163,6 +163,14 @@ class Display(ABC):
         """Return what can be set now: namespaces of markers, for example, come with messages."""
         return self.PROPERTIES
 
+    def property_named(self, name: str) -> Property:
+        """Return a property by its name, also one that messages have yet to bring.
+
+        Raises:
+            DisplayPropertyError: There is none.
+        """
+        return self._property(name)
+
     def limit(self, limits: Limits) -> None:
         """Apply these limits to all messages from now on."""
         self.limits = limits

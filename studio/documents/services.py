@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
-    "studio.live.connection.followed_joints",
+    *("studio.rviz.config", "studio.live.connection.followed_joints"),
     *("studio.live.panels.goal_work", "studio.live.panels.parameter_work"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
     "studio.documents.lessons.graph_checks",

@@ -40,6 +40,7 @@ export function settingsOf(display, level, isOpen) {
       label,
       icon: "",
       hint: property?.doc ?? label,
+      ...(property?.doc && { help: { title: path, text: property.doc } }),
       expandable: folds,
       expanded: folds && isOpen(idOf(path)),
       kind: "setting",
@@ -65,6 +66,10 @@ function listeningRows(display, kind, level, isOpen) {
       icon: "",
       kind: "setting",
       hint: kind.types.join("\n"),
+      help: {
+        title: t("live.topic"),
+        text: t("live.topic.help", { types: kind.types.join(", ") }),
+      },
       controls:
         () => html`<${PickBox} label=${t("live.topic")} text=${topic} placeholder=${t("live.topic.none")}
         disabled=${!mayEdit.value} choices=${() => topicsFor(kind)} none=${t("live.topic.nothing", { type: kind.types[0] ?? "" })}
@@ -75,6 +80,7 @@ function listeningRows(display, kind, level, isOpen) {
       level,
       label: t("live.listening"),
       icon: "",
+      help: { title: t("live.listening"), text: t("live.listening.help") },
       kind: "setting",
       expandable: true,
       expanded: open,
