@@ -47,7 +47,7 @@ class Read(HTMLParser):
 def hostile() -> Seen:
     """A document whose every text wants to be carried out."""
     remark = Remark(level="error", reason=HOSTILE, sentence=HOSTILE)
-    state = DisplayState(id="1", rate_hz=0, age_s=None, lost=0, remarks=(remark,))
+    state = DisplayState(id="1", rate_hz=0, age_s=None, received=0, lost=0, remarks=(remark,))
     problem = Problem(Severity.ERROR, HOSTILE, HOSTILE, Place(HOSTILE, 3))
     return Seen(
         document=SeenDocument(

@@ -9,7 +9,7 @@ from studio.protocol.displays import DisplayState, Mend, Remark
 
 def shown(*remarks: Remark) -> SeenDisplay:
     """A display with remarks."""
-    state = DisplayState(id="1", rate_hz=0.0, age_s=None, lost=0, remarks=remarks)
+    state = DisplayState(id="1", rate_hz=0.0, age_s=None, received=0, lost=0, remarks=remarks)
     return SeenDisplay("1", "Laser", state)
 
 
