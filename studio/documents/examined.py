@@ -8,6 +8,15 @@ from studio.live.doctor.seen import SeenDisplay, SeenDocument
 
 if TYPE_CHECKING:
     from studio.documents.document import Document
+    from studio.protocol.displays import DisplayStates
+
+
+def _trouble_of(states: DisplayStates | None) -> str:
+    """Why nothing, or not the robot, can be drawn in the fixed frame."""
+    if states is None:
+        return ""
+    fixed = states.fixed_frame
+    return fixed.sentence if fixed.level == "error" else states.fixed_frame_trouble
 
 
 def seen_document(document: Document) -> SeenDocument:
@@ -19,7 +28,7 @@ def seen_document(document: Document) -> SeenDocument:
         id=document.id,
         title=document.title,
         links=frozenset(document.model.kinematics.link_names) if expansion else frozenset(),
-        fixed_trouble=states.fixed_frame_trouble if states else "",
+        fixed_trouble=_trouble_of(states),
         displays=tuple(
             SeenDisplay(one.id, one.name, by_id.get(one.id)) for one in document.live.kept.displays
         ),

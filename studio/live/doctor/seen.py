@@ -128,11 +128,10 @@ class HeardTopic:
 
 @dataclass(frozen=True, slots=True)
 class HeardClock:
-    """The time on /clock, when it came, and how many publish one."""
+    """The time on /clock, and when it came, by the clock of this machine."""
 
     now_ns: int
     received_ns: int
-    publishers: int
 
 
 @dataclass(frozen=True, slots=True)

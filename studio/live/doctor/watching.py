@@ -73,19 +73,24 @@ class Watching:
     ) -> None:
         self._context, self._types, self._clock = context, types, clock
         self._lock = threading.Lock()
-        self._began_s = clock()
-        self._watches: dict[str, TopicWatch] = {}
         self._rates = TopicRates(self._watch)
         self._system: System | None = None
-        self._frames = _Frames(self._name_of)
-        self._times = _Times()
         self._parameters = _Parameters(types)
+        self._begin()
+
+    def _begin(self) -> None:
+        """Know nothing yet, but which parameters were changed before."""
+        self._began_s = self._clock()
+        self._watches: dict[str, TopicWatch] = {}
+        self._frames, self._times = _Frames(self._name_of), _Times()
 
     def heard(self, system: System) -> Heard:
         """Return what was heard, and go on listening to what is published now."""
         topics, left_out = _chosen(system)
         with self._lock:
             self._system = system
+            if self._watches and not self._rates.measured:
+                self._begin()  # nobody asked for a while: what was heard then is not so any more
             flows = self._rates.flows(topics)
             watches = {name: self._watches[name] for name in flows if name in self._watches}
             for gone in set(self._watches) - set(topics):
@@ -246,7 +251,7 @@ class _Times:
         if not newest:
             return None
         now_ns, received_ns = max(newest, key=lambda one: one[1])
-        return HeardClock(now_ns, received_ns, len(newest))
+        return HeardClock(now_ns, received_ns)
 
 
 class _Parameters:

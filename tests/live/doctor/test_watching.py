@@ -30,6 +30,10 @@ def test_it_ends_by_itself_when_nobody_asks_any_more(patient: Patient):
     assert "/quiet_again" in patient.listened_to()
     patient.later_s = KEPT_S + 1
     wait_until("it ends", lambda: patient.watching.listens_to == ())
+    again = patient.seen().heard  # it begins anew
+    assert again is not None
+    assert again.listened_s < KEPT_S
+    assert again.topics["/quiet_again"].samples == 0
 
 
 def test_a_topic_that_is_gone_is_heard_no_more(patient: Patient):
