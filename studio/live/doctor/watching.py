@@ -48,6 +48,8 @@ _UNPACED: Final = frozenset({_TF_STATIC, _EVENTS, _LOG})
 """They come when something happens, and are silent otherwise."""
 _HEADER: Final = "std_msgs/msg/Header"
 _EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
+BYTES_MAX: Final = 8_000_000
+"""So much a second is received beside what others do; a camera beyond it is heard now and then."""
 _FRAMES_MAX: Final = 2_000
 _FRAME_LETTERS_MAX: Final = 300
 """More than TF takes, so that a frame is compared whole."""
@@ -73,7 +75,7 @@ class Watching:
     ) -> None:
         self._context, self._types, self._clock = context, types, clock
         self._lock = threading.Lock()
-        self._rates = TopicRates(self._watch)
+        self._rates = TopicRates(self._watch, BYTES_MAX)
         self._system: System | None = None
         self._parameters = _Parameters(types)
         self._begin()

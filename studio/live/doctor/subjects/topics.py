@@ -36,11 +36,12 @@ def findings(seen: Seen) -> Iterator[Finding]:
     if seen.system is None:
         return
     unheard, unsaid = _one_sided(seen.system)
-    meant = _meant(unheard, unsaid)
+    waited = {one: ends for one, ends in unsaid.items() if not _is_own(seen.system, ends)}
+    meant = _meant(unheard, waited)
     for waiting, there in meant.items():
         yield _perhaps_meant(waiting, there, unsaid[waiting], unheard[there])
     yield from _by_node(
-        {name: unsaid[name].receivers for name in unsaid if name not in meant}, "to"
+        {name: unsaid[name].receivers for name in waited if name not in meant}, "to"
     )
     taken = set(meant.values())
     yield from _by_node(
@@ -57,9 +58,26 @@ def _one_sided(system: System) -> tuple[dict[str, Ends], dict[str, Ends]]:
             continue
         if not ends.receivers and any(not system.is_own(one) for one in ends.senders):
             unheard[name] = ends
-        elif not ends.senders and any(not system.is_own(one) for one in ends.receivers):
+        elif not ends.senders and ends.receivers:
             unsaid[name] = ends
     return unheard, unsaid
+
+
+def _is_own(system: System, ends: Ends) -> bool:
+    return all(map(system.is_own, ends.receivers))
+
+
+def _studio_waits(name: str) -> Finding:
+    return Finding(
+        code="studio-waits",
+        level="note",
+        subject=SUBJECT,
+        sentence=(
+            f"A panel or a display of the studio waits for {short(name)}, which nobody publishes."
+        ),
+        about=(_topic(name),),
+        line=f"ros2 topic info -v {short(name)}",
+    )
 
 
 def _meant(unheard: Mapping[str, Ends], unsaid: Mapping[str, Ends]) -> dict[str, str]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from studio.live.doctor.examination import examine
 from tests.support.patient import STRING, Patient
 
 pytestmark = pytest.mark.network
@@ -49,3 +52,13 @@ def test_a_topic_with_both_sides_is_well(patient: Patient):
     patient.publisher(STRING, "/both_sides")
     patient.subscribe(STRING, "/both_sides")
     assert patient.codes("/both_sides") == set()
+
+
+def test_what_the_studio_itself_waits_for_is_a_note(patient: Patient):
+    patient.subscribe(STRING, "/plotted_topic")
+    seen = patient.seen()
+    assert seen.system is not None
+    own = replace(seen.system, own=frozenset({patient.robot.wire.zid}))
+    found = {one.code: one for one in examine(replace(seen, system=own)).findings}
+    assert "/plotted_topic" in found["studio-waits"].sentence
+    assert "no-publisher" not in found
