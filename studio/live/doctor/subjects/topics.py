@@ -40,6 +40,8 @@ def findings(seen: Seen) -> Iterator[Finding]:
     meant = _meant(unheard, waited)
     for waiting, there in meant.items():
         yield _perhaps_meant(waiting, there, unsaid[waiting], unheard[there])
+    for name in [one for one in unsaid if one not in waited]:
+        yield _studio_waits(name)
     yield from _by_node(
         {name: unsaid[name].receivers for name in waited if name not in meant}, "to"
     )
