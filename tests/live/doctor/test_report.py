@@ -124,6 +124,13 @@ def test_home_folders_name_nobody(text: str, shown: str):
     assert without_homes(text) == shown
 
 
+def test_no_home_folder_is_in_a_report():
+    problem = Problem(Severity.ERROR, "x", f"{HOMES}/anna/arm.xacro is wrong.")
+    html = html_of(Seen(document=SeenDocument("d", f"{HOMES}/anna/arm.xacro", problems=(problem,))))
+    assert "anna" not in html
+    assert "~/arm.xacro is wrong." in html
+
+
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_every_finding_subject_and_level_has_its_words(language: str):
     words = json.loads((ASSETS / "panels/doctor/panel.json").read_text())["words"][language]
