@@ -10,12 +10,17 @@ from studio.problems import modules_of
 from studio.protocol.doctor import FINDINGS_MAX, Finding, Level, SubjectName, SubjectView
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator, Mapping
 
     from studio.live.doctor.seen import Looked, Seen
 
 _LEVELS: Final[tuple[Level, ...]] = get_args(Level)
 _SUBJECTS: Final[tuple[SubjectName, ...]] = get_args(SubjectName)
+OF_WHO_ASKS: Final[frozenset[SubjectName]] = frozenset(
+    {"frames", "displays", "document", "browser"}
+)
+"""Subjects that conclude of the document or the browser, too; all others are the same for all."""
+SHARED: Final = frozenset(_SUBJECTS) - OF_WHO_ASKS
 _SENTENCE_MAX: Final = 700
 _LINE_MAX: Final = 400
 _LINES_MAX: Final = 12
@@ -58,20 +63,39 @@ def subjects() -> tuple[Subject, ...]:
     return tuple(sorted(found, key=lambda one: _SUBJECTS.index(one.SUBJECT)))
 
 
+class Concluded(NamedTuple):
+    """What one subject concluded: its first findings, how many more, and what it looked at."""
+
+    findings: tuple[Finding, ...]
+    more: int
+    view: SubjectView
+
+
 def examine(seen: Seen) -> Examination:
     """Conclude all of the facts; pure, and for a thread where the graph is large."""
-    kept: list[Finding] = []
-    views: list[SubjectView] = []
-    more = 0
+    return examination_of(concluded(seen, _SUBJECTS))
+
+
+def concluded(seen: Seen, names: Collection[SubjectName]) -> dict[SubjectName, Concluded]:
+    """Return what some subjects conclude of the facts."""
+    found: dict[SubjectName, Concluded] = {}
     for subject in subjects():
-        found, left_out = _bounded(subject.findings(seen))
-        kept += found
-        more += left_out
-        views.append(_view(subject, seen, is_well=not any(one.level != "note" for one in found)))
-    kept.sort(key=lambda one: _LEVELS.index(one.level))
-    return Examination(
-        tuple(kept[:FINDINGS_MAX]), more + max(0, len(kept) - FINDINGS_MAX), tuple(views)
-    )
+        if subject.SUBJECT in names:
+            findings, more = _bounded(subject.findings(seen))
+            is_well = not any(one.level != "note" for one in findings)
+            view = _view(subject, seen, is_well=is_well)
+            found[subject.SUBJECT] = Concluded(tuple(findings), more, view)
+    return found
+
+
+def examination_of(found: Mapping[SubjectName, Concluded]) -> Examination:
+    """Put together what all subjects concluded."""
+    in_order = [found[one] for one in _SUBJECTS]
+    findings = [finding for one in in_order for finding in one.findings]
+    findings.sort(key=lambda one: _LEVELS.index(one.level))
+    more = sum(one.more for one in in_order) + max(0, len(findings) - FINDINGS_MAX)
+    views = tuple(one.view for one in in_order)
+    return Examination(tuple(findings[:FINDINGS_MAX]), more, views)
 
 
 def _bounded(findings: Iterator[Finding]) -> tuple[list[Finding], int]:

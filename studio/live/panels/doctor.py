@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import NotJoinedError, RouterGoneError, StudioError
 from studio.live.doctor.here import look_here
@@ -16,20 +16,21 @@ from studio.protocol.doctor import DoctorReport, ExamineSystem, GetDoctorReport,
 from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
-    from studio.live.doctor.examination import Examination
+    from studio.live.doctor.examination import Concluded, Examination
     from studio.live.doctor.seen import Answers, Heard, Here, SeenDocument, System, Unanswered
     from studio.live.doctor.watching import Watching
     from studio.protocol.connection import WireReport
-    from studio.protocol.doctor import LookingBrowser
+    from studio.protocol.doctor import LookingBrowser, SubjectName
     from studio.ros.graph.diagnosis import DistroHashes
 
 LISTENS_S: Final = 3.0
 """After so long rates, clocks and frames are known of all that comes once a second."""
 _ASK_EVERY_S: Final = 10.0
+_LOOK_EVERY_S: Final = 0.5
 _PLACE_EVERY_S: Final = 4.0
 _OFTEN: Final = Limits(bytes_max=2_000, per_second=4)
 _SELDOM: Final = Limits(bytes_max=2_000, per_second=1)
@@ -50,6 +51,14 @@ class _Visit:
     asking: asyncio.Task[None] | None = None
 
 
+class _Shared(NamedTuple):
+    """What was seen, and what is concluded of it for all who ask."""
+
+    at_s: float
+    seen: Seen
+    concluded: dict[SubjectName, Concluded]
+
+
 class Doctor:
     """Listens and asks while somebody wants to know, once for all who do.
 
@@ -65,22 +74,21 @@ class Doctor:
         self.document_of: Callable[[str], SeenDocument | None] = lambda _id: None
         """Returns what is known of an open document."""
         self._visit: _Visit | None = None
-        self._looking = asyncio.Lock()
-        """Held while a thread works with the connection."""
+        self._turn = asyncio.Lock()
+        """Held while a thread looks: all who ask meanwhile are told the same."""
         self._here: Here | None = None
-        self._place: tuple[float, WireReport | None] = (-_PLACE_EVERY_S, None)
+        self._shared: _Shared | None = None
 
     async def examine(self, command: ExamineSystem) -> SystemExamined:
         """Return what is found as of now; later answers know more."""
-        seen = await self._seen(command)
-        found = await asyncio.to_thread(_examined, seen)
+        seen, found = await self._found(command)
         listened_s = seen.heard.listened_s if seen.heard else 0.0
-        is_known = seen.system is None or (seen.answers is not None and listened_s >= LISTENS_S)
+        is_away = seen.system is None or not seen.system.is_connected
         return SystemExamined(
             request=command.request,
             listened_s=round(listened_s, 1),
             listens_s=LISTENS_S,
-            is_complete=is_known,
+            is_complete=is_away or (seen.answers is not None and listened_s >= LISTENS_S),
             findings=found.findings,
             more=found.more,
             subjects=found.subjects,
@@ -88,46 +96,57 @@ class Doctor:
 
     async def report(self, command: GetDoctorReport) -> DoctorReport:
         """Return the same as an HTML file."""
-        seen = await self._seen(command)
-        html = await asyncio.to_thread(_reported, seen, command)
+        seen, found = await self._found(command)
+        html = await asyncio.to_thread(_reported, seen, found, command)
         return DoctorReport(request=command.request, html=html)
 
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
-        visit, self._visit = self._visit, None
-        if visit is None:
-            return
-        async with self._looking:
-            await asyncio.to_thread(visit.watching.close)
-        if visit.asking is not None:
+        async with self._turn:
+            visit, self._visit, self._shared = self._visit, None, None
+            if visit is not None:
+                await asyncio.to_thread(visit.watching.close)
+        if visit is not None and visit.asking is not None:
             await asyncio.gather(visit.asking, return_exceptions=True)
 
-    async def _seen(self, command: LookingBrowser) -> Seen:
-        if self._here is None:
-            self._here = await asyncio.to_thread(_look_here)
-        system, heard, answers = await self._of_connection()
-        return Seen(
-            here=self._here,
-            place=None if system else await self._examined_place(),
-            system=system,
-            heard=heard,
-            answers=answers,
+    async def _found(self, command: LookingBrowser) -> tuple[Seen, Examination]:
+        """Add what concerns the asker alone to what is the same for all."""
+        shared = await self._seen()
+        seen = replace(
+            shared.seen,
             document=self.document_of(command.document),
             browser=SeenBrowser(command.renderer, command.draws_by_software),
-            unanswered=self._unanswered(),
         )
+        return seen, await asyncio.to_thread(_completed, seen, shared.concluded)
 
-    async def _of_connection(self) -> tuple[System | None, Heard | None, Answers | None]:
-        async with self._looking:
-            link = self._connection.current
-            if link is None:
-                return None, None, None
-            if self._visit is None or self._visit.link is not link:
-                self._visit = await asyncio.to_thread(_begun, link)
-            visit = self._visit
-            system, heard = await asyncio.to_thread(_looked, visit)
+    async def _seen(self) -> _Shared:
+        """Look, unless somebody else did just now."""
+        async with self._turn:
+            if self._shared is None or not self._is_fresh(self._shared):
+                seen = await self._looked_anew()
+                concluded = await asyncio.to_thread(_concluded, seen)
+                self._shared = _Shared(time.monotonic(), seen, concluded)
+            return self._shared
+
+    def _is_fresh(self, shared: _Shared) -> bool:
+        was_joined = shared.seen.system is not None
+        if was_joined != (self._connection.current is not None):
+            return False
+        return not _is_due(shared.at_s, _LOOK_EVERY_S if was_joined else _PLACE_EVERY_S)
+
+    async def _looked_anew(self) -> Seen:
+        if self._here is None:
+            self._here = await asyncio.to_thread(_look_here)
+        link, unanswered = self._connection.current, self._unanswered()
+        if link is None:
+            place = await asyncio.to_thread(_look_at_place, self._connection)
+            return Seen(here=self._here, place=place, unanswered=unanswered)
+        if self._visit is None or self._visit.link is not link:
+            self._visit = await asyncio.to_thread(_begun, link)
+        visit = self._visit
+        system, heard = await asyncio.to_thread(_looked, visit)
         self._ask_again(visit, system)
-        return system, heard, visit.answers
+        return Seen(self._here, None, system, heard, visit.answers, unanswered=unanswered)
 
     def _ask_again(self, visit: _Visit, system: System) -> None:
         """Ask routers and nodes beside, for some do not answer."""
@@ -138,14 +157,6 @@ class Doctor:
     async def _ask(self, visit: _Visit, system: System) -> None:
         visit.answers = await asyncio.to_thread(_asked, visit, system)
         visit.asked_s = time.monotonic()
-
-    async def _examined_place(self) -> WireReport | None:
-        """Return what there is where the studio would connect."""
-        at_s, report = self._place
-        if _is_due(at_s, _PLACE_EVERY_S):
-            report = await asyncio.to_thread(_look_at_place, self._connection)
-            self._place = time.monotonic(), report
-        return report
 
 
 def _is_due(at_s: float, every_s: float) -> bool:
@@ -211,18 +222,28 @@ def _look_here() -> Here:
     return look_here(NAMES)
 
 
-def _examined(seen: Seen) -> Examination:
-    from studio.live.doctor.examination import examine  # noqa: PLC0415
+def _concluded(seen: Seen) -> dict[SubjectName, Concluded]:
+    from studio.live.doctor.examination import SHARED, concluded  # noqa: PLC0415
 
-    return examine(seen)
+    return concluded(seen, SHARED)
 
 
-def _reported(seen: Seen, command: GetDoctorReport) -> str:
+def _completed(seen: Seen, shared: Mapping[SubjectName, Concluded]) -> Examination:
+    from studio.live.doctor.examination import (  # noqa: PLC0415
+        OF_WHO_ASKS,
+        concluded,
+        examination_of,
+    )
+
+    return examination_of({**shared, **concluded(seen, OF_WHO_ASKS)})
+
+
+def _reported(seen: Seen, found: Examination, command: GetDoctorReport) -> str:
     from studio.live.doctor.report import About, report_html, words_of  # noqa: PLC0415
 
     words = words_of(repository_or_wheel("frontend_assets"), command.language)
     made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    return report_html(_examined(seen), About(command.language, facts_of(seen), made), words)
+    return report_html(found, About(command.language, facts_of(seen), made), words)
 
 
 def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import asynccontextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -93,17 +93,27 @@ def test_a_connection_is_examined_and_let_go_of(
     asyncio.run(run())
 
 
-def test_many_who_ask_are_answered_of_one_listening(endpoint: str, tester: Node):
+def test_many_who_ask_are_told_of_one_look(
+    endpoint: str, tester: Node, monkeypatch: pytest.MonkeyPatch
+):
+    looks: list[object] = []
+    looked = doctor._looked  # pyright: ignore[reportPrivateUsage]
+
+    def counted(visit: Any) -> Any:  # noqa: ANN401 - as it is
+        looks.append(visit)
+        return looked(visit)
+
+    monkeypatch.setattr(doctor, "_looked", counted)
+    monkeypatch.setattr(doctor, "_LOOK_EVERY_S", 600.0)
+
     async def run() -> None:
         async with doctor_at(endpoint) as (made, connection):
-            link = await connection.link()
-            await asyncio.gather(*(made.examine(ExamineSystem()) for _ in range(8)))
-            drained = [
-                one
-                for one in link.context.drain._sources  # pyright: ignore[reportPrivateUsage]
-                if getattr(one, "topic", "") == "/parameter_events"
-            ]
-            assert len(drained) == 1
+            await connection.link()
+            made.document_of = {"mine": SeenDocument("mine", "arm", fixed_trouble="No map.")}.get
+            asked = [ExamineSystem(document=one) for one in ("mine", "other") * 4]
+            found = await asyncio.gather(*map(made.examine, asked))
+            assert len(looks) == 1
+            assert ["fixed-frame" in codes(one) for one in found] == [True, False] * 4
 
     assert tester.get_name()
     asyncio.run(run())
