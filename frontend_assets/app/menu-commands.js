@@ -8,12 +8,13 @@ import { LANGUAGES, language, t } from "../lib/i18n.js";
 import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { unsaved } from "../model/document.js";
 import { paused, pauseScene, resetScene } from "../model/live-displays.js";
-import { closeDocument, goTo, reload } from "../model/requests.js";
+import { goTo, reload } from "../model/requests.js";
 import { canCompare, compareSides } from "../model/variants.js";
 import { dialog, isFree, languageChoice, notify, themeChoice } from "../model/view.js";
 import { classCommands } from "./control.js";
 import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
+import { closeAsking, rvizCommands } from "./rviz-commands.js";
 import { copyLink } from "./share.js";
 
 const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
@@ -25,6 +26,7 @@ export function menuCommands() {
     ...documentCommands(),
     ...classCommands(),
     ...exportCommands(),
+    ...rvizCommands(),
     ...themeCommands(),
     ...graphicsCommands(),
     ...sceneCommands(),
@@ -55,7 +57,7 @@ function documentCommands() {
       enabled: () => onDocument() && canCompare.value,
       run: () => compareWith({ kind: "saved", name: "" }),
     },
-    { id: "close_document", icon: "close", enabled: ofOwner, run: () => void closeDocument() },
+    { id: "close_document", icon: "close", enabled: ofOwner, run: closeAsking },
   ];
 }
 

@@ -23,6 +23,8 @@ const state = signal({
   groups_off: [],
   fixed_frame: "",
   paused: false,
+  background: "",
+  frame_rate: 0,
 });
 /** @type {Signal<DisplayStates>} */
 const fares = signal({
@@ -36,6 +38,10 @@ const fares = signal({
 export const kinds = signal(new Map());
 /** In the order in which they are listed. */
 export const liveDisplays = computed(() => state.value.displays);
+/** Behind the 3D view, as `#rrggbb`; empty: that of the theme. */
+export const background = computed(() => state.value.background);
+/** Pictures of the 3D view per second at most; 0: as many as there can be. */
+export const frameRate = computed(() => state.value.frame_rate);
 export const groupsOff = computed(() => state.value.groups_off);
 /** Empty: that of the robot's root link. */
 export const fixedFrame = computed(() => state.value.fixed_frame);

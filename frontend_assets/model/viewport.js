@@ -12,9 +12,11 @@ import { isStroke, onKey } from "../lib/commands.js";
 import { isKind, targetOf } from "../lib/view-poses.js";
 import { connection, documentId } from "./connection.js";
 import { movable, position, robot } from "./document.js";
+import { background, frameRate } from "./live-displays.js";
 import { lights } from "./origin.js";
 import { moveJoint } from "./requests.js";
 import { mayMove } from "./ros.js";
+import { followSelection, outlined, selectNothing, takePicked } from "./selected-items.js";
 import {
   hiddenLinks,
   hovered,
@@ -23,7 +25,7 @@ import {
   selectedJoint,
   selectLink,
 } from "./selection.js";
-import { comparedFrames, drawnChain, followedFrames, litChain } from "./tf.js";
+import { comparedFrames, drawnChain, followedFrames, litChain, millimetres } from "./tf.js";
 import { degrees, mouseMode, theme } from "./view.js";
 import { send } from "./wire.js";
 
@@ -113,6 +115,8 @@ function askFor(frame) {
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
+ * @property {(colour: string) => void} setBackground empty: that of the theme
+ * @property {(hz: number) => void} setFrameRate pictures per second at most; 0: no limit
  * @property {(link: string, visible: boolean) => void} setLinkVisible
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
@@ -122,7 +126,13 @@ function askFor(frame) {
  * @property {(frames: readonly string[]) => void} setChain a line leads from one to the next
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
- * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
+ * @property {(items: readonly {display: string, path: string, shape: string, box: readonly number[] | null}[]) => void} setOutlines boxes around what is selected
+ * @property {() => void} focusOutlines bring it to the middle
+ * @property {(angles: "deg" | "rad", lengths: "m" | "mm") => void} setUnits of the numbers at the mouse
+ * @property {(kind: string) => void} setTool take a tool in hand, by RViz's class without its package
+ * @property {(kind: string, values: Record<string, boolean | number | string>) => void} setToolProperties by RViz's names
+ * @property {() => boolean} cancelTool give up what is under way; whether anything was
+ * @property {(words: {displays: Record<string, string>, floor: string, nothing: string}) => void} setWords what things are called at the mouse
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
  * @property {(measures: readonly {ends: readonly Anchor[], label: string}[]) => void} setMeasures
  * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
@@ -221,6 +231,8 @@ function tell(view) {
     }),
     effect(() => view.setTheme(theme.value)),
     effect(() => view.setMouse(mouseMode.value)),
+    effect(() => view.setBackground(background.value)),
+    effect(() => view.setFrameRate(frameRate.value)),
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
     effect(() => {
@@ -235,7 +247,9 @@ function tell(view) {
       view.setLit(lit.changed_links, lit.moved_links);
     }),
     effect(() => view.setCanDrag(mayMove.value)),
-    effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),
+    effect(() => view.setOutlines(outlined.value)),
+    followSelection(),
+    effect(() => view.setUnits(degrees.value ? "deg" : "rad", millimetres.value ? "mm" : "m")),
     tellLinks(view),
   ];
 }
@@ -279,6 +293,8 @@ function listen(view) {
     viewportConnected.value = connected;
   });
   on("drag", takeDrag);
+  on("picked", takePicked);
+  on("select_nothing", selectNothing);
   on("view", (shown) => {
     shownView.value = shown;
   });

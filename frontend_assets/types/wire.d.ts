@@ -31,6 +31,16 @@ export interface AddInterfaces {
   texts: Record<string, string>;
 }
 
+/** Add a tool at the end. */
+export interface AddTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "add_tool";
+  kind: string;
+  name?: string;
+}
+
 /** A type that was taken up. */
 export interface AddedInterface {
   name: string;
@@ -496,6 +506,16 @@ export interface Demos {
   elsewhere: string[];
 }
 
+/** Ask where items are now, and for all that is known of a few of them. */
+export interface DescribeItems {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "describe_items";
+  items: ItemKeys[];
+  detailed?: ItemRef[];
+}
+
 /** One value that a part reports. */
 export interface DiagnosticValue {
   key: string;
@@ -806,6 +826,14 @@ export interface Examples {
   type: "examples";
   request: number;
   examples: ExampleEntry[];
+}
+
+/** One thing known of an item. */
+export interface FactView {
+  name: string;
+  value: string | boolean | number | number[];
+  unit: string;
+  kind: string;
 }
 
 /** One feedback message of a running goal. */
@@ -1362,6 +1390,14 @@ export interface GetTf {
   pose_only?: boolean;
 }
 
+/** Ask for the kinds of tools. */
+export interface GetToolKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_tool_kinds";
+}
+
 /** Ask who publishes a topic and who subscribes to it, how, and what keeps them apart. */
 export interface GetTopicEnds {
   request?: number;
@@ -1569,6 +1605,57 @@ export interface InterfacesAnswer {
   names: string[];
   own: string[];
   faults: InterfaceFaultView[];
+}
+
+/** All that is known of an item. */
+export interface ItemDetails {
+  display: string;
+  key: string;
+  facts: FactView[];
+  in_fixed: FactView[];
+}
+
+/** Items of one display. */
+export interface ItemKeys {
+  display: string;
+  keys: string[];
+}
+
+/** An item of a display by its key; without a display it is a link of the document's robot. */
+export interface ItemRef {
+  display: string;
+  key: string;
+}
+
+/** An item as it is now. */
+export interface ItemView {
+  display: string;
+  key: string;
+  kind: string;
+  name: string;
+  path: string;
+  frame: string;
+  stamp: string;
+  place: [number, number, number] | null;
+  box: number[] | null;
+  shape: string;
+}
+
+/** Answer to `describe_items`; items that are not named are gone. */
+export interface ItemsDescribed {
+  type: "items_described";
+  request: number;
+  fixed: string;
+  items: ItemView[];
+  details: ItemDetails[];
+}
+
+/** Answer to `pick_items`: each item once. */
+export interface ItemsPicked {
+  type: "items_picked";
+  request: number;
+  items: ItemRef[];
+  left_out: number;
 }
 
 /** Positions of all movable joints by name, after a command; streams are binary frames. */
@@ -2332,6 +2419,25 @@ export interface PauseScene {
   paused: boolean;
 }
 
+/** Ask what the items are that were pointed at. */
+export interface PickItems {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "pick_items";
+  nodes: PickedNode[];
+}
+
+/** A node of a display in the 3D view, and which of its parts were pointed at. */
+export interface PickedNode {
+  display: string;
+  path: string;
+  shape: string;
+  node: string;
+  rows: number[];
+  place: [number, number, number] | null;
+}
+
 /** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
 export interface Place {
   file: string;
@@ -2620,6 +2726,15 @@ export interface RemoveMember {
   person: string;
 }
 
+/** Remove a tool; one Interact tool stays. */
+export interface RemoveTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "remove_tool";
+  tool: string;
+}
+
 /**
  * Change the name at a place to `name`, wherever it is used, as one undo step.
  *
@@ -2644,6 +2759,16 @@ export interface RenamePose {
   type: "rename_pose";
   name: string;
   new_name: string;
+}
+
+/** Give a tool another name. */
+export interface RenameTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_tool";
+  tool: string;
+  name: string;
 }
 
 /** Give a variant another name and note. */
@@ -3120,6 +3245,17 @@ export interface SetParameter {
   value_type?: string;
 }
 
+/** Change a property of a tool, by RViz's name. */
+export interface SetToolProperty {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_tool_property";
+  tool: string;
+  name: string;
+  value: boolean | number | string;
+}
+
 /** Change what all views of the document have in common; what is None stays. */
 export interface SetViewOptions {
   request?: number;
@@ -3419,6 +3555,52 @@ export interface TfPose {
   chain: string[];
 }
 
+/** A kind of tool. */
+export interface ToolKindView {
+  kind: string;
+  name: string;
+  doc: string;
+  icon: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_tool_kinds`, in the order of RViz's toolbar. */
+export interface ToolKinds {
+  type: "tool_kinds";
+  request: number;
+  kinds: ToolKindView[];
+}
+
+/** Answer to `use_tool`: what was sent where. */
+export interface ToolUsed {
+  type: "tool_used";
+  request: number;
+  sent_as: "topic" | "action";
+  name: string;
+  frame: string;
+  xyz: [number, number, number];
+  wxyz: [number, number, number, number];
+  subscriptions: number;
+  operation: number;
+}
+
+/** A tool as it is set. */
+export interface ToolView {
+  id: string;
+  kind: string;
+  name: string;
+  icon: string;
+  key: string;
+  publishes: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All tools of a document, in order. */
+export interface Tools {
+  type: "tools";
+  tools: ToolView[];
+}
+
 /** A publisher or a subscription. */
 export interface TopicEnd {
   node: string;
@@ -3550,6 +3732,20 @@ export interface UrdfChanges {
   hunks: DiffLineView[][];
   left_out: number;
   fault: string;
+}
+
+/** Publish what was pointed at with a tool, or send it as a goal. */
+export interface UseTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "use_tool";
+  tool: string;
+  fixed_frame?: string;
+  x: number;
+  y: number;
+  z?: number;
+  yaw?: number;
 }
 
 /** Answer to `read_values`: only what the text names; `now` and `auto` stay as they are. */
@@ -3724,6 +3920,7 @@ export interface ZeroJoints {
 export type Command =
   | AddDisplay
   | AddInterfaces
+  | AddTool
   | AnimateJoints
   | ApplyFix
   | ApplyPose
@@ -3746,6 +3943,7 @@ export type Command =
   | DeletePose
   | DeleteVariant
   | DeleteView
+  | DescribeItems
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3804,6 +4002,7 @@ export type Command =
   | GetServices
   | GetText
   | GetTf
+  | GetToolKinds
   | GetTopicEnds
   | GetTopicRates
   | GetTopics
@@ -3838,6 +4037,7 @@ export type Command =
   | OpenRvizText
   | PauseClass
   | PauseScene
+  | PickItems
   | PressKey
   | Publish
   | PublishJoints
@@ -3851,8 +4051,10 @@ export type Command =
   | Reload
   | RemoveDisplay
   | RemoveMember
+  | RemoveTool
   | Rename
   | RenamePose
+  | RenameTool
   | RenameVariant
   | RenameView
   | RenewCode
@@ -3885,6 +4087,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetToolProperty
   | SetViewOptions
   | ShowCopy
   | ShowFocus
@@ -3902,6 +4105,7 @@ export type Command =
   | UndoRvizConfig
   | UndoTo
   | UpdateVariant
+  | UseTool
   | Watch
   | ZeroJoints;
 
@@ -3947,6 +4151,8 @@ export type Event =
   | InterfaceAnswer
   | InterfacesAnswer
   | InterfacesAdded
+  | ItemsDescribed
+  | ItemsPicked
   | JointPositions
   | Leading
   | LeftWork
@@ -4002,6 +4208,9 @@ export type Event =
   | TextsChanged
   | TextsFound
   | TfFrames
+  | ToolKinds
+  | ToolUsed
+  | Tools
   | TopicEnds
   | TopicRates
   | TopicTable

@@ -37,6 +37,8 @@ import {
 
 const FILL = 2 / 3;
 const FOCUS_FILL = 0.45;
+/** Around what may be as small as a point. */
+const ROOM_M = 0.1;
 const FLIGHT_MS = 300;
 /** viser's, and more of them where we look from afar. */
 const FAR_M = 1000;
@@ -187,6 +189,16 @@ export class CameraView {
     const corners = this.#robot.corners([link]);
     this.touched();
     this.#look(corners.length ? corners : this.#around(link), this.#goal().turn, FOCUS_FILL, true);
+  }
+
+  /** Bring points of the scene to the middle, with some room around them. @param {Vector3[]} points */
+  focusOn(points) {
+    const [first] = points;
+    if (!first) return;
+    this.touched();
+    const aside = first.clone().set(ROOM_M, ROOM_M, ROOM_M);
+    const around = points.flatMap((one) => [one.clone().add(aside), one.clone().sub(aside)]);
+    this.#look(around, this.#goal().turn, FOCUS_FILL, true);
   }
 
   /** Turn to a place of the scene, as RViz does: the eye stays. @param {Vector3} place */

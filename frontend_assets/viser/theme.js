@@ -23,6 +23,9 @@ const CALM_GRID = `
     float density = max(fwidth(r.x), fwidth(r.y));
     return (1.0 - min(line, 1.0)) * (1.0 - smoothstep(0.12, 0.5, density));`;
 
+/** What the style sheet paints behind the scene with, the middle first. */
+export const BACKGROUND = ["--view-high", "--view-mid", "--view-low"];
+
 /** Colours of this browser: background, grid and accent. */
 export class Theme {
   /** @type {ThemeName} */
@@ -67,6 +70,15 @@ export class Theme {
       this.#door.inject({ type: "SceneNodeUpdateMessage", name: GRID, owner: "", updates });
     }
     this.#door.redraw();
+  }
+
+  /** @param {string} colour as `#rrggbb`; empty: that of the theme */
+  setBackground(colour) {
+    const { style } = document.documentElement;
+    for (const name of BACKGROUND) {
+      if (colour === "") style.removeProperty(name);
+      else style.setProperty(name, colour);
+    }
   }
 
   /** The server sends a grid without a theme. @param {Message} message */

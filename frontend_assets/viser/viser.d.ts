@@ -107,6 +107,8 @@ export interface Geometry {
   attributes?: {
     position?: { count: number; getX(at: number): number; getY(at: number): number; getZ(at: number): number };
   };
+  /** Corners of triangles, three after three; null: all places are, in their order. */
+  index?: { count: number; getX(at: number): number } | null;
   boundingBox: Box3 | null;
   computeBoundingBox(): void;
 }
@@ -117,6 +119,10 @@ export interface Hit {
   object: Object3D;
   /** Its corners by their numbers, and where it faces in the mesh's own axes. */
   face?: { a: number; b: number; c: number; normal: Vector3 } | null;
+  /** Which of a mesh that is drawn many times. */
+  instanceId?: number;
+  /** Which of the triangles. */
+  faceIndex?: number | null;
 }
 
 export interface Pointing {

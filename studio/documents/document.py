@@ -63,6 +63,8 @@ from studio.live.displays.document_displays import DocumentDisplays
 from studio.live.displays.robot_reading import RobotReader
 from studio.live.displays.rviz_configs import COMMANDS as CONFIG_COMMANDS
 from studio.live.displays.rviz_configs import RvizConfigs
+from studio.live.displays.selecting import COMMANDS as SELECTION_COMMANDS
+from studio.live.displays.selecting import Selecting
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
@@ -164,6 +166,7 @@ class Document:
             services.wire,
             audience,
         )
+        self.selecting = Selecting(self.live.drawn)
         self.feed.is_held = lambda: self.live.is_paused
         self.configs = RvizConfigs(self.live, workspace, data_folder, audience)
 
@@ -431,4 +434,5 @@ COMMANDS.include(VARIANT_COMMANDS, lambda document, _: document.variants)
 COMMANDS.include(POSE_COMMANDS, lambda document, _: document.poses)
 COMMANDS.include(FEED_COMMANDS, lambda document, _: document.feed)
 COMMANDS.include(DISPLAY_COMMANDS, lambda document, _: document.live)
+COMMANDS.include(SELECTION_COMMANDS, lambda document, _: document.selecting)
 COMMANDS.include(CONFIG_COMMANDS, lambda document, _: document.configs)

@@ -6,17 +6,22 @@ import { html } from "vendor/preact.js";
 import { commandById } from "../../lib/commands.js";
 import { inFrameOrder } from "../../lib/frame-tree.js";
 import { t } from "../../lib/i18n.js";
+import { parseNumber } from "../../lib/numbers.js";
 import { PickBox } from "../../lib/pick-box.js";
-import { IconButton } from "../../lib/ui.js";
+import { TextBox } from "../../lib/slider.js";
+import { Icon, IconButton, MenuButton } from "../../lib/ui.js";
 import { mayEdit } from "../../model/connection.js";
 import { robot } from "../../model/document.js";
 import {
+  background,
   fixedFrame,
   fixedFrameState,
+  frameRate,
   framesNow,
   frameTrouble,
   setFixedFrame,
 } from "../../model/live-displays.js";
+import { configName, rvizConfig, setBackground, setFrameRate } from "../../model/rviz-configs.js";
 import { levelIcon, levelWords } from "./live-rows.js";
 
 /** @param {string} filter @param {ReadonlySet<string>} closed rows that are folded @returns {Row[]} */
@@ -58,8 +63,73 @@ function optionRows() {
         placeholder=${t("live.fixed_frame.placeholder")} disabled=${!mayEdit.value} choices=${choices}
         onWrite=${(/** @type {string} */ frame) => void setFixedFrame(frame)} />`,
     },
+    optionRow("background", () => html`<${Background} />`),
+    optionRow(
+      "frame_rate",
+      () => html`<${TextBox} class="number narrow" label=${t("display.global.frame_rate")}
+        text=${String(frameRate.value)} number=${frameRate.value} step=${1}
+        disabled=${!mayEdit.value} onWrite=${(/** @type {string} */ typed) => {
+          const hz = Math.round(parseNumber(typed) ?? 0);
+          setFrameRate(Math.min(Math.max(hz, 0), FRAME_RATE_MOST));
+        }} />`,
+    ),
+    optionRow("config", () => html`<${ConfigControls} />`),
   ];
 }
+
+/** @param {"background" | "frame_rate" | "config"} name @param {() => import("vendor/preact.js").ComponentChildren} controls @returns {Row} */
+const optionRow = (name, controls) => ({
+  id: `global:${name}`,
+  level: 2,
+  label: t(`display.global.${name}`),
+  icon: "",
+  kind: "setting",
+  help: { title: t(`display.global.${name}`), text: t(`display.global.${name}.help`) },
+  controls,
+});
+
+/** RViz's first background, which the choice of another begins with. */
+const RVIZ_BACKGROUND = "#303030";
+const FRAME_RATE_MOST = 240;
+
+/** The colour behind the 3D view, or that of the theme. */
+function Background() {
+  const colour = background.value;
+  const label = t("display.global.background");
+  return html`<input type="color" class="colour" aria-label=${label} title=${colour || t("display.global.of_theme")} value=${colour || RVIZ_BACKGROUND}
+      disabled=${!mayEdit.value} onInput=${(/** @type {any} */ event) => setBackground(event.currentTarget.value)} />
+    <button type="button" class="button small" aria-pressed=${colour === ""} disabled=${!mayEdit.value}
+      onClick=${() => setBackground("")}>${t("display.global.of_theme")}</button>`;
+}
+
+/** The config file that is open, with a dot when it is not saved, and what can be done with it. */
+function ConfigControls() {
+  const name = configName.value || t("display.global.config.none");
+  const items = () =>
+    CONFIG_COMMANDS.flatMap((id) => {
+      const command = commandById(id);
+      if (!command || (id === "rviz_undo" && !command.enabled?.())) return [];
+      return [
+        {
+          label: t(`command.${id}`),
+          icon: command.icon,
+          disabled: command.enabled?.() === false,
+          run: () => command.run(),
+        },
+      ];
+    });
+  return html`<${MenuButton} class="config-name" label=${t("display.global.config.menu")} value=${name} hint=${rvizConfig.value.path || name} items=${items}>
+    <span class="config-text">${name}</span><${Icon} name="chevronDown" size=${12} /><//>`;
+}
+
+const CONFIG_COMMANDS = [
+  "rviz_open",
+  "rviz_save",
+  "rviz_save_as",
+  "rviz_download",
+  "studio_download",
+  "rviz_undo",
+];
 
 /** @param {ReadonlySet<string>} closed @returns {Row[]} whether there is a fixed frame, as RViz's global status has it */
 function statusRows(closed) {

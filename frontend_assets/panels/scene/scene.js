@@ -6,7 +6,6 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { GraphicsNotice } from "../../app/graphics.js";
 import { documentAddress } from "../../lib/address.js";
-import { commandById } from "../../lib/commands.js";
 import { inFrameOrder } from "../../lib/frame-tree.js";
 import { t } from "../../lib/i18n.js";
 import { PickBox } from "../../lib/pick-box.js";
@@ -30,7 +29,6 @@ import {
   pauseScene,
   setFixedFrame,
 } from "../../model/live-displays.js";
-import { measuring } from "../../model/measuring.js";
 import { canMend, mend, openPath, setDisplay, undo, worstProblem } from "../../model/requests.js";
 import { heldBack } from "../../model/source.js";
 import { dialog, mouseMode, theme } from "../../model/view.js";
@@ -55,6 +53,9 @@ import {
 } from "../../model/views.js";
 import { PlaceLink } from "../parts.js";
 import { MeasureCard } from "./measure-card.js";
+import { NavigationGoal } from "./navigation-goal.js";
+import { ToolButtons } from "./tool-buttons.js";
+import { ToolCard } from "./tool-card.js";
 import { ViewCube } from "./view-cube.js";
 
 /** Whether the 3D view is part of the layout: index.html then has its client fetched at once. */
@@ -73,16 +74,18 @@ export function ScenePanel() {
       src=${id ? `${documentAddress(id)}/viser/` : "about:blank"}></iframe>
     <${Tools} />
     <${ViewCube} />
-    <${MeasureCard} />
+    <div class="scene-cards"><${ToolCard} /><${MeasureCard} /></div>
     <${Cover} />
     <${MeshProgress} />
-    <div class="scene-notices"><${LastGoodNotice} /><${PausedNotice} /><${FollowOffer} /><${GraphicsNotice} /></div>
+    <div class="scene-notices"><${LastGoodNotice} /><${PausedNotice} /><${NavigationGoal} /><${FollowOffer} /><${GraphicsNotice} /></div>
   </section>`;
 }
 
 function Tools() {
   const off = viewport.value === null;
   return html`<div class="scene-tools" role="toolbar" aria-label=${t("scene.tools")}>
+    <${ToolButtons} />
+    <span class="divider"></span>
     <${IconButton} icon="fit" label=${t("scene.fit")} hint=${`${t("scene.fit")} (F)`} disabled=${off}
       onClick=${() => viewport.value?.fit()} />
     <${MenuButton} label=${t("scene.views")} disabled=${off} items=${viewItems}>
@@ -93,9 +96,6 @@ function Tools() {
     <span class="divider"></span>
     <${LayerToggle} name="frames" icon="axes" />
     <${LayerToggle} name="names" icon="frames" />
-    <span class="divider"></span>
-    <${IconButton} icon="measure" label=${t("command.measure")} hint=${`${t("command.measure")} (M)`} disabled=${off || !robot.value}
-      pressed=${measuring.value} onClick=${() => commandById("measure")?.run()} />
     <span class="divider"></span>
     <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
       <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />

@@ -13,10 +13,13 @@ from msgspec import structs
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
+from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
+from studio.live.displays.document_tools import DocumentTools
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_clock import SceneClock
+from studio.live.displays.selecting import AllDrawn
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
@@ -51,12 +54,15 @@ if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
+    from studio.live.displays.document_tools import ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
     from studio.live.displays.robot_reading import RobotReader
+    from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
+    from studio.protocol.tools import UseTool
 
 
 _TICK_S: Final = 1 / 30
@@ -101,6 +107,7 @@ class DocumentDisplays:
         self._beside = KeptDisplays()
         """What is kept beside the displays: options of the view, and an opened config."""
         self.views = SavedViews(audience, self._views_changed)
+        self.tools = DocumentTools(audience, self._keep)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -128,6 +135,7 @@ class DocumentDisplays:
             displays=tuple(self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
+            tools=self.tools.kept,
             views=self.views.specs,
         )
 
@@ -137,6 +145,7 @@ class DocumentDisplays:
             self._remove(one.id)
         self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
+        self.tools.mirror(kept.tools)
         self.views.replace(kept.views)
         self._room.renew()
         self._changed()
@@ -160,7 +169,8 @@ class DocumentDisplays:
         return self._states.event
 
     def mirror(self, other: KeptDisplays) -> None:
-        """Have the displays that another document has; how they look here stays as it is."""
+        """Have the displays and tools of another document; how displays look here stays."""
+        self.tools.mirror(other.tools)
         missing = {(one.kind, one.name, one.topic): one for one in other.displays}
         before = tuple(self._list)
         gone = [one for one in before if not missing.pop((one.kind, one.name, one.topic), None)]
@@ -186,6 +196,7 @@ class DocumentDisplays:
         """Take up the displays of the last time."""
         kept = self._file.read()
         self.views.restore(kept.views)
+        self.tools.restore(kept.tools)
         if kept.fixed_frame:
             self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
@@ -213,6 +224,7 @@ class DocumentDisplays:
         self._go_on()
         yield self._displays()
         yield self.views.event()
+        yield self.tools.event()
         if self._states.event is not None:
             yield self._states.event
 
@@ -336,6 +348,11 @@ class DocumentDisplays:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
         return self._room.get(display).placing.shown
 
+    def drawn(self) -> AllDrawn:
+        """Return what is drawn in the scene, for those who point at it."""
+        frames = self._room.frames
+        return AllDrawn(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
+
     def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
         """Return the kinds of displays."""
         from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
@@ -354,17 +371,30 @@ class DocumentDisplays:
 
     async def tf(self, command: GetTf) -> TfFrames:
         """Return all frames, and the pose of one in another; subscribes to TF for a while."""
-        is_first = not self._is_on
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
-        frames = self._room.frames
-        if is_first and not command.pose_only:
-            await frames.wait_for_first()
-        frames.step()
+        frames = await self._frames(wait=not command.pose_only)
         if command.pose_only:
             return frames.answer(command, frames.fixed)
         # Thousands of frames as JSON take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
+
+    async def tool_use(self, command: UseTool) -> ToolUse:
+        """Return what a tool is to send; subscribes to TF for a while."""
+        return self.tools.use(command, await self._frames(wait=True))
+
+    async def _frames(self, *, wait: bool) -> SceneFrames:
+        """Return the frames of now; subscribes to TF for a while.
+
+        Args:
+            wait: Whether the first transforms are waited for, if TF was not subscribed before.
+        """
+        is_first = not self._is_on
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        frames = self._room.frames
+        if is_first and wait:
+            await frames.wait_for_first()
+        frames.step()
+        return frames
 
     def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
         """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
@@ -568,6 +598,7 @@ COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
+COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
 
 
 def _first_topic(kind: str) -> str:

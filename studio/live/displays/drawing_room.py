@@ -28,7 +28,7 @@ from studio.protocol.displays import (
 from studio.ros.messages import shared_types
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
+    from collections.abc import Collection, Iterable, Mapping
 
     from studio.displays.display import Display
     from studio.displays.drawing import Pose
@@ -111,6 +111,11 @@ class DrawingRoom:
         if self._held is not None:
             self._held.discard(display)
         return self._running.pop(display, None)
+
+    @property
+    def running(self) -> Mapping[str, RunningDisplay]:
+        """All displays at work, by id."""
+        return self._running
 
     def displays(self) -> dict[str, Display]:
         """Return all displays by id."""

@@ -64,6 +64,11 @@ class RunningDisplay:
         self._placed_ns = 0
 
     @property
+    def shown(self) -> Shown:
+        """What is drawn, and the poses of its groups in the fixed frame."""
+        return self.placing.shown
+
+    @property
     def topics(self) -> tuple[str, ...]:
         """The topics of all roles."""
         if not self.spec.topic:

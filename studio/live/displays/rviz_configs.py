@@ -110,9 +110,9 @@ class RvizConfigs:
 
     def events(self) -> Iterable[Event]:
         """Yield the events for a new page."""
-        if self._state.event is not None:
-            yield self._state.event
-        elif self._displays.kept.config is not None:
+        none = RvizConfigState(name="", path="", changed=False, undo=False)
+        yield self._state.event or none
+        if self._state.event is None and self._displays.kept.config is not None:
             self._checking.trigger()
 
     async def open_path(self, path: Path) -> RvizConfigOpened:

@@ -257,7 +257,7 @@ def test_what_was_opened_is_there_after_a_restart_with_its_file(tmp_path: Path):
 
     async def second(one: Opened) -> None:
         assert [each["name"] for each in one.displays] == ["Floor", "Planning", "Axes"]
-        await until(lambda: any(each["type"] == "rviz_config_state" for each in one.ear.events))
+        await until(lambda: one.state["name"] != "")
         assert (one.state["name"], one.state["changed"]) == ("arm.rviz", False)
         await one.do(GetRvizText())
         assert one.ear.last("rviz_text")["text"] == FILE
