@@ -55,8 +55,8 @@ def findings(seen: Seen) -> Iterator[Finding]:
         yield _found(
             "router-of-this-machine",
             "note",
-            f"The router is reached at {_endpoint(seen)}, an address that only this machine has: "
-            "nodes on others name this machine's own address as theirs.",
+            f"The router is reached at {_endpoint(seen)}, by which every machine means itself: "
+            "nodes elsewhere connect to this machine's address in the network.",
             (),
         )
     yield from _of_variables(seen)

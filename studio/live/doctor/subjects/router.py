@@ -57,7 +57,7 @@ def _of_place(place: WireReport) -> Iterator[Finding]:
     if not sentence:
         return
     if place.verdict == "no_router" and place.starts_router:
-        sentence, level = _STARTS, "note"
+        sentence, level = _STARTS, "warn"
     yield _found(
         _CODES.get(place.verdict, "not-connected"),
         level,

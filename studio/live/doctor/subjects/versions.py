@@ -6,7 +6,7 @@ import platform
 from typing import TYPE_CHECKING, Final
 
 import studio
-from studio.live.doctor.seen import Looked, listed
+from studio.live.doctor.seen import Looked, listed, short
 from studio.protocol.doctor import Concern, Finding
 
 if TYPE_CHECKING:
@@ -38,9 +38,9 @@ def findings(seen: Seen) -> Iterator[Finding]:
                 level="error",
                 subject=SUBJECT,
                 sentence=(
-                    f"{one.not_understood} samples on {one.topic} have no attachment of rmw_zenoh "
-                    "as it is now: bring rmw_zenoh_cpp of their sender up to date (0.1.2 for "
-                    "Humble, 0.2.4 for Jazzy), for nobody else hears it either."
+                    f"Samples on {short(one.topic)} ({one.not_understood} so far) have no "
+                    "attachment of rmw_zenoh as it is now: bring rmw_zenoh_cpp of their sender up "
+                    "to date (0.1.2 for Humble, 0.2.4 for Jazzy), for nobody else hears it either."
                 ),
                 about=(Concern(kind="topic", name=one.topic),),
             )

@@ -36,7 +36,7 @@ def answer_as_a_web_server(listener: socket.socket) -> None:
 def test_no_router_is_an_error_unless_one_would_be_started():
     nowhere = free_endpoint()
     assert found_at(nowhere)["no-router"] == "error"
-    assert found_at(nowhere, "auto")["no-router"] == "note"
+    assert found_at(nowhere, "auto")["no-router"] == "warn"
 
 
 def test_another_program_at_its_address_is_an_error():
