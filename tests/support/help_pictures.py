@@ -291,6 +291,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                     tab.page.evaluate(_RUN, "maximize")
                     if panel == "interfaces":
                         show_type(tab.page)
+                    if panel == "doctor":
+                        examine(tab.page)
                     if panel == "lessons":
                         show_lesson(tab.page)
                     if panel == "selection":
@@ -313,6 +315,13 @@ def take_wired(browser: Browser, data: Path) -> None:
                     tab.page.keyboard.press("Escape")
                 if wanted("displays"):
                     take_displays(camera)
+
+
+def examine(page: Page) -> None:
+    """Until the Doctor has heard enough to say all that it knows."""
+    begin = page.get_by_role("button", name="Examine", exact=True)
+    begin.click()
+    page.locator(".doctor-live").wait_for()
 
 
 def show_type(page: Page) -> None:

@@ -168,6 +168,11 @@ class DocumentDisplays:
         ):
             await self._connect()
 
+    @property
+    def states(self) -> DisplayStates | None:
+        """The states sent last; None: nothing was drawn yet."""
+        return self._states.event
+
     def mirror(self, other: KeptDisplays) -> None:
         """Have the displays and tools of another document; how displays look here stays."""
         self.tools.mirror(other.tools)
