@@ -7,6 +7,7 @@ import { CloudDetail } from "./cloud-detail.js";
 import { Door, Removed } from "./door.js";
 import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
+import { Interactive } from "./interactive.js";
 import { Live } from "./live.js";
 import { Looks } from "./link-appearance.js";
 import { pick } from "./picking.js";
@@ -19,7 +20,7 @@ import { RobotView } from "./robot.js";
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `touch {}` (a hand is on the camera), `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * `marker`, `marker_menu`, `marker_hover`, `marker_denied` (see Interactive), `touch {}` (a hand is on the camera), `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
  * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
  */
 class Studio3d {
@@ -41,6 +42,12 @@ class Studio3d {
     this.#door,
     this.#robot,
     new Aim(this.#door, this.#robot, () => this.#camera.distance()),
+  );
+  #interactive = new Interactive(
+    this.#door,
+    () => this.#measuring.on,
+    (x, y) => pick(this.#door, this.#robot, x, y)?.point ?? null,
+    (type, detail) => this.#tell(type, detail),
   );
   #pointer = new Pointer(
     this.#door,
@@ -215,6 +222,36 @@ class Studio3d {
     this.#measuring.setCentre(centre);
   }
 
+  /** Interactive markers, and what can be done with them. @param {readonly import("./interactive.js").Markers[]} displays */
+  setMarkers(displays) {
+    this.#interactive.set(displays);
+  }
+
+  /** Whether this person may move them. @param {boolean} may */
+  setMayMoveMarkers(may) {
+    this.#interactive.setMay(may);
+  }
+
+  /** Whether the tool that is chosen moves them. @param {boolean} on */
+  setInteracting(on) {
+    this.#interactive.setOn(on);
+  }
+
+  /** The studio refused what was done to a marker. @param {string} display @param {number} marker */
+  dropMarker(display, marker) {
+    this.#interactive.drop(display, marker);
+  }
+
+  /** The studio has heard of the release of a marker. @param {string} display @param {number} marker */
+  settleMarker(display, marker) {
+    this.#interactive.settle(display, marker);
+  }
+
+  /** Open the menu of the marker that the mouse is over; whether there is one. */
+  openMarkerMenu() {
+    return this.#interactive.menuHere();
+  }
+
   /** The link at a place of this window, or null. @param {number} x @param {number} y */
   linkAt(x, y) {
     return pick(this.#door, this.#robot, x, y)?.link ?? null;
@@ -227,8 +264,9 @@ class Studio3d {
 
   /** While a link is dragged, Escape means that and nothing else. @param {{ key: string }} stroke */
   #endsDrag({ key }) {
-    if (key !== "Escape" || !this.#pointer.dragging) return false;
+    if (key !== "Escape" || !(this.#pointer.dragging || this.#interactive.dragging)) return false;
     this.#pointer.cancel();
+    this.#interactive.cancel();
     return true;
   }
 

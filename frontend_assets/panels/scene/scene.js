@@ -35,6 +35,7 @@ import {
   viewport,
 } from "../../model/viewport.js";
 import { PlaceLink } from "../parts.js";
+import { MarkerHint, MarkerMenu } from "./marker-parts.js";
 import { MeasureCard } from "./measure-card.js";
 
 /** Whether the 3D view is part of the layout: index.html then has its client fetched at once. */
@@ -53,9 +54,10 @@ export function ScenePanel() {
       src=${id ? `${documentAddress(id)}/viser/` : "about:blank"}></iframe>
     <${Tools} />
     <${MeasureCard} />
+    <${MarkerMenu} />
     <${Cover} />
     <${MeshProgress} />
-    <div class="scene-notices"><${LastGoodNotice} /><${FollowOffer} /><${GraphicsNotice} /></div>
+    <div class="scene-notices"><${LastGoodNotice} /><${FollowOffer} /><${GraphicsNotice} /><${MarkerHint} /></div>
   </section>`;
 }
 

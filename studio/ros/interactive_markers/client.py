@@ -131,6 +131,13 @@ class InteractiveMarkerClient:
         """What it does now."""
         return self._state
 
+    @property
+    def has_news(self) -> bool:
+        """Whether `update` has more to do than to look whether the server is there."""
+        future = self._future
+        is_answered = future is not None and future.done()
+        return bool(self._incoming or self._queue or self._overflowed or is_answered)
+
     def set_initialize_callback(self, callback: MessageCallback) -> None:
         """Have a function called with all markers, after the server answered."""
         self._on_initialize = callback

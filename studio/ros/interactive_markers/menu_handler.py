@@ -78,9 +78,9 @@ class MenuHandler:
             entry.visible = visible
         return entry is not None
 
-    def set_check_state(self, handle: int, check_state: int) -> bool:
+    def set_check_state(self, handle: int | None, check_state: int) -> bool:
         """Check or uncheck an entry, or take its box away; whether there is one."""
-        entry = self._entries.get(handle)
+        entry = None if handle is None else self._entries.get(handle)
         if entry is not None:
             entry.check_state = check_state
         return entry is not None

@@ -174,9 +174,8 @@ class InteractiveMarkerServer:
                 before = known.message
             else:
                 return False
-            if header is None or not header.frame_id:
-                header = before.header
-            self._set_pose(name, pose, header)
+            is_elsewhere = header is not None and header.frame_id
+            self._set_pose(name, pose, header if header and is_elsewhere else before.header)
             return True
 
     def erase(self, name: str) -> bool:
