@@ -10,6 +10,7 @@ import { Light, Theme } from "./theme.js";
 import { Interactive } from "./interactive.js";
 import { Live } from "./live.js";
 import { Looks } from "./link-appearance.js";
+import { MarkerScene } from "./marker-scene.js";
 import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
@@ -45,9 +46,13 @@ class Studio3d {
   );
   #interactive = new Interactive(
     this.#door,
+    new MarkerScene(this.#door, (x, y) => pick(this.#door, this.#robot, x, y)?.point ?? null),
     () => this.#measuring.on,
-    (x, y) => pick(this.#door, this.#robot, x, y)?.point ?? null,
-    (type, detail) => this.#tell(type, detail),
+    (type, detail) => {
+      // What is under a marker is not meant.
+      if (type === "marker_hover") this.#looks.setHovered(null);
+      this.#tell(type, detail);
+    },
   );
   #pointer = new Pointer(
     this.#door,
@@ -222,7 +227,7 @@ class Studio3d {
     this.#measuring.setCentre(centre);
   }
 
-  /** Interactive markers, and what can be done with them. @param {readonly import("./interactive.js").Markers[]} displays */
+  /** Interactive markers, and what can be done with them. @param {readonly import("./marker-scene.js").Markers[]} displays */
   setMarkers(displays) {
     this.#interactive.set(displays);
   }
@@ -239,7 +244,7 @@ class Studio3d {
 
   /** The studio refused what was done to a marker. @param {string} display @param {number} marker */
   dropMarker(display, marker) {
-    this.#interactive.drop(display, marker);
+    this.#interactive.refused(display, marker);
   }
 
   /** The studio has heard of the release of a marker. @param {string} display @param {number} marker */

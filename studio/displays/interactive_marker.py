@@ -108,16 +108,13 @@ class MarkerModel:
         return replace(self, pose=pose)
 
 
-def read_marker(
-    message: MessageValue, types: TypeLibrary, seen_from: SeenFrom, most_controls: int
-) -> MarkerModel:
+def read_marker(message: MessageValue, types: TypeLibrary, seen_from: SeenFrom) -> MarkerModel:
     """Read a completed InteractiveMarker; it takes a while, and may be done in any thread.
 
     Args:
         message: As the client hands it on; it is changed.
         types: Of which it is.
         seen_from: For markers of a control that are in another frame.
-        most_controls: So many of its controls are read.
 
     Raises:
         DisplayMessageError: Nothing of it can be shown.
@@ -130,12 +127,12 @@ def read_marker(
     pose = pose_of(message.pose, f'interactive marker "{shown_name(name)}"')
     if not 0 <= message.scale <= FAR:
         raise _refused(name, f"its scale is {message.scale}")
-    controls = [one for one in message.controls[:most_controls] if len(one.name) <= NAME_MAX]
+    controls = [one for one in message.controls if len(one.name) <= NAME_MAX]
     reading = _Reading(message, types, seen_from, pose)
     shapes = reading.shapes_by_control(controls)
     models = (_control(one, of_one) for one, of_one in zip(controls, shapes, strict=True))
     read = tuple(one for one in models if one is not None)
-    if len(read) < min(len(message.controls), most_controls):
+    if len(read) < len(message.controls):
         reading.problems.append("Some of its controls have names or turns that make no sense.")
     return MarkerModel(
         name=name,

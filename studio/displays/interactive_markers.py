@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, ClassVar, Final, Literal
 
@@ -30,7 +31,7 @@ TRANSPARENCY: Final = "Enable Transparency"
 MARKERS_MAX: Final = 300
 CONTROLS_MAX: Final = 1000
 """Of all markers of a display."""
-_DRAWN_AT_ONCE: Final = 40
+_DRAWN_AT_ONCE: Final = 100
 """Controls whose shapes are new in one drawing: more would hold up the rest."""
 _PROBLEMS_MAX: Final = 6
 _AXIS_RADIUS: Final = 0.05
@@ -49,7 +50,9 @@ class ShownMarker:
         held: Whether somebody drags it; poses of the server wait meanwhile.
         waiting: The last of those.
         drawn: Its groups as they were drawn last.
-        is_stale: Whether its shapes are others now.
+        is_stale: Whether they are to be made anew.
+        shapes: Of its controls, by their numbers, as they are drawn.
+        waiting_shapes: Controls whose shapes are still to be drawn: a few at a time.
     """
 
     number: int
@@ -60,6 +63,8 @@ class ShownMarker:
     waiting: Pose | None = None
     drawn: dict[str, Placed] = field(default_factory=dict[str, "Placed"])
     is_stale: bool = True
+    shapes: dict[int, Mapping[str, Shape]] = field(default_factory=dict[int, "Mapping[str, Shape]"])
+    waiting_shapes: deque[ControlModel] = field(default_factory=deque["ControlModel"])
 
 
 class InteractiveMarkersDisplay(Display):
@@ -98,7 +103,6 @@ class InteractiveMarkersDisplay(Display):
         self._faults: dict[str, str] = {}
         """By marker, why it is not shown."""
         self._left_out = 0
-        self._controls = 0
 
     @classmethod
     def settings_for(cls, topic: str) -> Mapping[str, Value]:
@@ -158,15 +162,19 @@ class InteractiveMarkersDisplay(Display):
             left_out: How many markers or controls were too many to be read.
         """
         self._left_out += left_out
-        self._controls = sum(len(one.model.controls) for one in self._shown.values())
+        room = CONTROLS_MAX - sum(len(one.model.controls) for one in self._shown.values())
         for model in markers:
             self._faults.pop(model.name, None)
-            if shown := self._shown.get(model.name):
-                _replace(shown, model)
-            elif self._has_room_for(model):
-                self._controls += len(model.controls)
+            shown = self._shown.get(model.name)
+            room += len(shown.model.controls) if shown else 0
+            self._left_out += max(0, len(model.controls) - room)
+            fitting = replace(model, controls=model.controls[: max(0, room)])
+            room -= len(fitting.controls)
+            if shown is not None:
+                _replace(shown, fitting)
+            elif len(self._shown) < MARKERS_MAX:
                 self._numbers += 1
-                shown = self._shown[model.name] = ShownMarker(self._numbers, model)
+                shown = self._shown[model.name] = ShownMarker(self._numbers, fitting)
                 _number_controls(shown)
             else:
                 self._left_out += 1
@@ -241,10 +249,13 @@ class InteractiveMarkersDisplay(Display):
         made: dict[str, Placed] = {}
         room, waits = _DRAWN_AT_ONCE, False
         for shown in self._shown.values():
-            if shown.is_stale and room > 0:
-                room -= len(shown.model.controls) + 1
+            while shown.waiting_shapes and room > 0:
+                control = shown.waiting_shapes.popleft()
+                shown.shapes[shown.control_numbers[control.name]] = control.shapes
+                room, shown.is_stale = room - 1, True
+            if shown.is_stale:
                 shown.drawn, shown.is_stale = self._groups(shown), False
-            waits |= shown.is_stale  # the rest comes with the next drawings
+            waits |= bool(shown.waiting_shapes)  # the rest comes with the next drawings
             made |= shown.drawn
         self._drawing = None if waits else made
         return made
@@ -267,10 +278,6 @@ class InteractiveMarkersDisplay(Display):
                 break
         return tuple(found[:_PROBLEMS_MAX])
 
-    def _has_room_for(self, model: MarkerModel) -> bool:
-        controls = self._controls + len(model.controls)
-        return len(self._shown) < MARKERS_MAX and controls <= CONTROLS_MAX
-
     def _set(self, shown: ShownMarker, model: MarkerModel) -> None:
         before, shown.model = shown.model, model
         same_frame = (before.frame, before.stamp_ns) == (model.frame, model.stamp_ns)
@@ -285,7 +292,8 @@ class InteractiveMarkersDisplay(Display):
         parts: dict[str, tuple[Mapping[str, Shape], Pose]] = {}
         for control in model.controls:
             number = shown.control_numbers[control.name]
-            shapes = {f"c{number}-{name}": shape for name, shape in control.shapes.items()}
+            drawn = shown.shapes.get(number, {})
+            shapes = {f"c{number}-{name}": shape for name, shape in drawn.items()}
             if control.facing == OrientationMode.INHERIT:
                 body |= shapes
             elif shapes:
@@ -337,12 +345,15 @@ def _replace(shown: ShownMarker, model: MarkerModel) -> None:
 
 def _number_controls(shown: ShownMarker) -> None:
     numbers = shown.control_numbers
-    names = {one.name for one in shown.model.controls}
+    names = dict.fromkeys(one.name for one in shown.model.controls)
     for name in [one for one in numbers if one not in names]:
-        shown.turns_rad.pop(numbers.pop(name), None)
+        number = numbers.pop(name)
+        shown.turns_rad.pop(number, None)
+        shown.shapes.pop(number, None)
     following = max(numbers.values(), default=-1) + 1
-    for name in names - numbers.keys():
+    for name in [one for one in names if one not in numbers]:
         numbers[name], following = following, following + 1
+    shown.waiting_shapes = deque(shown.model.controls)
 
 
 def _placed(model: MarkerModel, shapes: Mapping[str, Shape], offset: Pose | None) -> Placed:

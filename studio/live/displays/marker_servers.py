@@ -125,6 +125,8 @@ class _Server:
         """Feedback goes out in the order in which it was asked for."""
         self.said: tuple[ClientStatus, str] = ClientStatus.INFO, ""
         self._news: list[_News] = []
+        self._left_out = 0
+        """As the client counted it last."""
 
     @property
     def is_due(self) -> bool:
@@ -157,7 +159,8 @@ class _Server:
         wanted = self.made = self.wanted
         if wanted is None or not wanted.namespace:
             return
-        client = self.client = InteractiveMarkerClient(wanted.link.node)
+        client = InteractiveMarkerClient(wanted.link.node, controls_max=CONTROLS_MAX)
+        self.client, self._left_out = client, 0
         client.set_enable_autocomplete_transparency(wanted.is_transparent)
         client.set_initialize_callback(lambda answer: self._take(answer, clears=True))
         client.set_update_callback(self._take)
@@ -172,34 +175,28 @@ class _Server:
     def _take(self, message: MessageValue, *, clears: bool = False) -> None:
         """Read an answer or an update into values."""
         news = _News(clears=clears)
-        room = CONTROLS_MAX
         for marker in message.markers:
-            if room <= 0:
-                news.left_out += 1
-                continue
-            model = self._read(marker, news, room)
-            room -= len(model.controls) if model is not None else 0
+            self._read(marker, news)
         for one in getattr(message, "poses", ()):
             self._read_pose(one, news)
         news.erased = list(getattr(message, "erases", ()))
+        if self.client is not None:
+            news.left_out = self.client.left_out - self._left_out
+            self._left_out = self.client.left_out
         self._news.append(news)
 
-    def _read(self, marker: MessageValue, news: _News, room: int) -> MarkerModel | None:
-        if not marker.controls:
-            # As in RViz, one without controls is as good as none.
-            news.erased.append(marker.name)
-            return None
+    def _read(self, marker: MessageValue, news: _News) -> None:
         wanted = self.made
-        if wanted is None:
-            return None
+        # As in RViz, one without controls is as good as none.
+        if not marker.controls or wanted is None:
+            news.erased.append(marker.name)
+            return
         try:
-            model = read_marker(marker, wanted.link.types, self._seen_from, room)
+            model = read_marker(marker, wanted.link.types, self._seen_from)
         except (StudioError, ValueError, OverflowError) as error:
             news.refused.append((marker.name, str(error)))
-            return None
-        news.left_out += max(0, len(marker.controls) - room)
+            return
         news.markers.append(model)
-        return model
 
     def _read_pose(self, one: MessageValue, news: _News) -> None:
         stamp = one.header.stamp
@@ -258,6 +255,7 @@ class MarkerServers:
             if server.working is None:
                 server.disconnect()
             server.display.clear()
+        self._tell_changes(at_once=True)
 
     async def close(self) -> None:
         """End all that is running."""
@@ -424,13 +422,14 @@ class MarkerServers:
             place = feedback.mouse_point
             place.x, place.y, place.z = point
 
-    def _tell_changes(self) -> None:
+    def _tell_changes(self, *, at_once: bool = False) -> None:
         """Tell the pages what can be done with the markers, when that changed."""
         now_s = time.monotonic()
         now = tuple(
             (name, id(one.display), one.display.version) for name, one in self._servers.items()
         )
-        if now == self._told or now_s - self._told_s < _TELL_EVERY_S:
+        is_early = now_s - self._told_s < _TELL_EVERY_S and not at_once
+        if now == self._told or is_early:
             return
         self._told, self._told_s = now, now_s
         event = InteractiveMarkers(

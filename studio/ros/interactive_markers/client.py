@@ -79,6 +79,7 @@ class InteractiveMarkerClient:
         target_frame: Markers with a stamp are brought into it.
         topic_namespace: Of the server; if one is given, it connects at once.
         request_timeout_s: After this time without an answer it asks again.
+        controls_max: So many controls of one message are completed and handed on.
         update_sub_qos: Depth of the subscription to updates.
         feedback_pub_qos: Depth of the publisher of feedback.
     """
@@ -91,11 +92,15 @@ class InteractiveMarkerClient:
         topic_namespace: str = "",
         *,
         request_timeout_s: float = 1.0,
+        controls_max: int | None = None,
         update_sub_qos: int = DEPTH,
         feedback_pub_qos: int = DEPTH,
     ) -> None:
         self.client_id = node.get_fully_qualified_name()
         self.topic_namespace = ""
+        self.left_out = 0
+        """Controls that were too many, in all."""
+        self._controls_max = controls_max
         self._node, self._lookup, self._target = node, lookup, target_frame
         self._timeout_s = request_timeout_s
         self._depths = update_sub_qos, feedback_pub_qos
@@ -344,7 +349,12 @@ class InteractiveMarkerClient:
 
     def _completed(self, message: MessageValue) -> MessageContext:
         types = self._node.wire.types
+        room = self._controls_max
         for marker in message.markers:
+            if room is not None:
+                self.left_out += max(0, len(marker.controls) - room)
+                marker.controls = marker.controls[:room]
+                room -= len(marker.controls)
             auto_complete(marker, types, transparent=self._transparent)
         for one in getattr(message, "poses", ()):
             normalize(one.pose.orientation)

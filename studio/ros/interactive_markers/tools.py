@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from studio.ros.interactive_markers.names import CONTROL, Mode, OrientationMode
@@ -89,8 +90,13 @@ def complete_control(
 
 
 def normalize(quaternion: MessageValue) -> None:
-    """Bring a quaternion to length 1, in place; one of zeros becomes no turn."""
+    """Bring a quaternion to length 1, in place; one of zeros becomes no turn.
+
+    One that is not finite stays as it is.
+    """
     parts: list[float] = [quaternion.x, quaternion.y, quaternion.z, quaternion.w]
+    if not all(map(math.isfinite, parts)):
+        return
     largest = max(map(abs, parts))
     if largest == 0:
         quaternion.w = 1.0
@@ -161,19 +167,29 @@ def _arrow(
 
 
 def _disc(marker: MessageValue, control: MessageValue, types: TypeLibrary) -> MessageValue:
-    """Return a ring in the control's y-z plane, whose pattern shows what it does."""
+    """Return a ring in the control's y-z plane, whose pattern shows what it does.
+
+    Its points are those of other rings, too: nobody writes into them.
+    """
     disc, point = _handle(control, types, _TRIANGLES), types.message("geometry_msgs/msg/Point")
     disc.scale.x = disc.scale.y = disc.scale.z = marker.scale
-    pattern = {Mode.ROTATE_AXIS: _turning, Mode.MOVE_ROTATE: _moving_turning}
-    triangles = pattern.get(control.interaction_mode, _moving)
-    color = types.message("std_msgs/msg/ColorRGBA")
-    base = (disc.color.r, disc.color.g, disc.color.b)
-    for corners, shade in triangles():
-        disc.points.extend(point(y=y, z=z) for y, z in map(_on_ring, corners))
-        if triangles is not _moving:
-            red, green, blue = (shade * part for part in base)
-            disc.colors.append(color(r=red, g=green, b=blue, a=1.0))
+    disc.points = list(_points_of(control.interaction_mode, point))
+    if control.interaction_mode != Mode.MOVE_PLANE:
+        color = types.message("std_msgs/msg/ColorRGBA")
+        base = (disc.color.r, disc.color.g, disc.color.b)
+        shades = {
+            shade: color(r=shade * base[0], g=shade * base[1], b=shade * base[2], a=1.0)
+            for shade in (_DARK, 1.0)
+        }
+        disc.colors = [shades[shade] for _, shade in _PATTERNS[control.interaction_mode]()]
     return disc
+
+
+@lru_cache(maxsize=16)
+def _points_of(mode: int, point: type[MessageValue]) -> tuple[MessageValue, ...]:
+    """Return the corners of the triangles of a ring; all rings of a mode have the same."""
+    corners = (corner for triangle, _ in _PATTERNS[mode]() for corner in triangle)
+    return tuple(point(y=y, z=z) for y, z in map(_on_ring, corners))
 
 
 _Corner = tuple[bool, int]
@@ -211,6 +227,13 @@ def _moving() -> Iterator[_Triangles]:
     for at in range(_STEPS):
         yield ((False, at), (True, at), (False, at + 1)), 1.0
         yield ((True, at), (True, at + 1), (False, at + 1)), 1.0
+
+
+_PATTERNS: Final = {
+    int(Mode.MOVE_PLANE): _moving,
+    int(Mode.ROTATE_AXIS): _turning,
+    int(Mode.MOVE_ROTATE): _moving_turning,
+}
 
 
 def _make_view_facing_button(
