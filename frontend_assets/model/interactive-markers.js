@@ -54,12 +54,20 @@ export function attachMarkers(view, signal) {
     askedMenu.value = asked;
   });
   on("marker_hover", point);
+  view.events.addEventListener("key", (event) => takeKey(view, event), { signal });
   on("marker_denied", () => notify(t("markers.denied"), { bad: true }));
   return [
     effect(() => view.setMarkers(state.value.displays)),
     effect(() => view.setMayMoveMarkers(mayAct.value)),
     () => sender.end(),
   ];
+}
+
+/** The menu of what the mouse is over, by the keys that open menus. @param {Studio3d} view @param {Event} event */
+function takeKey(view, event) {
+  const { key, shiftKey } = /** @type {CustomEvent} */ (event).detail;
+  const isMenu = key === "ContextMenu" || (key === "F10" && shiftKey);
+  if (isMenu && view.openMarkerMenu()) event.preventDefault();
 }
 
 /** @param {{display: string, marker: number | null, control: number | null}} over */

@@ -2306,7 +2306,7 @@ export interface Progress {
 /** A property of a kind of display. */
 export interface PropertyView {
   name: string;
-  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame";
+  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame" | "marker_server";
   default: boolean | number | string;
   doc: string;
   low: number | null;

@@ -16,6 +16,7 @@ import {
   framesNow,
   kinds,
   listenTo,
+  markerServersNow,
   setProperty,
   settingOf,
   topicsNow,
@@ -162,6 +163,9 @@ function Editor({ display, property }) {
     case "frame":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} none=${t("live.frame.none")}
         choices=${async () => ["<Fixed Frame>", ...(await framesNow()).map(nameOf)]} />`;
+    case "marker_server":
+      return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} none=${t("live.marker_servers.none")}
+        choices=${markerServersNow} />`;
     case "text":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} placeholder="" />`;
     default:
