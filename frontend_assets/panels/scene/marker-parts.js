@@ -26,6 +26,11 @@ export function MarkerHint() {
     <span><strong>${description || marker.description || marker.name}</strong> ${does.join(" · ")}</span></div>`;
 }
 
+function focusView() {
+  const frame = document.querySelector(".scene iframe");
+  if (frame instanceof HTMLElement) frame.focus();
+}
+
 /** Opens the menu of a marker where it was asked for. */
 export function MarkerMenu() {
   const anchor = useRef(/** @type {HTMLButtonElement | null} */ (null));
@@ -40,7 +45,9 @@ export function MarkerMenu() {
     const menu = openMenu(button, marker.description || marker.name, itemsOf(marker.menu, 0, run));
     return () => menu.close();
   }, [asked]);
-  return html`<button type="button" class="menu-anchor" tabindex=${-1} aria-hidden="true" ref=${anchor}></button>`;
+  // Nothing is to be done with it: who closes the menu is back in the 3D view.
+  return html`<button type="button" class="menu-anchor" tabindex=${-1} aria-label=${t("markers.menu_of")} ref=${anchor}
+    onFocus=${focusView}></button>`;
 }
 
 /** @param {readonly MenuItemView[]} entries @param {number} parent @param {(entry: number) => void} run @returns {MenuItem[]} */
