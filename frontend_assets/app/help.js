@@ -120,6 +120,7 @@ const OTHERS = {
     search: "search",
     ros: "link",
     live: "radar",
+    markers: "hand",
     keys: "keyboard",
     class: "users",
     own_nodes: "node",
