@@ -16,7 +16,7 @@ import { connectRos, ros } from "../model/ros.js";
 import { ageWords, flowWords, useTopicRates } from "../model/topics.js";
 
 /** @typedef {"topic" | "kind"} By */
-/** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string}} Offer `off`: why it cannot be added */
+/** @typedef {{key: string, icon: string, kind: string, topic: string, types: string, doc: string, publishers: number, off: string}} Offer `off`: why it cannot be added */
 
 const TABS = /** @type {const} */ (["topic", "kind"]);
 /** The demo that publishes what displays show. */
@@ -38,7 +38,7 @@ export function AddDisplayDialog({ onClose }) {
   useEffect(() => void needKinds(), []);
   const offers =
     by.value === "topic"
-      ? foundTopics(topics.value ?? [], words.value).map(topicOffer)
+      ? foundTopics(topics.value ?? [], words.value).flatMap(topicOffers)
       : kindOffers(words.value);
   const chosen = Math.min(at.value, offers.length - 1);
   const add = async (/** @type {Offer | undefined} */ offer) => {
@@ -73,14 +73,16 @@ export function AddDisplayDialog({ onClose }) {
         }} />
       </div>
       ${by.value === "topic" && html`<${Connection} count=${topics.value?.length ?? 0} onDone=${seek} />`}
-      <${Offers} offers=${offers} chosen=${chosen} label=${t("live.add.title")} onPoint=${(
+      <${OfferHead} by=${by.value} />
+      <${Offers} offers=${offers} by=${by.value} chosen=${chosen} label=${t("live.add.title")} onPoint=${(
         /** @type {number} */ n,
       ) => {
         at.value = n;
       }} onAdd=${add} />
       ${offers.length === 0 && words.value !== "" && html`<p class="nothing">${t("filter.nothing", { words: words.value })}</p>`}
+      <p class="offer-description" aria-live="polite">${descriptionOf(offers[chosen])}</p>
     </div>
-    <footer><span class="form-note">${offers[chosen]?.off ?? ""}</span><span class="push"></span>
+    <footer><span class="push"></span>
       <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
       <button type="button" class="button primary" disabled=${!mayEdit.value || busy.value || !offers[chosen] || offers[chosen]?.off !== ""}
         onClick=${() => add(offers[chosen])}>${t("live.add")}</button></footer>
@@ -93,19 +95,19 @@ function useTopics() {
   return useTold(first, topicsNow, (look) => askedWhenChanged(look, "graph"));
 }
 
-/** @param {TopicView} topic @returns {Offer} */
-function topicOffer({ name, types, publishers, kind }) {
-  const off = kind === "" ? t("live.add.unshown", { type: types[0] ?? "" }) : "";
-  return {
-    key: name,
+/** @param {TopicView} topic @returns {Offer[]} one for each display that can show it, the best first */
+function topicOffers({ name, types, publishers, kinds: fitting }) {
+  const off = fitting.length === 0 ? t("live.add.unshown", { type: types[0] ?? "" }) : "";
+  return (fitting.length > 0 ? fitting : [""]).map((kind) => ({
+    key: `${name} ${kind}`,
     icon: kind === "" ? "minus" : (kinds.value.get(kind)?.icon ?? "box"),
-    label: name,
-    note: [types.join(", "), t("live.publishers", { count: publishers })].join(" · "),
-    aside: kind,
-    off,
     kind,
     topic: name,
-  };
+    types: types.join(", "),
+    doc: kinds.value.get(kind)?.doc ?? "",
+    publishers,
+    off,
+  }));
 }
 
 /** @param {string} words @returns {Offer[]} */
@@ -119,13 +121,31 @@ function kindOffers(words) {
 const kindOffer = ({ kind, doc, icon, types }) => ({
   key: kind,
   icon,
-  label: kind,
-  note: doc,
-  aside: types[0]?.split("/").at(-1) ?? "",
-  off: "",
   kind,
   topic: "",
+  types: types.join(", "),
+  doc,
+  publishers: 0,
+  off: "",
 });
+
+/** @param {Offer | undefined} offer @returns {string} what the chosen one draws, or why it cannot be added */
+function descriptionOf(offer) {
+  if (!offer) return "";
+  const { kind, doc, off, topic, publishers } = offer;
+  const who = topic ? t("live.publishers", { count: publishers }) : "";
+  return [off, kind && `${kind}: ${doc}`, who].filter(Boolean).join(" · ");
+}
+
+/** @param {{by: By}} props the names of the columns; each row says them to screen readers by itself */
+function OfferHead({ by }) {
+  const columns =
+    by === "topic"
+      ? ["topic", "type", "display", "rate"].map((one) => [one, one === "type" ? "offer-wide" : ""])
+      : ["display", "doc", "type"].map((one) => [one, one === "type" ? "offer-wide" : ""]);
+  return html`<div class=${`offer-head of-${by}`} aria-hidden="true"><span></span>
+    ${columns.map(([one, name]) => html`<span key=${one} class=${`${name} ${one === "rate" ? "numbers" : ""}`}>${t(`live.add.column.${one}`)}</span>`)}</div>`;
+}
 
 /** @param {{chosen: By, onChoose: (tab: By) => void}} props */
 function Tabs({ chosen, onChoose }) {
@@ -181,8 +201,8 @@ function Connection({ count, onDone }) {
   </div>`;
 }
 
-/** @param {{offers: readonly Offer[], chosen: number, label: string, onPoint: (n: number) => void, onAdd: (offer: Offer) => void}} props */
-function Offers({ offers, chosen, label, onPoint, onAdd }) {
+/** @param {{offers: readonly Offer[], by: By, chosen: number, label: string, onPoint: (n: number) => void, onAdd: (offer: Offer) => void}} props */
+function Offers({ offers, by, chosen, label, onPoint, onAdd }) {
   const list = useRef(/** @type {HTMLElement | null} */ (null));
   const rates = useTopicRates(() => topicsInView(list.current));
   useEffect(() => {
@@ -190,11 +210,11 @@ function Offers({ offers, chosen, label, onPoint, onAdd }) {
   }, [chosen]);
   return html`<div class="add-display-list scroll" role="listbox" tabindex="0" aria-label=${label} ref=${list}>
     <${LongList} items=${offers} keyOf=${(/** @type {Offer} */ { key }) =>
-      key} row="44px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
+      key} row="36px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
       draw=${(
         /** @type {Offer} */ offer,
         /** @type {number} */ n,
-      ) => html`<${OfferRow} key=${offer.key} offer=${offer} chosen=${n === chosen} rate=${rates.value.get(offer.topic)}
+      ) => html`<${OfferRow} key=${offer.key} offer=${offer} by=${by} chosen=${n === chosen} rate=${rates.value.get(offer.topic)}
         onPoint=${() => onPoint(n)} onAdd=${() => onAdd(offer)} />`} />
   </div>`;
 }
@@ -211,15 +231,17 @@ function topicsInView(list) {
     .map((row) => row.getAttribute("data-topic") ?? "");
 }
 
-/** @param {{offer: Offer, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
-function OfferRow({ offer, chosen, rate, onPoint, onAdd }) {
-  const { icon, label, note, aside, off, topic } = offer;
-  return html`<div role="option" class="display-offer" aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
-    title=${off || note} onClick=${onPoint} onDblClick=${onAdd}>
+/** @param {{offer: Offer, by: By, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
+function OfferRow({ offer, by, chosen, rate, onPoint, onAdd }) {
+  const { icon, kind, topic, types, doc, off } = offer;
+  return html`<div role="option" class=${`display-offer of-${by}`} aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
+    title=${off || doc} onClick=${onPoint} onDblClick=${onAdd}>
     <${Icon} name=${icon} size=${18} />
-    <span class="offer-words"><span>${label}</span><small>${note}</small></span>
-    ${topic && html`<${Flow} rate=${rate} />`}
-    <span class="offer-aside">${aside}</span>
+    ${
+      by === "topic"
+        ? html`<span>${topic}</span><span class="offer-more offer-wide" title=${types}>${types}</span><span>${kind}</span><${Flow} rate=${rate} />`
+        : html`<span>${kind}</span><span class="offer-more">${doc}</span><span class="offer-more offer-wide" title=${types}>${types}</span>`
+    }
   </div>`;
 }
 

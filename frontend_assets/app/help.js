@@ -121,6 +121,7 @@ const OTHERS = {
     ros: "link",
     live: "radar",
     markers: "hand",
+    rviz: "list",
     keys: "keyboard",
     class: "users",
     own_nodes: "node",
@@ -153,4 +154,7 @@ export const OF_DIALOG = {
   remark: "class",
   ros: "ros",
   add_display: "live",
+  rviz_open: "rviz",
+  rviz_save: "rviz",
+  rviz_opened: "rviz",
 };

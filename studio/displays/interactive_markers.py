@@ -85,7 +85,9 @@ class InteractiveMarkersDisplay(Display):
     ICON = "hand"
     OF_TYPES: ClassVar[tuple[str, ...]] = (UPDATE,)
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
-        Property(NAMESPACE, "marker_server", "", "Namespace of the server's topics, as /basic_controls."),
+        Property(
+            NAMESPACE, "marker_server", "", "Namespace of the server's topics, as /basic_controls."
+        ),
         switch(DESCRIPTIONS, "Shows the description of each marker above it.", on=True),
         switch(AXES, "Shows the axes of each marker.", on=False),
         switch(VISUAL_AIDS, "Shows the axis along or about which a marker is moved.", on=False),

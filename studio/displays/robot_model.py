@@ -11,11 +11,15 @@ import numpy as np
 from studio.displays.display import Received, Status, StillDisplay, TopicRole, reading_fields
 from studio.displays.drawing import NO_TURN, Axes, LinkParts, Placed, link_frame
 from studio.displays.properties import UPDATE_INTERVAL, Property
+from studio.displays.selection import Fact, Item, number_fact, numbers_fact
 from studio.errors import DisplayError, DisplayMessageError
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from studio.displays.drawing import Drawing, Shape
+    from studio.displays.selection import Picked
 
 LINKS_MAX: Final = 2000
 PARTS_MAX: Final = 10_000
@@ -174,6 +178,20 @@ class RobotModelDisplay(StillDisplay):
         """Return what is wrong with the description, and why the robot is invisible."""
         return (*self._of_description(), *self._of_settings())
 
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the link that a path is of."""
+        return (picked.path,) if picked.path in self.robot.links else ()
+
+    def item(self, key: str) -> Item | None:
+        """Return a link that is shown."""
+        if key not in self._shown():
+            return None
+        return Item("link", key, key, self.frame_of(key), 0, None)
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return what the description says of a link and the joint above it."""
+        return link_facts(self.robot, key)
+
     def _of_description(self) -> tuple[Status, ...]:
         if self._fault:
             return (Status("error", "bad_message", self._fault),)
@@ -237,6 +255,23 @@ class RobotModelDisplay(StillDisplay):
                 doc = "Shows the axes of this link."
                 return Property(name, "switch", default=False, doc=doc)
         return Property(name, "switch", default=True, doc="Shows this link.")
+
+
+def link_facts(robot: Robot, name: str) -> tuple[Fact, ...]:
+    """Return the mass of a link, its shapes, and the joint that moves it."""
+    link = robot.links.get(name)
+    if link is None:
+        return ()
+    found = [Fact("link", name)]
+    joint = next((one for one in robot.joints.values() if one.child == name), None)
+    if joint is not None:
+        found += [
+            Fact("parent", joint.parent), Fact("joint", joint.name), Fact("type", str(joint.type)),
+            numbers_fact("axis", joint.axis, "", "vector"),
+        ]  # fmt: skip
+    if link.inertial is not None:
+        found.append(number_fact("mass", link.inertial.mass_kg, "kg"))
+    return (*found, Fact("visuals", len(link.visuals)), Fact("collisions", len(link.collisions)))
 
 
 def _check(robot: Robot) -> None:

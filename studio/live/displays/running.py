@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from studio.displays.catalogue import display_of_kind, displays_of_type
 from studio.displays.display import Display, Received, Status
 from studio.displays.drawing import NOTHING
+from studio.displays.failed import FailedDisplay
 from studio.errors import DisplayPropertyError, StudioError
 from studio.live.displays.placing import Placing
 from studio.live.displays.reasons import Facts
@@ -48,7 +49,7 @@ class RunningDisplay:
 
     def __init__(self, spec: DisplaySpec, types: TypeLibrary) -> None:
         self.spec, self._types = spec, types
-        self.display: Display = display_of_kind(spec.kind)(types)
+        self.display: Display = _display_of(spec, types)
         for name, value in spec.values.items():
             with suppress(DisplayPropertyError):  # kept by another studio: the others still hold
                 self.display.set(name, value)
@@ -61,6 +62,11 @@ class RunningDisplay:
         self._instead = ""
         self._bad_message = ""
         self._placed_ns = 0
+
+    @property
+    def shown(self) -> Shown:
+        """What is drawn, and the poses of its groups in the fixed frame."""
+        return self.placing.shown
 
     @property
     def topics(self) -> tuple[str, ...]:
@@ -141,6 +147,18 @@ class RunningDisplay:
         if fit is None or not fit.latched:
             self.forget()
 
+    @property
+    def received(self) -> int:
+        """Messages on the main topic since it was subscribed."""
+        main = self._subscriptions.get("")
+        return main.received if main else 0
+
+    def begin_anew(self) -> None:
+        """Forget what came and subscribe again with the next check: what is latched comes again."""
+        self.unsubscribe()
+        self.forget()
+        self._bad_message = ""
+
     def forget(self) -> None:
         """Show nothing of what came: it is of another connection."""
         self.display.reset()
@@ -183,7 +201,7 @@ class RunningDisplay:
             types=roles[0].types if roles else (),
             fitting_kind=fitting.KIND if fitting else "",
             instead=self._instead,
-            received=main.received if main else 0,
+            received=self.received,
             silent_s=age_s if age_s is not None and age_s > self._patience_s else None,
             frames=tuple(_first_of_each(self.placing.troubles.values())),
             frame=next((drawing[one].frame for one in self.placing.troubles if one in drawing), ""),
@@ -228,6 +246,13 @@ class RunningDisplay:
         if self._bad_message != _NOT_DRAWN:
             _log.exception("A message on %s could not be drawn.", self.spec.topic)
         self._bad_message = _NOT_DRAWN
+
+
+def _display_of(spec: DisplaySpec, types: TypeLibrary) -> Display:
+    """Return the display of a spec; for one of an `.rviz` file that is not here, why it is not."""
+    if spec.entry and "/" in spec.kind:
+        return FailedDisplay(types, spec.kind)
+    return display_of_kind(spec.kind)(types)
 
 
 def request_for(role: TopicRole, topic: str, chosen: Listening) -> Request:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.live.connection.topic_kinds import carried_types, kind_for
+from studio.live.connection.topic_kinds import carried_types, kinds_for
 from studio.protocol.displays import TopicView
 
 if TYPE_CHECKING:
@@ -17,6 +17,14 @@ def topic_views(link: WireLink) -> tuple[TopicView, ...]:
     for name, _ in link.graph.topics():
         if publishers := link.graph.publishers(name):
             types = carried_types(publishers, ())
-            kind = kind_for(name, types)
-            found.append(TopicView(name=name, types=types, publishers=len(publishers), kind=kind))
+            kinds = kinds_for(name, types)
+            found.append(
+                TopicView(
+                    name=name,
+                    types=types,
+                    publishers=len(publishers),
+                    kind=next(iter(kinds), ""),
+                    kinds=kinds,
+                )
+            )
     return tuple(found)
