@@ -34,6 +34,7 @@ CONTROLS_MAX: Final = 1000
 _DRAWN_AT_ONCE: Final = 100
 """Controls whose shapes are new in one drawing: more would hold up the rest."""
 _PROBLEMS_MAX: Final = 6
+_NAME_KEPT: Final = 1000
 _AXIS_RADIUS: Final = 0.05
 """Of the axes of a marker, as a share of their length."""
 
@@ -166,7 +167,7 @@ class InteractiveMarkersDisplay(Display):
         self._left_out += left_out
         room = CONTROLS_MAX - sum(len(one.model.controls) for one in self._shown.values())
         for model in markers:
-            self._faults.pop(model.name, None)
+            self._faults.pop(model.name[:_NAME_KEPT], None)
             shown = self._shown.get(model.name)
             room += len(shown.model.controls) if shown else 0
             self._left_out += max(0, len(model.controls) - room)
@@ -186,7 +187,7 @@ class InteractiveMarkersDisplay(Display):
     def refuse(self, name: str, sentence: str) -> None:
         """Say why a marker is not shown; one of that name from before stays."""
         if len(self._faults) < MARKERS_MAX:
-            self._faults[name[:MARKERS_MAX]] = sentence
+            self._faults[name[:_NAME_KEPT]] = sentence
 
     def move(self, name: str, pose: Pose, frame: str | None = None, stamp_ns: int = 0) -> bool:
         """Take a pose from the server; False: there is no such marker.
@@ -213,7 +214,7 @@ class InteractiveMarkersDisplay(Display):
     def erase(self, names: Iterable[str]) -> None:
         """Show these no more."""
         for name in names:
-            self._faults.pop(name, None)
+            self._faults.pop(name[:_NAME_KEPT], None)
             if self._shown.pop(name, None) is not None:
                 self._drawing = None
         self.version += 1

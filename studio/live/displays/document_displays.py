@@ -15,12 +15,14 @@ from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
 from studio.live.displays.document_tools import DocumentTools
+from studio.live.displays.followed_markers import COMMANDS as MARKER_COMMANDS
+from studio.live.displays.followed_markers import FollowedMarkers
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_clock import SceneClock
 from studio.live.displays.selecting import AllDrawn
-from studio.protocol.commands import Commands, Limits, OnCopies, Scope
+from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
@@ -44,7 +46,6 @@ from studio.protocol.displays import (
     Topics,
 )
 from studio.protocol.listeners import LastSent
-from studio.protocol.markers import InteractWithMarker
 from studio.protocol.roles import Visitor
 from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene, SceneTime
 
@@ -57,7 +58,6 @@ if TYPE_CHECKING:
     from studio.live.displays.display_list import DisplaySpec
     from studio.live.displays.document_tools import ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
-    from studio.live.displays.marker_servers import MarkerServers
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
     from studio.live.displays.robot_reading import RobotReader
@@ -74,8 +74,6 @@ _UNSEEN_S: Final = 10.0
 """After so long without a page, subscribing and drawing stop; a reload is quicker than that."""
 _PAUSE_SHARE: Final = 0.5
 """After a step that took long, others get this share of its time."""
-_INTERACTIVE: Final = "InteractiveMarkers"
-"""The kind of displays whose servers are followed."""
 _ASKED_FOR_S: Final = 5.0
 """TF is subscribed so long after frames were asked for: a panel asks every second."""
 
@@ -115,8 +113,7 @@ class DocumentDisplays:
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
-        self._servers: MarkerServers | None = None
-        """Made with the first display of interactive markers."""
+        self._markers = FollowedMarkers(audience)
         self._ticking: asyncio.Task[None] | None = None
         self._keeping: asyncio.Task[None] | None = None
         self._unkept: KeptDisplays | None = None
@@ -228,8 +225,7 @@ class DocumentDisplays:
         yield self.tools.event()
         if self._states.event is not None:
             yield self._states.event
-        if self._servers is not None:
-            yield self._servers.event
+        yield from self._markers.events()
 
     async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
@@ -350,11 +346,10 @@ class DocumentDisplays:
         if frame and frame not in frames.own.links:
             await self._connect()
 
-    async def interact(self, command: InteractWithMarker, who: Listener) -> None:
-        """Do something to an interactive marker."""
-        if self._servers is None:
-            raise CommandError("There is no display of interactive markers any more.")
-        await self._servers.interact(command, who)
+    @property
+    def markers(self) -> FollowedMarkers:
+        """Its interactive markers."""
+        return self._markers
 
     def shown(self, display: str) -> Shown:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
@@ -444,8 +439,7 @@ class DocumentDisplays:
         """Receive nothing until it is drawn again."""
         if self._robots is not None:
             self._robots.let_go()
-        if self._servers is not None:
-            self._servers.let_go()
+        self._markers.let_go()
         if self._made is not None:
             self._made.unsubscribe()
 
@@ -458,8 +452,7 @@ class DocumentDisplays:
         self.let_go()
         if self._robots is not None:
             await self._robots.close()
-        if self._servers is not None:
-            await self._servers.close()
+        await self._markers.close()
         if self._made is not None:
             self._made.close_all()
         if self._keeping is not None:
@@ -559,22 +552,9 @@ class DocumentDisplays:
         room = self._room
         if self._robots is not None:
             self._robots.step(room.displays(), self._wire.current)
-        self._follow_servers(room)
-        room.step(self._list, time.time_ns())
-
-    def _follow_servers(self, room: DrawingRoom) -> None:
-        """Let the clients of interactive markers work; they are made with the first display."""
-        if self._servers is None:
-            if not any(one.KIND == _INTERACTIVE for one in room.displays().values()):
-                return
-            from studio.live.displays.marker_servers import (  # noqa: PLC0415 - imports zenoh
-                MarkerServers,
-            )
-
-            self._servers = MarkerServers(room.frames, self._audience.send)
         shown = {one.id for one in self._list if self._list.is_shown(one)}
-        displays = {name: one for name, one in room.displays().items() if name in shown}
-        self._servers.step(displays, self._wire.current)
+        self._markers.step(room, shown, self._wire.current)
+        room.step(self._list, time.time_ns())
 
     def _log_once(self, error: Exception) -> None:
         """Log the error of a tick, unless it is the one logged last: there are many ticks."""
@@ -624,17 +604,11 @@ COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
 COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c))
-COMMANDS.controller(
-    InteractWithMarker,
-    lambda displays, c, who: displays.interact(c, who),
-    scope=Scope.ROS,
-    needs_router=True,
-    limits=Limits(bytes_max=2_000, per_second=150),
-)
 COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(MARKER_COMMANDS, lambda displays, _: displays.markers)
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
 COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
 

@@ -320,8 +320,8 @@ class MarkerServers:
 
     def _show(self, server: _Server, news: _News) -> None:
         display = server.display
-        if self._servers.get(_id_of(self._servers, server)) is not server:
-            return
+        if server not in self._servers.values():
+            return  # its display was removed meanwhile
         if news.clears:
             self._forget_holders(server)
             display.clear()
@@ -457,10 +457,6 @@ class MarkerServers:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()):
             _log.error("An interactive marker server could not be followed.", exc_info=error)
-
-
-def _id_of(servers: Mapping[str, _Server], server: _Server) -> str:
-    return next((name for name, one in servers.items() if one is server), "")
 
 
 def _publish(server: _Server, feedback: Iterable[MessageValue]) -> None:

@@ -90,7 +90,7 @@ class Stage:
 
     async def act(self, name: str, action: str, ear: Ear | None = None, **ways: Any) -> None:  # noqa: ANN401
         """Do something to a marker, from one page or another."""
-        live = self.studio.document.live
+        live = self.studio.document.live.markers
         await live.interact(self.asked(name, action, **ways), ear or self.studio.ear)
 
     def events(self) -> list[str]:
@@ -260,7 +260,7 @@ def test_a_server_that_dies_in_a_drag_ends_it(endpoint: str, tmp_path: Path, tes
             made.server.shutdown()
             await until(lambda: not made.views)
             with pytest.raises(CommandError, match="not there any more"):
-                await made.studio.document.live.interact(asked, made.studio.ear)
+                await made.studio.document.live.markers.interact(asked, made.studio.ear)
 
     asyncio.run(story())
 
