@@ -57,6 +57,10 @@ SEEN_AT = """(name) => {
   const node = document.querySelector("iframe").contentWindow.__viserMutable.nodeRefFromName[name];
   return node ? [node.position.x, node.position.y, node.position.z] : null;
 }"""
+SHOWN = """[/m1-body.c1-/, /m1-body.c0-/].map((name) => Object.entries(
+  __viserMutable.nodeRefFromName).find(([one]) => name.test(one))[1].visible)"""
+"""Of the first marker, whether a ring and the box, which is always visible, are seen."""
+TAKE = "(tool) => document.querySelector('iframe').contentWindow.studio3d.setTool(tool)"
 CURSOR = "() => document.querySelector('iframe').contentDocument.documentElement.dataset.cursor"
 
 
@@ -215,6 +219,12 @@ def test_every_mode_moves_what_it_should_and_who_only_looks_moves_nothing(
         wait_until("the click", lambda: "BUTTON_CLICK" in view.events("button"))
 
         view.look(-1.5, -3.0)
+        shown = lambda: page.evaluate(IN_VIEW, SHOWN)  # noqa: E731
+        assert shown() == [True, True]
+        page.evaluate(TAKE, "MoveCamera")
+        wait_until("the handles to hide", lambda: shown() == [False, True])
+        page.evaluate(TAKE, "Interact")
+        wait_until("the handles", lambda: shown() == [True, True])
         page.touchscreen.tap(*view.at(-1.5, -3.16, 0.05))
         page.get_by_role("menuitem", name="First entry").press("Escape")
         viewer_moves_nothing(browser, address, view)

@@ -89,7 +89,7 @@ class InteractiveMarkerServer:
 
     Nothing changes for clients before `apply_changes`, which publishes all changes as one update.
     Methods may be called from callbacks and from any thread. Markers are copied on the way in and
-    out. ROS 2's servers publish no keep-alives: a client sees by the service whether one is there.
+    out. ROS 2's servers do not say all the time that they live: a client sees it by the service.
 
     Args:
         node: Publishes, subscribes and serves below `topic_ns`.
