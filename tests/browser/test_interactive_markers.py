@@ -179,55 +179,63 @@ def test_every_mode_moves_what_it_should_and_who_only_looks_moves_nothing(
     browser: Browser, tmp_path: Path
 ):
     with markers(browser, tmp_path) as (view, address):
-        page = view.page
-        view.look(-1.5, -1.5)
-        angle = math.radians(-60)
-        ring = (-1.5 + 0.4 * math.cos(angle), -1.5 + 0.4 * math.sin(angle), 0.0)
-        view.drag(ring, (-1.0, -1.6, 0.0))
-        moved = view.released("quadrocopter").pose
-        grip = math.atan2(-1.6 - moved.position.y, -1.0 - moved.position.x)
-        turn = 2 * math.atan2(moved.orientation.z, moved.orientation.w)
-        assert grip == pytest.approx(angle + turn, abs=0.05), "what was gripped is at the mouse"
-
-        view.look(0.0, -1.5)
-        view.drag((0.2, -1.5 - 0.3464, 0.0), (0.3464, -1.5 - 0.2, 0.0))
-        turned = view.released("pan_tilt").pose
-        assert 2 * math.degrees(math.asin(turned.orientation.z)) == pytest.approx(30, abs=2)
-
-        view.look(-1.5, 0.0)
-        view.drag((-1.5, -0.17, 0.1), (-1.3, -0.17, 0.3))
-        free = view.released("move_3d").pose.position
-        assert (free.x, free.z) == pytest.approx((-1.3, 0.15), abs=0.12)
-        view.look(0.0, 0.0)
-        view.drag((0.0, -0.17, 0.1), (0.3, -0.17, 0.1))
-        assert abs(view.released("rotate_3d").pose.orientation.w) < 0.95
-        view.look(1.5, 0.0)
-        page.keyboard.down("Control")
-        view.drag((1.5, -0.17, 0.1), (1.8, -0.17, 0.1))
-        both = view.released("move_rotate_3d").pose
-        page.keyboard.up("Control")
-        assert abs(both.orientation.w) < 0.95
-        assert both.position.x == pytest.approx(1.5)
-
-        view.look(1.5, -1.5)
-        view.drag((1.5, -1.65, 0.05), (1.9, -1.2, 0.05))
-        view.released("chess_piece")
-        wait_until("the snap", lambda: view.seen("chess_piece")[:2] == pytest.approx((1.8, -1.0)))
-        view.look(0.0, -3.0)
-        view.hover(0.0, -3.16, 0.05)
-        page.mouse.click(*view.at(0.0, -3.16, 0.05))
-        wait_until("the click", lambda: "BUTTON_CLICK" in view.events("button"))
-
-        view.look(-1.5, -3.0)
-        shown = lambda: page.evaluate(IN_VIEW, SHOWN)  # noqa: E731
-        assert shown() == [True, True]
-        page.evaluate(TAKE, "MoveCamera")
-        wait_until("the handles to hide", lambda: shown() == [False, True])
-        page.evaluate(TAKE, "Interact")
-        wait_until("the handles", lambda: shown() == [True, True])
-        page.touchscreen.tap(*view.at(-1.5, -3.16, 0.05))
-        page.get_by_role("menuitem", name="First entry").press("Escape")
+        every_mode_moves_what_it_should(view)
+        clicks_are_heard_and_another_tool_hides_handles(view)
         viewer_moves_nothing(browser, address, view)
+
+
+def every_mode_moves_what_it_should(view: View) -> None:
+    view.look(-1.5, -1.5)
+    angle = math.radians(-60)
+    ring = (-1.5 + 0.4 * math.cos(angle), -1.5 + 0.4 * math.sin(angle), 0.0)
+    view.drag(ring, (-1.0, -1.6, 0.0))
+    moved = view.released("quadrocopter").pose
+    grip = math.atan2(-1.6 - moved.position.y, -1.0 - moved.position.x)
+    turn = 2 * math.atan2(moved.orientation.z, moved.orientation.w)
+    assert grip == pytest.approx(angle + turn, abs=0.05), "what was gripped is at the mouse"
+
+    view.look(0.0, -1.5)
+    view.drag((0.2, -1.5 - 0.3464, 0.0), (0.3464, -1.5 - 0.2, 0.0))
+    turned = view.released("pan_tilt").pose
+    assert 2 * math.degrees(math.asin(turned.orientation.z)) == pytest.approx(30, abs=2)
+
+    view.look(-1.5, 0.0)
+    view.drag((-1.5, -0.17, 0.1), (-1.3, -0.17, 0.3))
+    free = view.released("move_3d").pose.position
+    assert (free.x, free.z) == pytest.approx((-1.3, 0.15), abs=0.12)
+    view.look(0.0, 0.0)
+    view.drag((0.0, -0.17, 0.1), (0.3, -0.17, 0.1))
+    assert abs(view.released("rotate_3d").pose.orientation.w) < 0.95
+    view.look(1.5, 0.0)
+    view.page.keyboard.down("Control")
+    view.drag((1.5, -0.17, 0.1), (1.8, -0.17, 0.1))
+    both = view.released("move_rotate_3d").pose
+    view.page.keyboard.up("Control")
+    assert abs(both.orientation.w) < 0.95
+    assert both.position.x == pytest.approx(1.5)
+
+    view.look(1.5, -1.5)
+    view.drag((1.5, -1.65, 0.05), (1.9, -1.2, 0.05))
+    view.released("chess_piece")
+    wait_until("the snap", lambda: view.seen("chess_piece")[:2] == pytest.approx((1.8, -1.0)))
+
+
+def clicks_are_heard_and_another_tool_hides_handles(view: View) -> None:
+    page = view.page
+    view.look(0.0, -3.0)
+    view.hover(0.0, -3.16, 0.05)
+    page.mouse.click(*view.at(0.0, -3.16, 0.05))
+    wait_until("the click", lambda: "BUTTON_CLICK" in view.events("button"))
+
+    view.look(-1.5, -3.0)
+    shown = lambda: page.evaluate(IN_VIEW, SHOWN)  # noqa: E731
+    assert shown() == [True, True]
+    page.evaluate(TAKE, "MoveCamera")
+    wait_until("the handles to hide", lambda: shown() == [False, True])
+    page.evaluate(TAKE, "Interact")
+    wait_until("the handles", lambda: shown() == [True, True])
+    page.touchscreen.tap(*view.at(-1.5, -3.16, 0.05))
+    page.get_by_role("menuitem", name="First entry").press("Escape")
 
 
 def viewer_moves_nothing(browser: Browser, address: str, view: View) -> None:
