@@ -7,6 +7,9 @@
 import { pick } from "./picking.js";
 import { far } from "./tools/tool.js";
 
+/** A notch of a wheel in browsers. */
+const WHEEL_PX = 100;
+
 /** The mouse, a finger or a pen over the picture: what it does is told to the tool in hand. */
 export class Pointer {
   /** @type {Tool} */
@@ -81,7 +84,8 @@ export class Pointer {
     window.addEventListener("pointerup", (event) => this.#up(event), options);
     window.addEventListener("pointercancel", () => this.#lose(), options);
     window.addEventListener("blur", () => this.cancel());
-    window.addEventListener("wheel", () => this.#touch(), { capture: true, passive: true });
+    const wheel = (/** @type {WheelEvent} */ event) => this.#wheel(event);
+    window.addEventListener("wheel", wheel, { capture: true, passive: false });
     document.addEventListener("pointerleave", () => {
       this.#at = this.#newest = null;
       if (!this.#pressed) this.#tool.hover(null);
@@ -103,12 +107,9 @@ export class Pointer {
     }
     const spot = spotOf(event);
     const modified = spot.shift || spot.ctrl;
-    if (event.button !== 0 || (modified && !this.#tool.takesModified)) {
-      this.#touch();
-      return;
-    }
-    const own = !spot.free && this.#tool.down(spot);
-    this.#pressed = { spot, id: event.pointerId, own };
+    const isPlain = event.button === 0 && (this.#tool.takesModified || !modified);
+    const own = !spot.free && this.#tool.wants(spot) && this.#tool.down(spot);
+    if (own || isPlain) this.#pressed = { spot, id: event.pointerId, own };
     if (own) {
       // Neither viser nor the camera shall hear of it.
       event.stopImmediatePropagation();
@@ -172,6 +173,13 @@ export class Pointer {
     if (this.#tool.doubleClick(spotOf(event))) event.stopImmediatePropagation();
   }
 
+  /** @param {WheelEvent} event */
+  #wheel(event) {
+    if (!this.#pressed?.own || !this.#tool.wheel(-event.deltaY / WHEEL_PX)) return this.#touch();
+    event.preventDefault();
+    return event.stopImmediatePropagation();
+  }
+
   /** At most once for each picture, however often the mouse reports. */
   #everyPicture() {
     requestAnimationFrame(() => this.#everyPicture());
@@ -185,7 +193,7 @@ export class Pointer {
 
 /** @param {MouseEvent} event @returns {Spot} */
 function spotOf(event) {
-  const { clientX: x, clientY: y, altKey: free, shiftKey: shift, ctrlKey, metaKey } = event;
+  const { clientX: x, clientY: y, altKey: free, shiftKey: shift, ctrlKey, metaKey, button } = event;
   const touch = "pointerType" in event && event.pointerType === "touch";
-  return { x, y, free, shift, ctrl: ctrlKey || metaKey, touch };
+  return { x, y, free, shift, ctrl: ctrlKey || metaKey, touch, button };
 }

@@ -18,11 +18,13 @@ from PIL import Image
 
 from tests.support.browser import open_browser
 from tests.support.classmates import classmate
+from tests.support.demos import running_demo
 from tests.support.managed_arm import managed_arm
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
 from tests.support.server import running_studio
 from tests.support.student_nodes import OwnNode
+from tests.support.studio_page import wait_until
 from tests.support.wire import running_router
 from tests.support.wired_tab import add_displays, connect, look_at_odometry
 
@@ -120,6 +122,22 @@ _BROKEN = """<?xml version="1.0"?>
 </robot>
 """
 """What has an error, a warning and notes."""
+
+
+_ALONE = ("problems", "markers")
+"""Pages whose pictures need a studio of their own."""
+_ADD_MARKERS = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { addDisplay } = await import(new URL("../model/live-displays.js", script));
+  await addDisplay("InteractiveMarkers", "/basic_controls/update");
+}"""
+_HAS_MARKERS = """() => {
+  const nodes = document.querySelector("iframe").contentWindow.__viserMutable.nodeRefFromName;
+  const isPart = (name) => name.startsWith("/live/") && name.includes("-body/");
+  return Object.keys(nodes).filter(isPart).length > 20;
+}"""
+_LOOK = "(pose) => document.querySelector('iframe').contentWindow.studio3d.setCamera(pose, false)"
+_AT_MARKER = {"position": [-2.6, -0.9, 1.7], "target": [-1.5, 1.5, 0.1]}
 
 
 def path_of(page: str, theme: Theme) -> Path:
@@ -324,6 +342,27 @@ def examine(page: Page) -> None:
     page.locator(".doctor-live").wait_for()
 
 
+def take_markers(browser: Browser, data: Path) -> None:
+    """A marker of the demo with its handles, in the 3D view."""
+    with (
+        running_router() as endpoint,
+        running_demo(endpoint, "basic_controls"),
+        running_studio(["demo", "--connect", endpoint, "--router", "off"], data) as studio,
+    ):
+        for theme in THEMES:
+            with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
+                connect(tab)
+                if theme == THEMES[0]:
+                    tab.page.evaluate(_ADD_MARKERS)
+                tab.page.evaluate(SHOW_PANEL, "scene")
+                tab.page.evaluate(_RUN, "maximize")
+                wait_until("the markers", lambda: tab.page.evaluate(_HAS_MARKERS), 20)
+                tab.page.evaluate(_LOOK, _AT_MARKER)
+                camera = Camera(tab, theme)
+                tab.settle()
+                camera.take("markers", tab.page.evaluate(_DOCK_OF, "scene"))
+
+
 def show_type(page: Page) -> None:
     page.get_by_label("Search types").fill("laser")
     page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
@@ -396,12 +435,15 @@ def main() -> None:
     """Take them all anew."""
     wired = (*ON_THE_WIRE, "live", "displays", "ros")
     for browser in open_browser():
-        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, OF_CLASSES, ("problems",)):
+        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, OF_CLASSES, _ALONE):
             with tempfile.TemporaryDirectory() as data:
                 take_demo(browser, Path(data))
         if any(map(wanted, wired)):
             with tempfile.TemporaryDirectory() as data:
                 take_wired(browser, Path(data))
+        if wanted("markers"):
+            with tempfile.TemporaryDirectory() as data:
+                take_markers(browser, Path(data) / "data")
         if any(map(wanted, OF_CLASSES)):
             with tempfile.TemporaryDirectory() as data:
                 take_class(browser, Path(data) / "data")

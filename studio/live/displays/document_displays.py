@@ -15,6 +15,8 @@ from studio.live.displays.display_file import Keeper, KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
 from studio.live.displays.document_tools import DocumentTools
+from studio.live.displays.followed_markers import COMMANDS as MARKER_COMMANDS
+from studio.live.displays.followed_markers import FollowedMarkers
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
@@ -48,7 +50,7 @@ from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from studio.displays.properties import Value
     from studio.live.connection.ros_connection import RosConnection
@@ -111,6 +113,7 @@ class DocumentDisplays:
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
+        self._markers = FollowedMarkers(audience)
         self._ticking: asyncio.Task[None] | None = None
         self._keeper = Keeper(file)
         self._seen_s = time.monotonic()
@@ -237,18 +240,22 @@ class DocumentDisplays:
         yield self.tools.event()
         if self._states.event is not None:
             yield self._states.event
+        yield from self._markers.events()
 
     async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
         topic = full_name(command.topic) or first_topic(command.kind)
         spec = self._list.add(command.kind, topic)
+        if settings := _settings_for(command.kind, topic):
+            spec = replace(spec, topic="", values=settings)
+            self._list.change(spec)
         try:
             self._room.open(spec)
         except StudioError:
             self._list.remove(spec.id)
             raise
         self._changed()
-        if spec.topic:
+        if topic:
             await self._connect()
 
     def remove(self, command: RemoveDisplay) -> None:
@@ -352,6 +359,11 @@ class DocumentDisplays:
         if frame and frame not in frames.own.links:
             await self._connect()
 
+    @property
+    def markers(self) -> FollowedMarkers:
+        """Its interactive markers."""
+        return self._markers
+
     def shown(self, display: str) -> Shown:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
         return self._room.get(display).placing.shown
@@ -415,6 +427,7 @@ class DocumentDisplays:
         """Receive nothing until it is drawn again."""
         if self._robots is not None:
             self._robots.let_go()
+        self._markers.let_go()
         if self._made is not None:
             self._made.unsubscribe()
 
@@ -427,6 +440,7 @@ class DocumentDisplays:
         self.let_go()
         if self._robots is not None:
             await self._robots.close()
+        await self._markers.close()
         if self._made is not None:
             self._made.close_all()
         await self._keeper.close()
@@ -517,6 +531,8 @@ class DocumentDisplays:
         room = self._room
         if self._robots is not None:
             self._robots.step(room.displays(), self._wire.current)
+        shown = {one.id for one in self._list if self._list.is_shown(one)}
+        self._markers.step(room, shown, self._wire.current)
         room.step(self._list, time.time_ns())
 
     def _log_once(self, error: Exception) -> None:
@@ -567,7 +583,15 @@ COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c.frame))
 COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(MARKER_COMMANDS, lambda displays, _: displays.markers)
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
 COMMANDS.include(TIME_COMMANDS, lambda displays, _: displays.times)
 COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
 COMMANDS.include(TOPIC_COMMANDS, lambda displays, _: displays.offers)
+
+
+def _settings_for(kind: str, topic: str) -> Mapping[str, Value]:
+    """Return the properties by which a new display of a kind shows a topic; empty: by its topic."""
+    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
+
+    return display_of_kind(kind).settings_for(topic)
