@@ -202,16 +202,19 @@ function menuEntry(item, choose) {
     entry.append(mark);
     entry.setAttribute("aria-description", item.mark);
   }
-  if (entry instanceof HTMLButtonElement) {
-    entry.type = "button";
-    entry.disabled = item.disabled ?? false;
-    const state = item.box ?? item.checked;
-    const role = item.box === undefined ? "menuitemradio" : "menuitemcheckbox";
-    entry.setAttribute("role", state === undefined ? "menuitem" : role);
-    if (state !== undefined) entry.setAttribute("aria-checked", String(state));
-    entry.addEventListener("click", () => choose(item));
-  }
+  if (entry instanceof HTMLButtonElement) makeChoice(entry, item, choose);
   return entry;
+}
+
+/** @param {HTMLButtonElement} entry @param {MenuItem} item @param {(item: MenuItem) => void} choose */
+function makeChoice(entry, item, choose) {
+  entry.type = "button";
+  entry.disabled = item.disabled ?? false;
+  const state = item.box ?? item.checked;
+  const role = item.box === undefined ? "menuitemradio" : "menuitemcheckbox";
+  entry.setAttribute("role", state === undefined ? "menuitem" : role);
+  if (state !== undefined) entry.setAttribute("aria-checked", String(state));
+  entry.addEventListener("click", () => choose(item));
 }
 
 /** @param {MenuItem} item @returns {HTMLElement | string} its icon, or the tick of a choice */

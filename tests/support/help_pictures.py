@@ -287,6 +287,21 @@ def show_lesson(page: Page) -> None:
     page.get_by_text("Publishing").first.wait_for()
 
 
+def select_some(page: Page) -> None:
+    """Until the panel Selection has facts."""
+    page.evaluate(_SELECT)
+    page.locator(".selection-facts").first.wait_for()
+
+
+READY: dict[str, Callable[[Page], None]] = {
+    "doctor": examine,
+    "interfaces": show_type,
+    "lessons": show_lesson,
+    "selection": select_some,
+}
+"""What a panel has to show before its picture is taken."""
+
+
 def take_wired(browser: Browser, data: Path) -> None:
     """Panels about ROS 2, with the graph of the demo."""
     with (
@@ -307,15 +322,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                 for panel in filter(wanted, ON_THE_WIRE):
                     tab.page.evaluate(SHOW_PANEL, panel)
                     tab.page.evaluate(_RUN, "maximize")
-                    if panel == "interfaces":
-                        show_type(tab.page)
-                    if panel == "doctor":
-                        examine(tab.page)
-                    if panel == "lessons":
-                        show_lesson(tab.page)
-                    if panel == "selection":
-                        tab.page.evaluate(_SELECT)
-                        tab.page.locator(".selection-facts").first.wait_for()
+                    if ready := READY.get(panel):
+                        ready(tab.page)
                     tab.page.wait_for_timeout(_STILL_MS)
                     highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
