@@ -287,6 +287,18 @@ def show_lesson(page: Page) -> None:
     page.get_by_text("Publishing").first.wait_for()
 
 
+def examine(page: Page) -> None:
+    """Until the Doctor has heard enough to say all that it knows."""
+    begin = page.get_by_role("button", name="Examine", exact=True)
+    begin.click()
+    page.locator(".doctor-live").wait_for()
+
+
+def show_type(page: Page) -> None:
+    page.get_by_label("Search types").fill("laser")
+    page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
+
+
 def select_some(page: Page) -> None:
     """Until the panel Selection has facts."""
     page.evaluate(_SELECT)
@@ -343,13 +355,6 @@ def take_wired(browser: Browser, data: Path) -> None:
                     take_displays(camera)
 
 
-def examine(page: Page) -> None:
-    """Until the Doctor has heard enough to say all that it knows."""
-    begin = page.get_by_role("button", name="Examine", exact=True)
-    begin.click()
-    page.locator(".doctor-live").wait_for()
-
-
 def take_markers(browser: Browser, data: Path) -> None:
     """A marker of the demo with its handles, in the 3D view."""
     with (
@@ -369,11 +374,6 @@ def take_markers(browser: Browser, data: Path) -> None:
                 camera = Camera(tab, theme)
                 tab.settle()
                 camera.take("markers", tab.page.evaluate(_DOCK_OF, "scene"))
-
-
-def show_type(page: Page) -> None:
-    page.get_by_label("Search types").fill("laser")
-    page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
 
 
 def take_displays(camera: Camera) -> None:
