@@ -20,11 +20,13 @@ pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)
 
 VIEW = "() => document.querySelector('iframe').contentWindow.studio3d.getView()"
 TURN = """() => {
-  const { position, target, flat } =
-    document.querySelector("iframe").contentWindow.studio3d.getCamera();
-  const way = position.map((one, at) => one - target[at]);
-  return { from: way.map((one) => one / Math.hypot(...way)), flat };
+  const { camera, nodeRefFromName } = document.querySelector("iframe").contentWindow.__viserMutable;
+  const root = nodeRefFromName[""].matrixWorld.clone().invert();
+  const back = camera.position.clone().setFromMatrixColumn(camera.matrixWorld, 2);
+  const flat = camera.projectionMatrix.elements[11] === 0;
+  return { from: back.transformDirection(root).toArray(), flat };
 }"""
+"""From where the last picture was seen: the cube is turned with it."""
 MODEL = """async (spec) => {
   const script = document.querySelector('script[type="module"]').src;
   const { currentView, useView } = await import(new URL("../model/views.js", script));
