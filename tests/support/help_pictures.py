@@ -272,6 +272,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                         show_type(tab.page)
                     if panel == "lessons":
                         show_lesson(tab.page)
+                    if panel == "tools":
+                        show_tool(tab.page)
                     tab.page.wait_for_timeout(_STILL_MS)
                     highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
@@ -294,6 +296,13 @@ def take_wired(browser: Browser, data: Path) -> None:
 def show_type(page: Page) -> None:
     page.get_by_label("Search types").fill("laser")
     page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
+
+
+def show_tool(page: Page) -> None:
+    """What is set of one."""
+    panel = page.get_by_role("region", name="Tool Properties")
+    panel.get_by_role("button", name="2D Goal Pose", exact=True).click()
+    panel.get_by_label("Name of 2D Goal Pose").wait_for()
 
 
 def take_displays(camera: Camera) -> None:
