@@ -18,6 +18,7 @@ from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
+from studio.documents.examined import seen_document
 from studio.documents.left_work import LeftDrafts
 from studio.documents.lessons.lesson_room import COMMANDS as LESSON_COMMANDS
 from studio.documents.lessons.lesson_room import LessonRoom
@@ -74,6 +75,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.live.connection.link import WireLink
+    from studio.live.doctor.seen import SeenDocument
     from studio.packages.workspace import Progress
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
@@ -101,6 +103,7 @@ class Engine:
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
+        self.ros.doctor.document_of = self._seen_document
         self.classroom = classroom or Classroom()
         self.classroom.robot = self.ros
         self.classroom.on_control = self._lent
@@ -229,6 +232,10 @@ class Engine:
         """Return the ROS system that a person's lessons are about, and whether it is theirs."""
         own = await self.classroom.nodes.link(person)
         return (self.ros.connection.current, False) if own is None else (own, True)
+
+    def _seen_document(self, name: str) -> SeenDocument | None:
+        document = self.open_now(name)
+        return None if document is None else seen_document(document)
 
     def _lent(self, document: str) -> None:
         """A member has control of a document now."""
