@@ -307,9 +307,12 @@ def select_some(page: Page) -> None:
 
 def show_tool(page: Page) -> None:
     """What is set of one."""
-    panel = page.get_by_role("region", name="Tool Properties")
-    panel.get_by_role("button", name="2D Goal Pose", exact=True).click()
-    panel.get_by_label("Name of 2D Goal Pose").wait_for()
+    tool = page.get_by_role("region", name="2D Goal Pose", exact=True)
+    fold = tool.get_by_role("button", name="2D Goal Pose", exact=True)
+    if fold.get_attribute("aria-expanded") == "false":
+        fold.click()
+    tool.get_by_role("button", name="Topic", exact=True).click()
+    tool.evaluate("one => one.scrollIntoView()")
 
 
 READY: dict[str, Callable[[Page], None]] = {
