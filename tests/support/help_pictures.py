@@ -295,11 +295,22 @@ def select_some(page: Page) -> None:
     page.locator(".selection-facts").first.wait_for()
 
 
+def show_tool(page: Page) -> None:
+    """What is set of one."""
+    tool = page.get_by_role("region", name="2D Goal Pose", exact=True)
+    fold = tool.get_by_role("button", name="2D Goal Pose", exact=True)
+    if fold.get_attribute("aria-expanded") == "false":
+        fold.click()
+    tool.get_by_role("button", name="Topic", exact=True).click()
+    tool.evaluate("one => one.scrollIntoView()")
+
+
 READY: dict[str, Callable[[Page], None]] = {
     "doctor": examine,
     "interfaces": show_type,
     "lessons": show_lesson,
     "selection": select_some,
+    "tools": show_tool,
 }
 """What a panel has to show before its picture is taken."""
 
