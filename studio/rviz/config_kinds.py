@@ -42,7 +42,6 @@ _TOPIC: Final = {
     "DepthCloud": "Depth Map Topic",
     "DisplayTrajectory": "Trajectory Topic",
     "RobotModel": "Description Topic",
-    "InteractiveMarkers": "Interactive Markers Namespace",
 }
 """Where kinds have their topic that have no `Topic`."""
 _RVIZ1_TOPIC: Final = {
@@ -152,7 +151,11 @@ def more_of(kind: str) -> Entry:
 
 def missing_of(entry: Entry, kind: str) -> Mapping[str, Value]:
     """Return what properties are in RViz2 while an entry of a file lacks them, unlike here."""
-    return {} if text_at(entry, "Class").startswith(f"{RVIZ1}/") else _MISSING.get(kind, {})
+    if not text_at(entry, "Class").startswith(f"{RVIZ1}/"):
+        return _MISSING.get(kind, {})
+    # RViz 1 names a topic where RViz2 has the namespace.
+    topic = text_at(entry, topic_key(kind, rviz1=True)).strip()
+    return _BY_KIND[kind].settings_for(topic) if topic.isprintable() else {}
 
 
 _MISSING: Final[Mapping[str, Mapping[str, Value]]] = {"TF": {"Show Names": False}}

@@ -51,6 +51,17 @@ def test_every_file_of_the_corpus_opens_with_its_losses_listed_and_is_written_as
     assert found == json.loads(LOSSES.read_text())
 
 
+def test_a_server_of_interactive_markers_is_named_by_its_topic_in_rviz_1():
+    topic = {"Update Topic": "/arm/update", "Name": "Arm", "Enabled": True, "Value": True}
+    read, losses = display(Class="rviz/InteractiveMarkers", **topic)
+    assert dict(read.values) == {"Interactive Markers Namespace": "/arm"}
+    assert (read.topic, losses) == ("", [])
+    assert yaml.safe_load(write_tree(write_display(read))) == {
+        "Class": "rviz/InteractiveMarkers",
+        **topic,
+    }
+
+
 @pytest.mark.corpus
 @pytest.mark.parametrize("every", [8, pytest.param(1, marks=pytest.mark.sweep)])
 def test_after_one_edit_only_that_is_otherwise_in_every_file_of_the_corpus(every: int):

@@ -15,10 +15,13 @@ from studio.live.displays.display_file import Keeper, KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
 from studio.live.displays.document_tools import DocumentTools
+from studio.live.displays.followed_markers import COMMANDS as MARKER_COMMANDS
+from studio.live.displays.followed_markers import FollowedMarkers
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
-from studio.live.displays.scene_clock import SceneClock
+from studio.live.displays.scene_times import COMMANDS as TIME_COMMANDS
+from studio.live.displays.scene_times import SceneTimes
 from studio.live.displays.selecting import AllDrawn
 from studio.live.displays.topic_offers import COMMANDS as TOPIC_COMMANDS
 from studio.live.displays.topic_offers import TopicOffers, first_topic, full_name
@@ -45,16 +48,15 @@ from studio.protocol.displays import (
 )
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
-from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene, SceneTime
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from studio.displays.properties import Value
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
-    from studio.live.displays.document_tools import ToolUse
+    from studio.live.displays.document_tools import Pointed, ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
@@ -62,7 +64,6 @@ if TYPE_CHECKING:
     from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
-    from studio.protocol.tools import UseTool
 
 
 _TICK_S: Final = 1 / 30
@@ -112,10 +113,11 @@ class DocumentDisplays:
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
+        self._markers = FollowedMarkers(audience)
         self._ticking: asyncio.Task[None] | None = None
         self._keeper = Keeper(file)
         self._seen_s = time.monotonic()
-        self._clock = SceneClock()
+        self.times = SceneTimes(lambda: self._room, self._look, self._changed)
         self._fault = ""
         self._checked_s = 0.0
         self._asked_until_s = 0.0
@@ -168,6 +170,11 @@ class DocumentDisplays:
             frame and frame not in self._room.frames.own.links
         ):
             await self._connect()
+
+    @property
+    def states(self) -> DisplayStates | None:
+        """The states sent last; None: nothing was drawn yet."""
+        return self._states.event
 
     def mirror(self, other: KeptDisplays) -> None:
         """Have the displays and tools of another document; how displays look here stays."""
@@ -233,18 +240,22 @@ class DocumentDisplays:
         yield self.tools.event()
         if self._states.event is not None:
             yield self._states.event
+        yield from self._markers.events()
 
     async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
         topic = full_name(command.topic) or first_topic(command.kind)
         spec = self._list.add(command.kind, topic)
+        if settings := _settings_for(command.kind, topic):
+            spec = replace(spec, topic="", values=settings)
+            self._list.change(spec)
         try:
             self._room.open(spec)
         except StudioError:
             self._list.remove(spec.id)
             raise
         self._changed()
-        if spec.topic:
+        if topic:
             await self._connect()
 
     def remove(self, command: RemoveDisplay) -> None:
@@ -295,10 +306,7 @@ class DocumentDisplays:
 
     def arrange_group(self, command: ArrangeGroup) -> None:
         """Name or move a group with all that is in it."""
-        if command.before is not None:
-            self._list.move_group(command.group, command.before)
-        if command.to is not None:
-            self._list.regroup(command.group, command.to)
+        self._list.arrange_group(command.group, command.to, command.before)
         self._respecify()
         self._changed()
 
@@ -338,6 +346,7 @@ class DocumentDisplays:
         """Change a property."""
         spec = self._list.get(command.display)
         value = self._room.get(spec.id).set(command.name, command.value)
+        self._room.draw_once((spec.id,))
         values: dict[str, Value] = {**spec.values, command.name: value}
         self._change(replace(spec, values=values))
 
@@ -349,6 +358,11 @@ class DocumentDisplays:
         self._changed()
         if frame and frame not in frames.own.links:
             await self._connect()
+
+    @property
+    def markers(self) -> FollowedMarkers:
+        """Its interactive markers."""
+        return self._markers
 
     def shown(self, display: str) -> Shown:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
@@ -373,9 +387,9 @@ class DocumentDisplays:
         # Thousands of frames as JSON take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
-    async def tool_use(self, command: UseTool) -> ToolUse:
+    async def tool_use(self, pointed: Pointed) -> ToolUse:
         """Return what a tool is to send; subscribes to TF for a while."""
-        return self.tools.use(command, await self._frames(wait=True))
+        return self.tools.use(pointed, await self._frames(wait=True))
 
     async def _frames(self, *, wait: bool) -> SceneFrames:
         """Return the frames of now; subscribes to TF for a while.
@@ -394,40 +408,26 @@ class DocumentDisplays:
 
     def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
         """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
+        self._look()
         frame = command.frame.strip().removeprefix("/")
         trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
         return FrameFollowed(request=command.request, trouble=trouble)
-
-    def time(self, command: GetSceneTime) -> SceneTime:
-        """Return the time of the view; subscribes to /clock for a while."""
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
-        return self._clock.told(command.request, self._room.frames.clock_ns, paused=self.is_paused)
 
     @property
     def is_paused(self) -> bool:
         """Whether drawing is paused."""
         return self._made is not None and self._made.is_paused
 
-    def pause(self, command: PauseScene) -> None:
-        """Pause drawing for all who look, or go on with the newest."""
-        self._room.pause(paused=command.paused)
-        self._clock.pause(self._room.frames.clock_ns, paused=command.paused)
-        self._changed()
-
-    def reset(self, _: ResetScene) -> None:
-        """Forget all that was received, and receive again what is latched."""
-        self._room.reset()
-        self._clock.reset()
-        self._checked_s = 0.0
+    def _look(self) -> None:
+        """Subscribe to TF and the clock for a while."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
 
     def let_go(self) -> None:
         """Receive nothing until it is drawn again."""
         if self._robots is not None:
             self._robots.let_go()
+        self._markers.let_go()
         if self._made is not None:
             self._made.unsubscribe()
 
@@ -440,6 +440,7 @@ class DocumentDisplays:
         self.let_go()
         if self._robots is not None:
             await self._robots.close()
+        await self._markers.close()
         if self._made is not None:
             self._made.close_all()
         await self._keeper.close()
@@ -530,6 +531,8 @@ class DocumentDisplays:
         room = self._room
         if self._robots is not None:
             self._robots.step(room.displays(), self._wire.current)
+        shown = {one.id for one in self._list if self._list.is_shown(one)}
+        self._markers.step(room, shown, self._wire.current)
         room.step(self._list, time.time_ns())
 
     def _log_once(self, error: Exception) -> None:
@@ -573,9 +576,6 @@ COMMANDS.controller(
 )
 COMMANDS.controller(ArrangeDisplay, lambda displays, c, _: displays.arrange(c))
 COMMANDS.controller(ArrangeGroup, lambda displays, c, _: displays.arrange_group(c))
-COMMANDS.controller(PauseScene, lambda displays, c, _: displays.pause(c))
-COMMANDS.controller(ResetScene, lambda displays, c, _: displays.reset(c))
-COMMANDS.viewer(GetSceneTime, lambda displays, c, _: displays.time(c))
 COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
@@ -583,6 +583,15 @@ COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c.frame))
 COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(MARKER_COMMANDS, lambda displays, _: displays.markers)
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
+COMMANDS.include(TIME_COMMANDS, lambda displays, _: displays.times)
 COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
 COMMANDS.include(TOPIC_COMMANDS, lambda displays, _: displays.offers)
+
+
+def _settings_for(kind: str, topic: str) -> Mapping[str, Value]:
+    """Return the properties by which a new display of a kind shows a topic; empty: by its topic."""
+    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
+
+    return display_of_kind(kind).settings_for(topic)
