@@ -37,6 +37,7 @@ from studio.server.credentials import Credentials, cookie_key
 from studio.server.front import Front
 from studio.server.origin import KnownHosts, is_loopback
 from studio.server.ports import (
+    FULL_SCREEN,
     bind,
     lan_addresses,
     page_address,
@@ -401,8 +402,6 @@ class _Visit:
 
 _SAID_OF_A_VIEW: Final = ("no_display", "no_tool", "no_view", "no_panel")
 """What of an `.rviz` file a terminal names; the page tells all."""
-FULL_SCREEN: Final = "fullscreen=1"
-"""Has the page begin with the 3D view alone; `app/main.js` reads it."""
 
 
 def invitation(classroom: Classroom) -> list[str]:
