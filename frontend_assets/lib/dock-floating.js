@@ -4,6 +4,7 @@
  */
 
 /** @import { DockviewApi, IDockviewPanel } from "vendor/dockview.js" */
+/** @import { Arrangement } from "./arrangement.js" */
 
 import { TAB, tabOfPanel } from "./dock-tabs.js";
 
@@ -108,17 +109,23 @@ export function aloneIn(api, element) {
   /** @type {IDockviewPanel | undefined} */
   let shown;
   let wasMaximized = false;
+  /** @type {Arrangement | null} */
+  let before = null;
   return {
     isOn: () => shown !== undefined,
-    /** @param {string | null} id */
-    show(id) {
+    /** How the panels stood; null: no panel is alone. */
+    before: () => before,
+    /** @param {string | null} id @param {() => Arrangement} arrangement as it is now */
+    show(id, arrangement) {
       const panel = id === null ? undefined : api.getPanel(id);
       element.classList.toggle("alone", panel !== undefined);
       if (panel && !shown) {
+        before = arrangement();
         wasMaximized = api.hasMaximizedGroup();
         panel.api.maximize();
       } else if (!panel && shown && !wasMaximized) api.exitMaximizedGroup();
       shown = panel;
+      if (!panel) before = null;
     },
   };
 }
