@@ -14,6 +14,7 @@ import {
   isFloating,
   isInGrid,
   moveFloatingByKey,
+  whenAsLarge,
 } from "./dock-floating.js";
 import { headerActions, keepTabsWhole, TAB, tabOfPanel } from "./dock-tabs.js";
 
@@ -156,9 +157,8 @@ export function createDock(element, panels, options) {
       const before = alone.before();
       if (id !== null) show(api, panels, id);
       alone.show(id, arrangement);
-      // Once the page has the dock's room back: what it was enlarged for does not fit into it.
       if (id === null && before)
-        requestAnimationFrame(() => requestAnimationFrame(() => arrange(before)));
+        whenAsLarge(element, before.room, () => arrange(before.arrangement));
     },
     close: (id) => api.getPanel(id)?.api.close(),
     places: (id) => placesFor(api, id),
