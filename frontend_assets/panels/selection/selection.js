@@ -33,7 +33,9 @@ import { viewport } from "../../model/viewport.js";
 export function SelectionPanel() {
   const items = [...selectedItems.value.values()];
   return html`<section class="panel-body selection" aria-label=${t("panel.selection")}>
-    ${items.length === 0 ? html`<${Nothing} />` : html`<${Bar} items=${items} /><${Notes} /><${Tree} items=${items} />`}
+    ${items.length > 0 && html`<${Bar} items=${items} />`}
+    <${Notes} />
+    ${items.length > 0 ? html`<${Tree} items=${items} />` : html`<${Nothing} />`}
   </section>`;
 }
 
