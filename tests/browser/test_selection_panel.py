@@ -240,7 +240,11 @@ def select_in_a_rectangle(view: Selecting) -> None:
     view.drag(*around)
     kinds = view.panel.locator(".selection-group .selection-name")
     expect(kinds).to_have_text(["PointCloud2", "Map", "Marker"], timeout=20_000)
-    assert view.panel.get_by_role("treeitem", name=re.compile("^Point")).count() > 50
+    expect(view.panel.get_by_role("status").first).to_have_text(re.compile(r"^\d{3} selected"))
+    points = view.panel.get_by_role("treeitem", name=re.compile("^Point "))
+    expect(points).to_have_count(0)
+    view.item("PointCloud2").get_by_role("button").first.click()
+    expect(points.first).to_be_visible()
     view.panel.get_by_role("button", name="Focus the camera on the selection").click()
     wait_until("the camera is near", lambda: view.eye()[1] < 4)
     view.look_down()
