@@ -22,6 +22,7 @@ from studio.displays.measurement import (
 from studio.displays.odometry import OdometryDisplay
 from studio.displays.path import PathDisplay
 from studio.displays.point import PointStampedDisplay
+from studio.displays.point_cloud import PointCloudDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.displays.polygon import PolygonDisplay
 from studio.displays.pose import PoseDisplay
@@ -53,6 +54,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     OdometryDisplay,
     PathDisplay,
     PointCloud2Display,
+    PointCloudDisplay,
     PointStampedDisplay,
     PolygonDisplay,
     PoseArrayDisplay,

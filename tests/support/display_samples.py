@@ -147,6 +147,16 @@ def _cloud(*, coloured: bool) -> Fields:
     }
 
 
+def _channels() -> Fields:
+    """A spiral, as an old driver sends it."""
+    angles = np.linspace(0, 6 * math.pi, 900)
+    rows = np.stack([np.cos(angles), np.sin(angles), angles / 20], axis=1)
+    return {
+        "points": [point(*row) for row in rows.tolist()],
+        "channels": [{"name": "intensity", "values": (50 * angles).tolist()}],
+    }
+
+
 def _map() -> Fields:
     """A room with a wall, a round obstacle with a slope around it, and a corner nobody saw."""
     x, y = np.meshgrid(np.linspace(-1.5, 1.5, 120), np.linspace(-1.5, 1.5, 120))
@@ -263,6 +273,8 @@ SAMPLES: tuple[Sample, ...] = (
            {"Style": "Spheres", "Size (m)": 0.015}),
     Sample("cloud_pixels", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=True),
            {"Style": "Points"}),
+    Sample("point_cloud", "PointCloud", "sensor_msgs/msg/PointCloud", _channels(),
+           {"Size (m)": 0.02}),
     Sample("robot_model", "RobotModel", "std_msgs/msg/String", {"data": _CRANE}),
     Sample("cloud_flat", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=False),
            {"Color Transformer": "FlatColor", "Alpha": 0.4}),
