@@ -2241,7 +2241,7 @@ export interface Progress {
 /** A property of a kind of display. */
 export interface PropertyView {
   name: string;
-  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame";
+  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame" | "topic" | "fact";
   default: boolean | number | string;
   doc: string;
   low: number | null;

@@ -87,6 +87,8 @@ class Points:
         opacity: 1 is opaque.
         precise: Whether half precision would be seen: 8 mm at 8 m and more, 62 mm at 64 m.
         size_px: Of "points", on the screen; 0: `size_m` counts.
+        size_by_z: Whether the size of each is `size_m` for each metre of its z, as a pixel of a
+            depth camera grows with its distance.
     """
 
     positions: NDArray[np.float32]
@@ -96,6 +98,7 @@ class Points:
     opacity: float = 1.0
     precise: bool = False
     size_px: float = 0.0
+    size_by_z: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -241,4 +241,3 @@ class PointCloud2Display(CloudDisplay):
             message.header.frame_id, stamp_ns_of(message.header), shown, chosen, available, fields,
             nothing_of(fields.count, shown),
         )  # fmt: skip
-

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Rgb
 
 Value: TypeAlias = bool | int | float | str
-PropertyKind: TypeAlias = Literal["switch", "whole", "number", "colour", "choice", "text", "frame"]
+PropertyKind: TypeAlias = Literal[
+    "switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact"
+]
 
 _COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
 _TEXT_MAX: Final = 1000
@@ -31,13 +33,14 @@ class Property:
 
     Attributes:
         name: RViz's; parts of a group are named with slashes, as `Covariance/Position/Alpha`.
-        kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf.
+        kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf; a fact
+            is shown and cannot be set.
         default: The first value.
         doc: One sentence for the user.
         low: Least number.
         high: Greatest number.
         unit: Of a number: m, s, px, or empty.
-        choices: Values of a choice.
+        choices: Values of a choice; of a topic its message types.
         when: Another property, and those of its values with which this one has an effect.
     """
 
@@ -57,6 +60,8 @@ class Property:
         Raises:
             DisplayPropertyError: It is of another kind.
         """
+        if self.kind == "fact":
+            raise DisplayPropertyError(self.name, "is shown and cannot be set", value)
         if self.kind == "switch":
             return self._switch(value)
         if self.kind in ("whole", "number"):

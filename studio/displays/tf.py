@@ -251,7 +251,7 @@ class _Seen(NamedTuple):
 
 
 class TfDisplay(Display):
-    """Draws the frames given to `show`; it takes no messages, since one buffer serves all displays.
+    """Draws the frames given to `see`; it takes no messages, since one buffer serves all displays.
 
     Crosses and arrows are few nodes in the fixed frame. Each name is a group of its own that
     follows its frame, so that it is sent once.
@@ -308,7 +308,12 @@ class TfDisplay(Display):
         self._names: dict[str, Placed] = {}
         self._checks: tuple[tuple[str, ...], Value, tuple[Property, ...]] = ((), True, ())
 
-    def show(self, frames: FramesNow) -> None:
+    @property
+    def wants_frames(self) -> bool:
+        """All of them: they are what it draws."""
+        return True
+
+    def see(self, frames: FramesNow) -> None:
         """Draw these from now on."""
         self._frames = frames
 

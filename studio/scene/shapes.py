@@ -153,6 +153,7 @@ def _points(shape: Points, stream: str) -> dict[str, Node]:
         "point_shape": "circle" if shape.style == "spheres" else "square",
         "point_shading": "gradient" if shape.style in {"spheres", "squares"} else "flat",
         "studio_point_px": shape.size_px,
+        "studio_size_by_z": shape.size_by_z,
         "precision": "float32" if shape.precise else "float16",
         "scale": 1.0,
         "studio_opacity": shape.opacity,
@@ -177,6 +178,8 @@ def _as_bodies(shape: Points) -> Solids:
     upright = np.zeros((count, 4), np.float32)
     upright[:, 0] = 1
     sizes = np.full((count, 3), shape.size_m, np.float32)
+    if shape.size_by_z:
+        sizes *= np.abs(shape.positions[:, 2:3])
     sizes[:, 2] *= _THICKNESS[shape.style]
     return Solids("box", shape.positions, upright, sizes, shape.colors, shape.opacity)
 

@@ -15,7 +15,9 @@ KIND = "sensor_msgs/msg/PointCloud"
 
 
 def display_of(
-    points: list[tuple[float, float, float]], values: dict[str, Value] | None = None, **channels: Any
+    points: list[tuple[float, float, float]],
+    values: dict[str, Value] | None = None,
+    **channels: Any,
 ) -> PointCloudDisplay:
     fields = {
         "points": [point(*one) for one in points],

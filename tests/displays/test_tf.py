@@ -38,7 +38,7 @@ def shown(robot: Robot, **values: Value) -> TfDisplay:
     display = TfDisplay(TYPES)
     for name, value in values.items():
         display.set(name.replace("_", " "), value)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     return display
 
 
@@ -102,7 +102,7 @@ def test_frames_stay_where_they_are_for_as_long_as_is_chosen():
     display = shown(robot, Update_Interval=0.5)
     first = display.draw(S)
     robot.turn(0.0)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     assert display.draw(S + S // 4) is first
     assert sorted(axes_of(display.draw(S + S // 2)).positions.round(6).tolist())[1:] == [
         [2.0, 1.0, 0.0],
@@ -116,10 +116,10 @@ def test_another_setting_fixed_frame_or_a_clock_put_back_is_not_waited_for():
     display.draw(S)
     display.set("Show Names", value=False)
     assert not names_in(display.draw(S))
-    display.show(robot.buffer.all_in("base"))
+    display.see(robot.buffer.all_in("base"))
     assert frames_of(display.draw(S)).frame == "base"
     robot.turn(0.0)
-    display.show(robot.buffer.all_in("base"))
+    display.see(robot.buffer.all_in("base"))
     still = display.draw(S)
     assert display.draw(0) is not still
 
@@ -130,7 +130,7 @@ def test_arrows_of_any_length_are_as_long_as_the_way(distance_m: float, scale: f
     buffer = TransformBuffer()
     buffer.put(columns(Told("a", "b", S, (0.0, 0.0, distance_m))))
     display = TfDisplay(TYPES, {"Marker Scale": scale})
-    display.show(buffer.all_in("a"))
+    display.see(buffer.all_in("a"))
     drawing = display.draw(0)
     assert_drawable(drawing)
     if distance_m < 0.001:
@@ -177,10 +177,10 @@ def test_frames_that_stand_still_are_the_same_drawing_and_names_the_same_objects
     first = display.draw(0)
     robot.clock.now_ns += S
     robot.turn(math.pi / 2)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     assert display.draw(1) is first
     robot.turn(1.0)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     moved = display.draw(2)
     assert moved["frames"] is not first["frames"]
     assert moved["names/wheel"] is first["names/wheel"]
@@ -193,7 +193,7 @@ def test_who_creeps_is_drawn_anew_when_he_has_come_far_enough():
     for step in range(1, 101):
         robot.clock.now_ns += S // 100
         robot.turn(math.pi / 2 + step * 1e-7)
-        display.show(robot.buffer.all_in("odom"))
+        display.see(robot.buffer.all_in("odom"))
         drawings[id(display.draw(0))] = display.draw(0)
     assert 3 < len(drawings) < 30
 
@@ -204,7 +204,7 @@ def test_a_frame_without_news_turns_grey_then_fades_then_is_gone():
     def after(age_s: float) -> Drawing:
         display = TfDisplay(TYPES)
         now_ns = robot.clock.now_ns + round(age_s * S)
-        display.show(robot.buffer.all_in("odom", now_ns=now_ns))
+        display.see(robot.buffer.all_in("odom", now_ns=now_ns))
         return display.draw(0)
 
     assert "old_axes" not in after(5.0)["frames"].shapes
@@ -225,7 +225,7 @@ def test_a_frame_without_news_turns_grey_then_fades_then_is_gone():
 def test_an_axis_of_a_faded_cross_lies_along_its_frame():
     robot = Robot()
     display = TfDisplay(TYPES)
-    display.show(robot.buffer.all_in("odom", now_ns=robot.clock.now_ns + 9 * S))
+    display.see(robot.buffer.all_in("odom", now_ns=robot.clock.now_ns + 9 * S))
     old = solids_of(display.draw(0), "old_axes")
     base = [row for row in range(6) if abs(float(old.positions[row, 0]) - 2.0) < 0.15
             and abs(float(old.positions[row, 1]) - 1.0) < 0.15]  # fmt: skip
@@ -255,7 +255,7 @@ def test_frames_are_chosen_by_patterns_and_by_name():
 def test_each_frame_has_a_check_from_when_it_is_there():
     display = TfDisplay(TYPES, {"Frames/base": False})
     fixed = len(display.properties())
-    display.show(Robot().buffer.all_in("odom"))
+    display.see(Robot().buffer.all_in("odom"))
     added = [one.name for one in display.properties()[fixed:]]
     assert added == [f"Frames/{name}" for name in ("base", "camera", "lens", "odom", "wheel")]
     assert names_in(display.draw(0)) == {"odom", "wheel"}
@@ -286,7 +286,7 @@ def test_why_no_frame_is_seen_is_told_with_what_mends_it(
     values: dict[str, Value], status: tuple[str, str]
 ):
     display = TfDisplay(TYPES, values)
-    display.show(Robot().buffer.all_in("odom"))
+    display.see(Robot().buffer.all_in("odom"))
     assert display.draw(0) == {}
     assert said(display) == [status]
     (told,) = display.statuses()
@@ -310,7 +310,7 @@ def test_before_any_transform_came_that_is_told():
     display = TfDisplay(TYPES)
     assert display.draw(0) == {}
     assert said(display) == [("warn", "empty")]
-    display.show(Robot().buffer.all_in("odom"))
+    display.see(Robot().buffer.all_in("odom"))
     assert display.draw(0)
     display.reset()
     assert display.draw(0) == {}
@@ -321,7 +321,7 @@ def test_many_frames_are_drawn_and_so_many_names_are_written():
     count = 3 * NAMES_MAX
     buffer.put(columns(*(Told("map", f"f{at}", S, (float(at), 0.0, 0.0)) for at in range(count))))
     display = TfDisplay(TYPES)
-    display.show(buffer.all_in("map"))
+    display.see(buffer.all_in("map"))
     drawing = display.draw(0)
     assert len(axes_of(drawing).positions) == count + 1
     assert len(names_in(drawing)) == NAMES_MAX
@@ -333,7 +333,7 @@ def test_places_at_the_end_of_the_world_are_drawn_or_left_out():
     for at in range(3):
         buffer.put(columns(Told(f"f{at}", f"f{at + 1}", S, (1e12, -1e12, 1e12))))
     display = TfDisplay(TYPES)
-    display.show(buffer.all_in("f0"))
+    display.see(buffer.all_in("f0"))
     assert_drawable(display.draw(0))
 
 

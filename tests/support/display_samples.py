@@ -200,6 +200,19 @@ def _camera() -> Fields:
     return {"header": {"frame_id": _CAMERA}, "height": 120, "width": 160, "k": k, "p": p}
 
 
+def _depths(encoding: str) -> Fields:
+    """A wall with a step in it, as a depth camera sees it: in mm, or in m."""
+    x, y = np.meshgrid(np.linspace(-1, 1, 160), np.linspace(-1, 1, 120))
+    depths_m = np.where(np.hypot(x, y) < 0.5, 0.8, 1.2 + 0.2 * x)
+    if encoding == "16UC1":
+        data = (1000 * depths_m).astype("<u2").tobytes()
+        return {"height": 120, "width": 160, "encoding": "16UC1", "step": 320, "data": data}
+    steps = (1000 * depths_m).astype("<u2")
+    file = io.BytesIO()
+    Image.fromarray(steps).save(file, "PNG")
+    return {"format": "16UC1; compressedDepth png", "data": bytes(12) + file.getvalue()}
+
+
 def _marker(kind: int, at: int, **fields: Any) -> Fields:  # noqa: ANN401
     """One of a row of markers, each in a place of its own."""
     row, column = divmod(at, 4)
@@ -318,6 +331,13 @@ SAMPLES: tuple[Sample, ...] = (
            beside={"/image/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
     Sample("packed", "Image", "sensor_msgs/msg/CompressedImage", _compressed(), frame=_CAMERA,
            beside={"/packed/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
+    Sample("depth_cloud", "DepthCloud", "sensor_msgs/msg/Image", _depths("16UC1"),
+           {"Color Image Topic": "/depth_cloud/color"}, frame=_CAMERA,
+           beside={"/depth_cloud/camera_info": ("sensor_msgs/msg/CameraInfo", _camera()),
+                   "/depth_cloud/color": ("sensor_msgs/msg/Image", _picture())}),
+    Sample("depth_packed", "DepthCloud", "sensor_msgs/msg/CompressedImage", _depths("png"),
+           {"Axis": "X"}, frame=_CAMERA,
+           beside={"/depth_packed/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
     Sample("wrench", "Wrench", "geometry_msgs/msg/WrenchStamped",
            {"wrench": {"force": point(0.5, 0.2, 0.6), "torque": point(0.0, 0.3, 0.4)}}),
     Sample("twist", "TwistStamped", "geometry_msgs/msg/TwistStamped",

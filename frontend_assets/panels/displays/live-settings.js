@@ -84,7 +84,7 @@ function listeningRows(display, kind, level, isOpen) {
   ];
 }
 
-/** @param {DisplayKindView} kind @returns {Promise<string[]>} topics that it shows */
+/** @param {{types: readonly string[]}} kind @returns {Promise<string[]>} topics that it shows */
 async function topicsFor({ types }) {
   const topics = (await topicsNow()) ?? [];
   return topics.filter((one) => one.types.some((type) => types.includes(type))).map(nameOf);
@@ -162,6 +162,11 @@ function Editor({ display, property }) {
     case "frame":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} none=${t("live.frame.none")}
         choices=${async () => ["<Fixed Frame>", ...(await framesNow()).map(nameOf)]} />`;
+    case "topic":
+      return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} placeholder=${t("live.topic.none")}
+        none=${t("live.topic.nothing", { type: property.choices[0] ?? "" })} choices=${() => topicsFor({ types: property.choices })} />`;
+    case "fact":
+      return html`<output class="fact" aria-label=${label} title=${String(value)}>${String(value)}</output>`;
     case "text":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} placeholder="" />`;
     default:

@@ -8,7 +8,6 @@ from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.display import Status, TopicRole
-from studio.displays.tf import TfDisplay
 from studio.errors import CommandError, SceneError
 from studio.live.displays.catalogue_views import property_view
 from studio.live.displays.followed_frames import FollowedFrames
@@ -246,12 +245,12 @@ class DrawingRoom:
             self._meshes.want()
 
     def _show_frames(self, displays: Iterable[Display]) -> None:
-        """Hand all frames to those that draw them."""
-        drawing = [one for one in displays if isinstance(one, TfDisplay)]
-        if drawing:
+        """Hand all frames to those that want them."""
+        wanting = [one for one in displays if one.wants_frames]
+        if wanting:
             frames = self.frames.now()
-            for display in drawing:
-                display.show(frames)
+            for display in wanting:
+                display.see(frames)
 
     def _place_robot(self) -> None:
         pose, self._robot_trouble = self.frames.robot_pose()

@@ -236,7 +236,7 @@ def request_for(role: TopicRole, topic: str, chosen: Listening) -> Request:
         role.topic(topic),
         role.types,
         newest_only=role.newest_only,
-        reliable=chosen.reliable,
+        reliable=role.chosen_reliable if chosen.reliable is None else chosen.reliable,
         latched=chosen.latched,
         depth=chosen.depth or role.depth,
         usually=(role.reliable, role.latched),
