@@ -32,6 +32,7 @@ from studio.displays.pose_with_covariance import PoseWithCovarianceDisplay
 from studio.displays.range import RangeDisplay
 from studio.displays.robot_model import RobotModelDisplay
 from studio.displays.tf import TfDisplay
+from studio.displays.trajectory import DisplayTrajectoryDisplay, JointTrajectoryDisplay
 from studio.displays.vectors import AccelDisplay, TwistDisplay, WrenchDisplay
 from studio.errors import DisplayError
 
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
 DISPLAYS: Final[tuple[type[Display], ...]] = (
     AccelDisplay,
     AxesDisplay,
+    DisplayTrajectoryDisplay,
     EffortDisplay,
     FluidPressureDisplay,
     GridCellsDisplay,
@@ -49,6 +51,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     ImageDisplay,
     DepthCloudDisplay,
     ImuDisplay,
+    JointTrajectoryDisplay,
     LaserScanDisplay,
     MapDisplay,
     MarkerArrayDisplay,

@@ -172,11 +172,12 @@ class DepthCloudDisplay(CloudDisplay):
         queue, values = int(self.values["Queue Size"]), self.values
         reliable = _RELIABLE[str(values["Reliability Policy"])]
         made = [
-            _role(depth, values["Depth Map Transport Hint"], queue, reliable),
-            _role(info, "raw", queue, None, str(values["CameraInfo Topic"]).strip()),
+            _role(depth, str(values["Depth Map Transport Hint"]), queue, reliable=reliable),
+            _role(info, "raw", queue, where=str(values["CameraInfo Topic"]).strip()),
         ]
         if where := str(values["Color Image Topic"]).strip():
-            made.append(_role(colour, values["Color Transport Hint"], queue, reliable, where))
+            packed = str(values["Color Transport Hint"])
+            made.append(_role(colour, packed, queue, reliable=reliable, where=where))
         return tuple(made)
 
     @property
@@ -348,17 +349,10 @@ class DepthCloudDisplay(CloudDisplay):
 
 
 def _role(
-    role: TopicRole,
-    transport: Value,
-    depth: int,
-    reliable: bool | None,
-    where: str = "",  # noqa: FBT001
+    role: TopicRole, transport: str, depth: int, *, reliable: bool | None = None, where: str = ""
 ) -> TopicRole:
-    packed = "" if transport == "raw" else str(transport)
-    return TopicRole(
-        role.name, role.types, role.beside, role.newest_only, role.reliable, role.latched, depth,
-        where, packed, reliable,
-    )  # fmt: skip
+    packed = "" if transport == "raw" else transport
+    return replace(role, depth=depth, elsewhere=where, transport=packed, chosen_reliable=reliable)
 
 
 def _calibration(info: Any) -> tuple[object, ...]:  # noqa: ANN401 - a sensor_msgs/CameraInfo

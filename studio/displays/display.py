@@ -16,6 +16,7 @@ from studio.ros.duration import NANOSECONDS
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping
 
+    from studio.displays.posed_robot import PosedRobot
     from studio.displays.properties import Property, Value
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames import FramesNow
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
     "no_mesh", "unknown_field", "no_camera_info", "no_picture", "unsupported", "thinned",
-    "not_connected_frame",
+    "not_connected_frame", "unknown_joint", "other_robot",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself knows."""
 _TRANSPORTS: Final = {"compressed", "compressedDepth", "ffmpeg", "theora", "zstd"}
@@ -187,6 +188,10 @@ class Display(ABC):
     def see(self, frames: FramesNow) -> None:
         """Take where all frames are now."""
         del frames
+
+    def stand(self, robot: PosedRobot) -> None:
+        """Take the document's robot as it stands now, before each drawing."""
+        del robot
 
     def take(self, received: Received, role: str = "") -> None:
         """Take in a message of one of the topics.

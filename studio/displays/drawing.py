@@ -53,6 +53,7 @@ class LinkParts:
         mass: Whether its mass is, as a ball of lead.
         inertia: Whether its inertia is, as a box.
         opacity: 1 is opaque.
+        rgb: Colour of its visuals; None: their own.
     """
 
     link: Link
@@ -62,6 +63,7 @@ class LinkParts:
     mass: bool = False
     inertia: bool = False
     opacity: float = 1.0
+    rgb: Rgb | None = None
 
     def mesh_uris(self) -> frozenset[str]:
         """URIs of the meshes that it is drawn with."""
@@ -314,6 +316,7 @@ class Placed:
             the fixed frame.
         sweep: For points not all measured at the stamp: each is placed where the frame was at its
             own time.
+        offset: Pose of the shapes in the frame.
     """
 
     frame: str
@@ -322,3 +325,4 @@ class Placed:
     follows: bool = False
     turns: bool = True
     sweep: Sweep | None = None
+    offset: Pose | None = None

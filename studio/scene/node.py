@@ -190,9 +190,7 @@ def grid(cell_m: float, extent_m: float, height_m: float, *, shadow: bool, visib
 
 @dataclass
 class PointCloudProps(_messages.PointCloudProps):
-    """Points that may be see-through, of one size on the screen (in pixels, if not 0), or larger
-    the larger their z is.
-    """
+    """Points, see-through or of a size in pixels (if not 0), or larger the larger their z is."""
 
     studio_opacity: float = 1.0
     studio_point_px: float = 0.0

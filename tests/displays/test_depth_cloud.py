@@ -2,15 +2,15 @@
 
 import io
 import math
-from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
+from numpy.typing import ArrayLike
 from PIL import Image
 
 from studio.displays.depth_cloud import DepthCloudDisplay
-from studio.displays.display import Limits
+from studio.displays.display import Limits, Received
 from studio.displays.drawing import Points
 from studio.displays.properties import Value
 from studio.errors import DisplayMessageError
@@ -26,11 +26,13 @@ K = [FX, 0.0, CX, 0.0, FY, CY, 0.0, 0.0, 1.0]
 COLOURED: dict[str, Value] = {"Color Image Topic": "/rgb"}
 
 
-def info(width: int = 4, height: int = 3, **fields: Any) -> Any:
+def info(width: int = 4, height: int = 3, **fields: object) -> Received:
     return received(INFO, {"width": width, "height": height, "k": K, **fields})
 
 
-def depth(pixels: Any, encoding: str = "32FC1", *, big: bool = False, **fields: Any) -> Any:
+def depth(
+    pixels: ArrayLike, encoding: str = "32FC1", *, big: bool = False, **fields: object
+) -> Received:
     kind = {"32FC1": "f4", "16UC1": "u2", "mono16": "u2"}[encoding]
     array = np.asarray(pixels).astype((">" if big else "<") + kind)
     height, width = array.shape
@@ -41,7 +43,7 @@ def depth(pixels: Any, encoding: str = "32FC1", *, big: bool = False, **fields: 
     return received(IMAGE, whole)
 
 
-def picture(pixels: Any, *, sec: int = 12, frame: str = "map") -> Any:
+def picture(pixels: ArrayLike, *, sec: int = 12, frame: str = "map") -> Received:
     array = np.asarray(pixels, np.uint8)
     height, width = array.shape[:2]
     header = {"frame_id": frame, "stamp": {"sec": sec, "nanosec": 0}}
@@ -57,7 +59,7 @@ def shown(display: DepthCloudDisplay) -> Points:
     return shape
 
 
-def by_hand(pixels: Any) -> list[list[float]]:
+def by_hand(pixels: list[list[float]]) -> list[list[float]]:
     """The points of a depth image, m, one after the other."""
     places: list[list[float]] = []
     for v, row in enumerate(pixels):

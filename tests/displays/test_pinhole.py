@@ -1,6 +1,5 @@
 import math
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,10 +12,10 @@ P = [400.0, 0, 300, -40, 0, 410, 230, 82, 0, 0, 1, 0]
 BARREL = [-0.3, 0.1, 0.001, -0.002, 0.0]
 
 
-def info(**fields: Any) -> Any:
-    roi = {"x_offset": 0, "y_offset": 0, "width": 0, "height": 0} | fields.pop("roi", {})
+def info(roi: dict[str, int] | None = None, **fields: object) -> SimpleNamespace:
+    region = {"x_offset": 0, "y_offset": 0, "width": 0, "height": 0} | (roi or {})
     made = {"k": K, "p": P, "d": [], "width": 640, "height": 480, "distortion_model": "plumb_bob"}
-    return SimpleNamespace(**{**made, **fields}, roi=SimpleNamespace(**roi))
+    return SimpleNamespace(**{**made, **fields}, roi=SimpleNamespace(**region))
 
 
 def test_the_matrix_that_is_asked_for_comes_first():

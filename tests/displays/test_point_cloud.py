@@ -1,5 +1,4 @@
 import math
-from typing import Any
 
 import numpy as np
 from numpy.testing import assert_array_equal
@@ -17,7 +16,7 @@ KIND = "sensor_msgs/msg/PointCloud"
 def display_of(
     points: list[tuple[float, float, float]],
     values: dict[str, Value] | None = None,
-    **channels: Any,
+    **channels: list[float],
 ) -> PointCloudDisplay:
     fields = {
         "points": [point(*one) for one in points],

@@ -213,6 +213,16 @@ def _depths(encoding: str) -> Fields:
     return {"format": "16UC1; compressedDepth png", "data": bytes(12) + file.getvalue()}
 
 
+_WAVE: Fields = {
+    "joint_names": ["arm_turret_joint", "arm_shoulder_joint", "arm_elbow_joint"],
+    "points": [
+        {"positions": [0.5 * at - 1.0, 0.3 * at, -0.2 * at],
+         "time_from_start": {"sec": at, "nanosec": 500_000_000}}
+        for at in range(5)
+    ],
+}  # fmt: skip
+
+
 def _marker(kind: int, at: int, **fields: Any) -> Fields:  # noqa: ANN401
     """One of a row of markers, each in a place of its own."""
     row, column = divmod(at, 4)
@@ -338,6 +348,11 @@ SAMPLES: tuple[Sample, ...] = (
     Sample("depth_packed", "DepthCloud", "sensor_msgs/msg/CompressedImage", _depths("png"),
            {"Axis": "X"}, frame=_CAMERA,
            beside={"/depth_packed/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
+    Sample("joint_trajectory", "JointTrajectory", "trajectory_msgs/msg/JointTrajectory", _WAVE,
+           {"Show Trail": True, "Color Enabled": True}),
+    Sample("display_trajectory", "DisplayTrajectory", "moveit_msgs/msg/DisplayTrajectory",
+           {"model_id": "rover", "trajectory": [{"joint_trajectory": _WAVE}]},
+           {"Pause": True, "Pause/Place": 0.5}),
     Sample("wrench", "Wrench", "geometry_msgs/msg/WrenchStamped",
            {"wrench": {"force": point(0.5, 0.2, 0.6), "torque": point(0.0, 0.3, 0.4)}}),
     Sample("twist", "TwistStamped", "geometry_msgs/msg/TwistStamped",

@@ -168,7 +168,8 @@ function Editor({ display, property }) {
     case "fact":
       return html`<output class="fact" aria-label=${label} title=${String(value)}>${String(value)}</output>`;
     case "text":
-      return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} placeholder="" />`;
+      return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} placeholder=""
+        choices=${property.choices.length > 0 ? async () => property.choices : undefined} />`;
     default:
       return html`<${NumberEditor} label=${label} property=${property} value=${Number(value)} set=${set} />`;
   }

@@ -8,10 +8,10 @@ from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.display import Status, TopicRole
+from studio.displays.posed_robot import PosedRobot
 from studio.errors import CommandError, SceneError
 from studio.live.displays.catalogue_views import property_view
 from studio.live.displays.followed_frames import FollowedFrames
-from studio.live.displays.own_frames import PosedRobot
 from studio.live.displays.reasons import remarks_on
 from studio.live.displays.running import RunningDisplay
 from studio.live.displays.scene_frames import STILL, SceneFrames
@@ -72,7 +72,7 @@ class DrawingRoom:
     """Steps every display that is shown and applies what it draws."""
 
     def __init__(self, robot: ShownRobot, meshes: Meshes, source: TopicSource) -> None:
-        self._scene, self._meshes, self._source = robot.scene, meshes, source
+        self._robot, self._scene, self._meshes, self._source = robot, robot.scene, meshes, source
         self._epoch = source.epoch
         self.frames = SceneFrames(robot, source)
         self._running: dict[str, RunningDisplay] = {}
@@ -158,6 +158,8 @@ class DrawingRoom:
                 running.forget()
         shown = self._shown_of(displays)
         self._show_frames(running.display for running in shown.values())
+        for running in shown.values():
+            running.display.stand(self._robot)
         self._place_robot()
         self._followed.step(self.frames.lookup, now_ns)
         for display, running in shown.items():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 from studio.displays.drawing import NO_TURN, NOTHING
 from studio.errors import ExtrapolationError, FrameError
 from studio.live.displays.deskewing import Deskewing
+from studio.tf.rotations import compose
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -107,7 +108,7 @@ class Placing:
         return bool(self._waiting)
 
     def _try(self, drawing: Drawing, lookup: Lookup) -> _Tried:
-        tried = _Tried()
+        tried, found = _Tried(), dict[tuple[str, int], "Pose"]()
         for path, placed in drawing.items():
             known = self._shown.poses.get(path)
             is_there = known is not None and _is_same_place(self._placed.get(path), placed)
@@ -117,8 +118,10 @@ class Placing:
                     tried.ends[path] = self._ends[path]
                 continue
             try:
-                wxyz, xyz = lookup(placed.frame, placed.stamp_ns)
-                tried.poses[path] = (wxyz if placed.turns else NO_TURN), xyz
+                at = placed.frame, placed.stamp_ns
+                if at not in found:
+                    found[at] = lookup(*at)
+                tried.poses[path] = _moved(found[at], placed)
                 if placed.sweep is not None:
                     tried.ends[path] = lookup(placed.frame, placed.sweep.until_ns)
             except FrameError as error:
@@ -150,12 +153,23 @@ class Placing:
 
 def _is_same_place(before: Placed | None, now: Placed) -> bool:
     """Whether only the shapes may differ: what was placed once stays, however long ago it was."""
-    return before is not None and (before.frame, before.stamp_ns, before.follows, before.turns) == (
-        now.frame,
-        now.stamp_ns,
-        now.follows,
-        now.turns,
-    )
+    return before is not None and _place_of(before) == _place_of(now)
+
+
+def _place_of(placed: Placed) -> tuple[object, ...]:
+    return placed.frame, placed.stamp_ns, placed.follows, placed.turns, placed.offset
+
+
+def _moved(fixed_from_frame: Pose, placed: Placed) -> Pose:
+    """Return the pose of the shapes in the fixed frame."""
+    wxyz, xyz = fixed_from_frame
+    if not placed.turns:
+        wxyz = NO_TURN
+    if placed.offset is None:
+        return wxyz, xyz
+    turn, (x, y, z) = placed.offset
+    made = compose((*wxyz, *xyz), (*turn, x, y, z))
+    return made[:4], made[4:]
 
 
 def _moves(placed: Placed) -> bool:
