@@ -252,8 +252,10 @@ class TrajectoryDisplay(Display):
         if unit == "s":
             return place * number
         times_s = motion.times_s - motion.times_s[0]
-        reached: Floats = np.interp([place], np.arange(motion.size), times_s)
-        return float(reached[0]) / number
+        low = min(int(place), motion.size - 1)
+        high = min(low + 1, motion.size - 1)
+        reached_s = times_s[low] + (place - low) * (times_s[high] - times_s[low])
+        return float(reached_s) / number
 
     def _ghost(self, path: str, poses: Floats, state: float) -> dict[str, Placed]:
         """Return one robot, its links at poses (L, 7) in the root frame."""

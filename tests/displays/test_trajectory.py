@@ -1,3 +1,5 @@
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -29,7 +31,7 @@ def way(*positions: float, joint: str = "shoulder", every_s: int = 1) -> dict[st
     }
 
 
-def planned(fields: dict[str, object]) -> Received:
+def planned(fields: Mapping[str, object]) -> Received:
     """A plan; it has no header."""
     return Received(PLAN, encoded(PLAN, fields), BEGIN_NS)
 
