@@ -10,13 +10,13 @@ import { remembered } from "../lib/remembered.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
 import { askedWhenChanged, useTold } from "../model/asking.js";
 import { mayEdit, mayManage } from "../model/connection.js";
-import { addDisplay, kinds, needKinds, topicsNow } from "../model/live-displays.js";
+import { addDisplay, kinds, needKinds, pluginFaults, topicsNow } from "../model/live-displays.js";
 import { ask } from "../model/requests.js";
 import { connectRos, ros } from "../model/ros.js";
 import { ageWords, flowWords, useTopicRates } from "../model/topics.js";
 
 /** @typedef {"topic" | "kind"} By */
-/** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string}} Offer `off`: why it cannot be added */
+/** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string, file: string}} Offer `off`: why it cannot be added; `file`: of the owner's own display */
 
 const TABS = /** @type {const} */ (["topic", "kind"]);
 /** The demo that publishes what displays show. */
@@ -101,30 +101,52 @@ function topicOffer({ name, types, publishers, kind }) {
     icon: kind === "" ? "minus" : (kinds.value.get(kind)?.icon ?? "box"),
     label: name,
     note: [types.join(", "), t("live.publishers", { count: publishers })].join(" · "),
-    aside: kind,
+    aside: kindName(kind),
     off,
     kind,
     topic: name,
+    file: kinds.value.get(kind)?.plugin ?? "",
   };
 }
 
-/** @param {string} words @returns {Offer[]} */
+/** @param {string} kind @returns {string} without what the owner's own have before their names */
+const kindName = (kind) => kind.slice(kind.lastIndexOf("/") + 1);
+
+/** @param {string} words @returns {Offer[]} those of the owner's own that are switched off come last */
 function kindOffers(words) {
-  return [...kinds.value.values()]
-    .filter(({ kind, doc, types }) => includesAll([kind, doc, ...types].join(" "), words))
-    .map(kindOffer);
+  const known = [...kinds.value.values()].map(kindOffer);
+  const broken = Object.entries(pluginFaults.value).filter(
+    ([file]) => !known.some((one) => one.file === file),
+  );
+  return [...known, ...broken.map(brokenOffer)].filter(({ label, note, file }) =>
+    includesAll([label, note, file].join(" "), words),
+  );
 }
 
+/** @param {readonly [string, string]} fault @returns {Offer} */
+const brokenOffer = ([file, fault]) => ({
+  key: `off ${file}`,
+  icon: "alert",
+  label: file,
+  note: fault,
+  aside: "",
+  off: t("live.add.plugin_off"),
+  kind: "",
+  topic: "",
+  file,
+});
+
 /** @param {DisplayKindView} kind @returns {Offer} */
-const kindOffer = ({ kind, doc, icon, types }) => ({
+const kindOffer = ({ kind, doc, icon, types, plugin }) => ({
   key: kind,
   icon,
-  label: kind,
+  label: kindName(kind),
   note: doc,
   aside: types[0]?.split("/").at(-1) ?? "",
   off: "",
   kind,
   topic: "",
+  file: plugin,
 });
 
 /** @param {{chosen: By, onChoose: (tab: By) => void}} props */
@@ -213,12 +235,13 @@ function topicsInView(list) {
 
 /** @param {{offer: Offer, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
 function OfferRow({ offer, chosen, rate, onPoint, onAdd }) {
-  const { icon, label, note, aside, off, topic } = offer;
+  const { icon, label, note, aside, off, topic, file } = offer;
   return html`<div role="option" class="display-offer" aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
     title=${off || note} onClick=${onPoint} onDblClick=${onAdd}>
     <${Icon} name=${icon} size=${18} />
     <span class="offer-words"><span>${label}</span><small>${note}</small></span>
     ${topic && html`<${Flow} rate=${rate} />`}
+    ${file && html`<span class="offer-mark" title=${t("live.add.plugin", { file })}>${t("live.add.own")}</span>`}
     <span class="offer-aside">${aside}</span>
   </div>`;
 }

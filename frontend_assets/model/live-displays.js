@@ -15,12 +15,14 @@ import { ask } from "./requests.js";
 import { send, subscribe } from "./wire.js";
 
 /** @type {Signal<LiveDisplays>} */
-const state = signal({ type: "live_displays", displays: [], groups_off: [], fixed_frame: "" });
+const state = signal({ type: "live_displays", displays: [], groups_off: [], fixed_frame: "", kinds: 0 });
 /** @type {Signal<DisplayStates>} */
 const fares = signal({ type: "display_states", states: [], fixed_frame_trouble: "" });
 
 /** Kinds of displays, once somebody asked for them. @type {Signal<ReadonlyMap<string, DisplayKindView>>} */
 export const kinds = signal(new Map());
+/** Why files of the owner's own displays are switched off. @type {Signal<Readonly<Record<string, string>>>} */
+export const pluginFaults = signal({});
 /** In the order in which they are listed. */
 export const liveDisplays = computed(() => state.value.displays);
 export const groupsOff = computed(() => state.value.groups_off);
@@ -45,7 +47,10 @@ export const settingOf = ({ id, values }, name) =>
   (Object.hasOwn(values, name) ? values[name] : undefined);
 
 subscribe("live_displays", (event) => {
+  const isOther = event.kinds !== state.peek().kinds;
   state.value = event;
+  // A file of the owner's own displays came, changed or went: who knew the kinds asks again.
+  if (isOther && kinds.peek().size > 0) askForKinds();
 });
 
 subscribe("display_states", (event) => {
@@ -139,10 +144,14 @@ export function mendDisplay({ mend }) {
 
 /** Have the kinds of displays be known; asked for once. */
 export async function needKinds() {
-  if (kinds.value.size > 0) return;
+  if (kinds.value.size === 0) await askForKinds();
+}
+
+async function askForKinds() {
   const answer = await ask({ type: "get_display_kinds" });
-  if (answer?.type === "display_kinds")
-    kinds.value = new Map(answer.kinds.map((one) => [one.kind, one]));
+  if (answer?.type !== "display_kinds") return;
+  kinds.value = new Map(answer.kinds.map((one) => [one.kind, one]));
+  pluginFaults.value = answer.plugin_faults;
 }
 
 /** @returns {Promise<readonly TopicView[] | null>} null: the studio does not answer */

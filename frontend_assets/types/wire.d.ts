@@ -544,6 +544,7 @@ export interface DisplayKindView {
   doc: string;
   icon: string;
   types: string[];
+  plugin: string;
   properties: PropertyView[];
 }
 
@@ -552,6 +553,7 @@ export interface DisplayKinds {
   type: "display_kinds";
   request: number;
   kinds: DisplayKindView[];
+  plugin_faults: Record<string, string>;
 }
 
 /** State of a display. */
@@ -1671,6 +1673,7 @@ export interface LiveDisplays {
   displays: DisplayView[];
   groups_off: string[];
   fixed_frame: string;
+  kinds: number;
 }
 
 /** Set what a parameter file has for a node, one parameter after another. */

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
     "no_mesh", "unknown_field", "no_camera_info", "no_picture", "unsupported", "thinned",
-    "not_connected_frame", "unknown_joint", "other_robot",
+    "not_connected_frame", "unknown_joint", "other_robot", "plugin",
+    "not_here",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself knows."""
 _TRANSPORTS: Final = {"compressed", "compressedDepth", "ffmpeg", "theora", "zstd"}
@@ -212,6 +213,10 @@ class Display(ABC):
     def statuses(self) -> tuple[Status, ...]:
         """Return what the user should know; empty when all is well."""
         return ()
+
+    def close(self) -> None:
+        """Let go of what it holds: it is taken away, and is asked for nothing more."""
+        self.limits = Limits()
 
     def decode(self, received: Received) -> Any:  # noqa: ANN401 - of the type that it names
         """Read a message; arrays of numbers are read-only views.

@@ -162,6 +162,7 @@ class Document:
             services.wire,
             audience,
         )
+        self.live.use(services.plugins)
 
     @property
     def title(self) -> str:

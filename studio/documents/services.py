@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.client import DescriptionWorker
 from studio.live.connection.ros_connection import RosConnection
+from studio.live.displays.plugins import Plugins
 from studio.robot.meshes.library import MeshLibrary
 from studio.robot.worker_client import UrdfValidator, mesh_pool
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
+    "studio.live.displays.plugin_display",
     "studio.live.connection.followed_joints",
     *("studio.live.panels.goal_work", "studio.live.panels.parameter_work"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
@@ -44,6 +46,7 @@ class Services:
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
         self.wire = RosConnection(settings.wire)
+        self.plugins = Plugins(settings.display_folders)
         self._spare = DescriptionWorker()
         self._keeps_warm = False
         """Whether processes are started before they are needed."""
@@ -52,6 +55,7 @@ class Services:
     async def start(self) -> None:
         """Warm the workers in the background, and a spare one after each that is taken."""
         self._keeps_warm = True
+        self.plugins.start()
         self._warm(self._spare.warm())
         self._warm(self._pool.warm())
 
@@ -93,7 +97,7 @@ class Services:
             task.cancel()
         await asyncio.gather(*warming, return_exceptions=True)
         workers = (self._pool.close(), self._spare.close(), self.validator.close())
-        await asyncio.gather(*workers, self.wire.close())
+        await asyncio.gather(*workers, self.wire.close(), self.plugins.close())
 
 
 def _import_rest() -> None:

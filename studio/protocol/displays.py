@@ -122,6 +122,8 @@ class DisplayKindView(Message):
     icon: str
     types: tuple[str, ...]
     """Message types that it shows; none: it subscribes to no topic."""
+    plugin: str
+    """The file that it comes from, if it is the owner's own."""
     properties: tuple[PropertyView, ...]
 
 
@@ -131,6 +133,8 @@ class DisplayKinds(Event):
     type: Literal["display_kinds"] = "display_kinds"
     request: int
     kinds: tuple[DisplayKindView, ...]
+    plugin_faults: dict[str, str]
+    """Why files of the owner's own displays are switched off, by their names."""
 
 
 class PropertyView(Message):
@@ -188,6 +192,8 @@ class LiveDisplays(Event):
     """Groups that are hidden as a whole."""
     fixed_frame: str
     """As chosen; empty: the robot's root link."""
+    kinds: int
+    """Another number whenever the kinds of displays are others."""
 
 
 class Mend(Message):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
+from studio.live.displays.plugins import Plugins
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
@@ -88,6 +89,8 @@ class DocumentDisplays:
     ) -> None:
         self._robot, self._meshes, self._reader = robot, meshes, reader
         self._file, self._wire, self._audience = file, wire, audience
+        self._plugins = Plugins()
+        self._unwatch: Callable[[], None] = lambda: None
         self._list = DisplayList()
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
@@ -104,6 +107,10 @@ class DocumentDisplays:
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
         """Called when displays were added, removed or changed."""
+
+    def use(self, plugins: Plugins) -> None:
+        """Have the owner's displays, too; to be called before any is made."""
+        self._plugins, self._unwatch = plugins, plugins.on_change(self._plugins_changed)
 
     @property
     def kept(self) -> KeptDisplays:
@@ -129,7 +136,7 @@ class DocumentDisplays:
             from studio.live.displays.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
             from studio.live.displays.robot_models import RobotModels  # noqa: PLC0415
 
-            self._made = DrawingRoom(self._robot, self._meshes, self._wire.topics)
+            self._made = DrawingRoom(self._robot, self._meshes, self._wire.topics, self._plugins)
             self._robots = RobotModels(self._robot, self._wire.topics, self._reader)
         return self._made
 
@@ -147,11 +154,7 @@ class DocumentDisplays:
 
     def _restore_one(self, spec: DisplaySpec) -> None:
         added = self._list.put(spec)
-        try:
-            self._room.open(added)
-        except StudioError as error:
-            self._list.remove(added.id)
-            _log.warning("The display %s was left out: %s", spec.name, error)
+        self._room.open(added, is_kept=True)
 
     def events(self) -> Iterable[Event]:
         """Yield the events for a new page; with a page there, displays are drawn again."""
@@ -163,7 +166,7 @@ class DocumentDisplays:
 
     async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
-        topic = _full_name(command.topic) or _first_topic(command.kind)
+        topic = _full_name(command.topic) or self._plugins.of_kind(command.kind).FIRST_TOPIC
         spec = self._list.add(command.kind, topic)
         try:
             self._room.open(spec)
@@ -187,7 +190,7 @@ class DocumentDisplays:
 
     def duplicate(self, command: DuplicateDisplay) -> None:
         """Add one like another."""
-        self._room.open(self._list.duplicate(command.display))
+        self._room.open(self._list.duplicate(command.display), is_kept=True)
         self._changed()
 
     def arrange(self, command: ArrangeDisplay) -> None:
@@ -217,7 +220,7 @@ class DocumentDisplays:
         old = None
         if spec.topic != before.topic:
             old = self._room.close(spec.id)
-            self._room.open(spec)
+            self._room.open(spec, is_kept=True)
         self._change(spec)
         if old is not None:
             old.close()
@@ -248,7 +251,11 @@ class DocumentDisplays:
         """Return the kinds of displays."""
         from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
 
-        return DisplayKinds(request=command.request, kinds=kind_views())
+        return DisplayKinds(
+            request=command.request,
+            kinds=kind_views(self._plugins.kinds()),
+            plugin_faults=self._plugins.faults(),
+        )
 
     async def topics(self, command: GetTopics) -> Topics:
         """Return the topics; none without a connection."""
@@ -257,7 +264,7 @@ class DocumentDisplays:
             return Topics(request=command.request, topics=())
         from studio.live.displays.topic_views import topic_views  # noqa: PLC0415 - imports all
 
-        found = await asyncio.to_thread(topic_views, link)
+        found = await asyncio.to_thread(topic_views, link, self._plugins.kind_of_type)
         return Topics(request=command.request, topics=found)
 
     async def tf(self, command: GetTf) -> TfFrames:
@@ -292,6 +299,7 @@ class DocumentDisplays:
     async def close(self) -> None:
         """Draw nothing more."""
         self._closed = True
+        self._unwatch()
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
@@ -302,6 +310,17 @@ class DocumentDisplays:
             self._made.close_all()
         if self._keeping is not None:
             await self._keeping
+
+    async def _plugins_changed(self, kinds: frozenset[str]) -> None:
+        """Begin anew with the displays of kinds that came, changed or went."""
+        for spec in self._list:
+            if spec.kind in kinds and (old := self._room.close(spec.id)) is not None:
+                self._room.open(spec, is_kept=True)
+                old.close()
+        self._show_and_hide()
+        self._checked_s = 0.0
+        self._send_displays()
+        self._go_on()
 
     async def _connect(self) -> None:
         """Ensure a connection; if there is none, the displays' states say why."""
@@ -411,6 +430,7 @@ class DocumentDisplays:
             displays=tuple(self._room.view(spec) for spec in self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
+            kinds=self._plugins.generation,
         )
 
 
@@ -431,17 +451,6 @@ COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
-
-
-def _first_topic(kind: str) -> str:
-    """Return the topic of a new display of a kind.
-
-    Raises:
-        DisplayError: There is no such kind.
-    """
-    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
-
-    return display_of_kind(kind).FIRST_TOPIC
 
 
 def _full_name(topic: str) -> str:

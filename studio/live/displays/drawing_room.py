@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.display import Status, TopicRole
 from studio.displays.posed_robot import PosedRobot
-from studio.errors import CommandError, SceneError
+from studio.errors import CommandError, DisplayError, SceneError
 from studio.live.displays.catalogue_views import property_view
 from studio.live.displays.followed_frames import FollowedFrames
+from studio.live.displays.plugin_display import MissingDisplay
 from studio.live.displays.reasons import remarks_on
 from studio.live.displays.running import RunningDisplay
 from studio.live.displays.scene_frames import STILL, SceneFrames
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from studio.displays.display import Display
     from studio.displays.drawing import Pose
     from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
+    from studio.live.displays.plugins import Plugins
     from studio.live.topics.request import Fit
     from studio.live.topics.source import TopicSource
     from studio.protocol.roles import Visitor
@@ -71,7 +73,10 @@ class Meshes(Protocol):
 class DrawingRoom:
     """Steps every display that is shown and applies what it draws."""
 
-    def __init__(self, robot: ShownRobot, meshes: Meshes, source: TopicSource) -> None:
+    def __init__(
+        self, robot: ShownRobot, meshes: Meshes, source: TopicSource, plugins: Plugins
+    ) -> None:
+        self._plugins = plugins
         self._robot, self._scene, self._meshes, self._source = robot, robot.scene, meshes, source
         self._epoch = source.epoch
         self.frames = SceneFrames(robot, source)
@@ -82,13 +87,24 @@ class DrawingRoom:
         self._robot_at: Pose = STILL
         self._robot_trouble = ""
 
-    def open(self, spec: DisplaySpec) -> None:
+    def open(self, spec: DisplaySpec, *, is_kept: bool = False) -> None:
         """Start a display.
 
+        Args:
+            spec: Its settings.
+            is_kept: Whether it was there before: then one whose kind is not here keeps its place.
+
         Raises:
-            DisplayError: There is no such kind, or it does not take the values.
+            DisplayError: There is no such kind.
         """
-        self._running[spec.id] = RunningDisplay(spec, shared_types())
+        types = shared_types()
+        try:
+            display = self._plugins.of_kind(spec.kind)(types)
+        except DisplayError:
+            if not is_kept:
+                raise
+            display = MissingDisplay(types, spec.kind)
+        self._running[spec.id] = RunningDisplay(spec, display)
 
     def get(self, display: str) -> RunningDisplay:
         """Return the one of an id.

@@ -9,8 +9,8 @@ from contextlib import suppress
 from itertools import chain
 from typing import TYPE_CHECKING, Final
 
-from studio.displays.catalogue import display_of_kind, displays_of_type
-from studio.displays.display import Display, Received, Status
+from studio.displays.catalogue import displays_of_type
+from studio.displays.display import Received, Status
 from studio.displays.drawing import NOTHING
 from studio.errors import DisplayPropertyError, StudioError
 from studio.live.displays.placing import Placing
@@ -20,7 +20,7 @@ from studio.live.topics.request import Request, SubscriptionState
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from studio.displays.display import TopicRole
+    from studio.displays.display import Display, TopicRole
     from studio.displays.drawing import Drawing, Placed
     from studio.displays.properties import Value
     from studio.errors import FrameError
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Fit
     from studio.live.topics.source import TopicSource
     from studio.live.topics.subscription import Subscription
-    from studio.ros.types.library import TypeLibrary
 
 _SILENT_S: Final = 5.0
 _WAITING_MAX: Final = 1_000
@@ -40,15 +39,10 @@ _log = logging.getLogger(__name__)
 
 
 class RunningDisplay:
-    """Lives as long as its kind and topic are the same; used on the event loop only.
+    """Lives as long as its kind and topic are the same; used on the event loop only."""
 
-    Raises:
-        DisplayError: There is no such kind.
-    """
-
-    def __init__(self, spec: DisplaySpec, types: TypeLibrary) -> None:
-        self.spec, self._types = spec, types
-        self.display: Display = display_of_kind(spec.kind)(types)
+    def __init__(self, spec: DisplaySpec, display: Display) -> None:
+        self.spec, self.display = spec, display
         for name, value in spec.values.items():
             with suppress(DisplayPropertyError):  # kept by another studio: the others still hold
                 self.display.set(name, value)
@@ -111,6 +105,7 @@ class RunningDisplay:
     def close(self) -> None:
         """Receive nothing any more."""
         self._closed = True
+        self.display.close()
         self.unsubscribe()
 
     def step(self, lookup: Lookup, now_ns: int, at_once_s: float = math.inf) -> Shown | None:
