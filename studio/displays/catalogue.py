@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.axes import AxesDisplay
+from studio.displays.camera import CameraDisplay
 from studio.displays.depth_cloud import DepthCloudDisplay
 from studio.displays.effort import EffortDisplay
 from studio.displays.grid import GridDisplay
@@ -49,6 +50,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     GridDisplay,
     IlluminanceDisplay,
     ImageDisplay,
+    CameraDisplay,
     DepthCloudDisplay,
     ImuDisplay,
     JointTrajectoryDisplay,

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
     "no_mesh", "unknown_field", "no_camera_info", "no_picture", "unsupported", "thinned",
-    "not_connected_frame", "unknown_joint", "other_robot", "plugin",
+    "not_connected_frame", "unknown_joint", "other_robot", "plugin", "distorted",
     "not_here",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself knows."""
@@ -141,6 +141,8 @@ class Display(ABC):
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         self._types = types
+        self.topic = ""
+        """Its main topic, once it is subscribed to."""
         self._codecs: dict[str, Codec] = {}
         self.limits = Limits()
         self.values: dict[str, Value] = {one.name: one.default for one in self.PROPERTIES}
@@ -189,6 +191,10 @@ class Display(ABC):
     def see(self, frames: FramesNow) -> None:
         """Take where all frames are now."""
         del frames
+
+    def beside(self, names: Mapping[str, str], own: str) -> None:
+        """Take the names of all displays by their ids, and its own id, before each drawing."""
+        del names, own
 
     def stand(self, robot: PosedRobot) -> None:
         """Take the document's robot as it stands now, before each drawing."""

@@ -270,6 +270,32 @@ class Frustum:
     opacity: float = 1.0
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class CameraView:
+    """The scene as a camera sees it, over its picture; nothing of it is in the scene itself.
+
+    Attributes:
+        image: Shape (H, W, 3), uint8, row 0 on top.
+        lens: Focal lengths and principal point along x and y as shares of the width and the
+            height, and where the eye is beside the frame along its x and y, m; None: unknown.
+        rendering: Where the picture is: `background`, `overlay`, or `background and overlay`.
+        overlay_alpha: Opacity of the picture in front of the scene.
+        zoom: 1 shows all of the picture.
+        near_m: What is nearer is not drawn.
+        far_m: What is farther away is not drawn.
+        hidden: Ids of displays that are not seen in it, and `robot` and `grid`.
+    """
+
+    image: NDArray[np.uint8]
+    lens: tuple[float, float, float, float, float, float] | None
+    rendering: str
+    overlay_alpha: float
+    zoom: float
+    near_m: float
+    far_m: float
+    hidden: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, slots=True)
 class GridLines:
     """A grid of lines centred on the origin; `plane` names the two axes that it spans."""
@@ -285,7 +311,7 @@ class GridLines:
 
 Shape: TypeAlias = (
     Points | Lines | Arrows | Axes | Solids | Triangles | MeshFile | Text | Picture | Frustum
-    | GridLines | LinkParts
+    | CameraView | GridLines | LinkParts
 )  # fmt: skip
 
 

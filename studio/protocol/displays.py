@@ -141,9 +141,7 @@ class PropertyView(Message):
     """A property of a kind of display."""
 
     name: str
-    kind: Literal[
-        "switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact"
-    ]
+    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact"]
     default: PropertyValue
     doc: str
     low: float | None

@@ -227,9 +227,10 @@ class GlbProps(_messages.GlbProps):
 
 @dataclass
 class CameraFrustumProps(_messages.CameraFrustumProps):
-    """A frustum whose picture may be see-through."""
+    """A frustum whose picture may be see-through; or the view of a camera, of a page's own."""
 
     studio_opacity: float = 1.0
+    studio_camera: dict[str, Any] | None = None
 
 
 @dataclass

@@ -12,6 +12,7 @@ from studio.displays.drawing import (
     BODIES_MAX,
     Arrows,
     Axes,
+    CameraView,
     Frustum,
     GridLines,
     Lines,
@@ -28,7 +29,7 @@ from studio.errors import SceneError
 from studio.scene import node
 from studio.scene.link_nodes import MISSING_SIZE_M, MISSING_STYLE, MeshShelf, link_nodes
 from studio.scene.node import Node, Style
-from studio.scene.pictures import EncodedShelf, frustum_of, tiles_of
+from studio.scene.pictures import EncodedShelf, camera_of, frustum_of, tiles_of
 from studio.scene.solids import arrows_of, linear, many_of
 from studio.scene.surfaces import surface_of
 
@@ -75,8 +76,10 @@ def nodes_of(shape: Shape, stream: str, shelves: Shelves) -> dict[str, Node]:
             return _text(shape)
         case Picture():
             return tiles_of(shape, shelves.encoded)
-        case Frustum():
-            return {"frustum": frustum_of(shape, stream)}
+        case Frustum() | CameraView():
+            is_view = isinstance(shape, CameraView)
+            made = camera_of(shape, stream) if is_view else frustum_of(shape, stream)
+            return {"camera" if is_view else "frustum": made}
         case GridLines():
             return _grid(shape)
         case _:

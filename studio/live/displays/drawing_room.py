@@ -81,6 +81,7 @@ class DrawingRoom:
         self._epoch = source.epoch
         self.frames = SceneFrames(robot, source)
         self._running: dict[str, RunningDisplay] = {}
+        self._names: dict[str, str] = {}
         self._faults: dict[str, str] = {}
         self._seen: frozenset[str] = frozenset()
         self._followed = FollowedFrames(robot.scene.live)
@@ -174,13 +175,22 @@ class DrawingRoom:
                 running.forget()
         shown = self._shown_of(displays)
         self._show_frames(running.display for running in shown.values())
-        for running in shown.values():
+        names = self._names_of(displays)
+        for display, running in shown.items():
             running.display.stand(self._robot)
+            running.display.beside(names, display)
         self._place_robot()
         self._followed.step(self.frames.lookup, now_ns)
         for display, running in shown.items():
             self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
         self._scene.live.draw_waiting()
+
+    def _names_of(self, displays: DisplayList) -> dict[str, str]:
+        """Return the names by id; the same object as long as they are the same."""
+        names = {one.id: one.name for one in displays}
+        if names != self._names:
+            self._names = names
+        return self._names
 
     def view(self, spec: DisplaySpec) -> DisplayView:
         """Return one display and its settings."""

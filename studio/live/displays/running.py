@@ -43,6 +43,7 @@ class RunningDisplay:
 
     def __init__(self, spec: DisplaySpec, display: Display) -> None:
         self.spec, self.display = spec, display
+        display.topic = spec.topic
         for name, value in spec.values.items():
             with suppress(DisplayPropertyError):  # kept by another studio: the others still hold
                 self.display.set(name, value)
