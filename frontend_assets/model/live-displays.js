@@ -15,7 +15,13 @@ import { ask } from "./requests.js";
 import { send, subscribe } from "./wire.js";
 
 /** @type {Signal<LiveDisplays>} */
-const state = signal({ type: "live_displays", displays: [], groups_off: [], fixed_frame: "", kinds: 0 });
+const state = signal({
+  type: "live_displays",
+  displays: [],
+  groups_off: [],
+  fixed_frame: "",
+  kinds: 0,
+});
 /** @type {Signal<DisplayStates>} */
 const fares = signal({ type: "display_states", states: [], fixed_frame_trouble: "" });
 

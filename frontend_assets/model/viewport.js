@@ -88,6 +88,7 @@ function askFor(frame) {
  * @property {(place: readonly [number, number, number] | null) => void} setGuide a mark at what somebody else points at
  * @property {(frame: string) => void} setTarget the camera goes with a frame; empty: with none
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
+ * @property {(sight: {display: string, canvas: HTMLCanvasElement, told: (seen: boolean) => void}) => {renew: () => void, leave: () => void}} showCamera draw what a camera of the robot sees
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
  * @property {(link: string, visible: boolean) => void} setLinkVisible

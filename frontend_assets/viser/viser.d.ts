@@ -159,6 +159,8 @@ export interface Camera extends Object3D {
   aspect: number;
   near: number;
   far: number;
+  projectionMatrix: Matrix4;
+  projectionMatrixInverse: Matrix4;
   updateProjectionMatrix(): void;
 }
 
@@ -167,6 +169,10 @@ export interface Renderer {
   toneMappingExposure: number;
   getPixelRatio(): number;
   setPixelRatio(ratio: number): void;
+  /** Into an object with a method `copy`. */
+  getViewport(into: { copy(of: { x: number; y: number; z: number; w: number }): unknown }): unknown;
+  setViewport(x: number, y: number, width: number, height: number): void;
+  shadowMap: { autoUpdate: boolean };
   render(scene: Scene, camera: Camera): void;
 }
 
