@@ -6,6 +6,8 @@ const FRUSTUM = "CameraFrustumMessage";
 const FAREST_M = 1e7;
 /** A view is drawn so often at most, beside the pictures of the whole scene. */
 const EVERY_MS = 33;
+/** React makes what a message brings, such as points, a picture or two later. */
+const SETTLES_MS = 500;
 
 /**
  * What the studio sends of a camera: see `CameraView` of displays/drawing.py.
@@ -45,7 +47,7 @@ class Shown {
   async decode(jpeg, done) {
     this.#number += 1;
     const number = this.#number;
-    const picture = await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" })).catch(() => null);
+    const picture = await pictureOf(jpeg);
     if (!picture || number !== this.#number) return picture?.close(); // a newer one came meanwhile
     this.picture?.close();
     this.picture = picture;
@@ -74,6 +76,9 @@ export class CameraPictures {
   /** Frustums in the scene, which would stand before the eye of a camera. @type {Set<string>} */
   #frustums = new Set();
   #drawn_ms = -EVERY_MS;
+  #changed_ms = -SETTLES_MS;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #later;
 
   /** @param {Door} door */
   constructor(door) {
@@ -102,7 +107,7 @@ export class CameraPictures {
   /** @param {Message} message */
   #read(message) {
     const { type, name } = message;
-    for (const sight of this.#sights.keys()) this.#sights.set(sight, true);
+    this.#changed_ms = performance.now();
     if (!name?.startsWith(ROOT)) return;
     if (type === "RemoveSceneNodeMessage") this.#forget(name);
     const values = message.props ?? message.updates;
@@ -145,18 +150,29 @@ export class CameraPictures {
   /** @param {Renderer} renderer */
   #drawAll(renderer) {
     if (this.#sights.size === 0) return;
-    const waiting = [...this.#sights].filter(([, isDue]) => isDue).map(([sight]) => sight);
+    const now_ms = performance.now();
+    const isSettling = now_ms - this.#changed_ms < SETTLES_MS;
+    const waiting = [...this.#sights]
+      .filter(([, isDue]) => isDue || isSettling)
+      .map(([sight]) => sight);
     if (waiting.length === 0) return;
-    const left_ms = this.#drawn_ms + EVERY_MS - performance.now();
+    const left_ms = this.#drawn_ms + EVERY_MS - now_ms;
     if (left_ms > 0) {
-      setTimeout(() => this.#door.redraw(), left_ms);
+      this.#later ??= setTimeout(() => this.#drawLater(waiting), left_ms);
       return;
     }
-    this.#drawn_ms = performance.now();
+    this.#drawn_ms = now_ms;
     for (const sight of waiting) {
       this.#sights.set(sight, false);
       this.#draw(renderer, sight);
     }
+  }
+
+  /** @param {readonly Sight[]} waiting */
+  #drawLater(waiting) {
+    this.#later = undefined;
+    for (const sight of waiting) if (this.#sights.has(sight)) this.#sights.set(sight, true);
+    this.#door.redraw();
   }
 
   /** @param {Renderer} renderer @param {Sight} sight */
@@ -252,6 +268,15 @@ export class CameraPictures {
 }
 
 const nothing = () => undefined;
+
+/** @param {Uint8Array<ArrayBuffer>} jpeg @returns {Promise<ImageBitmap | null>} null: it is none */
+async function pictureOf(jpeg) {
+  try {
+    return await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" }));
+  } catch {
+    return null;
+  }
+}
 
 /** @param {Material} material @param {number} factor */
 function scalePoints({ uniforms }, factor) {
