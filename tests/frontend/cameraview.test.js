@@ -145,7 +145,3 @@ test("a view is drawn when a message came, and not when only the eye of the pers
   hooks.draw({});
   assert.equal(counted.cleared, 3);
 });
-  await new Promise((resolve) => setTimeout(resolve, 40));
-  hooks.draw({});
-  assert.equal(counted.cleared, 2);
-});
