@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from studio.displays.drawing import Axes, Placed, Solids, Text
+from studio.displays.drawing import Axes, Lines, Placed, Solids, Text
 from studio.displays.tf import NAMES_MAX, TfDisplay
 from studio.errors import DisplayPropertyError
 from studio.tf.buffer import TransformBuffer
@@ -257,10 +257,59 @@ def test_each_frame_has_a_check_from_when_it_is_there():
     fixed = len(display.properties())
     display.see(Robot().buffer.all_in("odom"))
     added = [one.name for one in display.properties()[fixed:]]
-    assert added == [f"Frames/{name}" for name in ("base", "camera", "lens", "odom", "wheel")]
+    every = ("base", "camera", "lens", "odom", "wheel")
+    assert added == [f"{kind}/{name}" for kind in ("Frames", "Trails") for name in every]
     assert names_in(display.draw(0)) == {"odom", "wheel"}
     display.set("Frames", value=False)
-    assert [one.default for one in display.properties()[fixed:]] == [False] * 5
+    assert [one.default for one in display.properties()[fixed:]] == [False] * 10
+
+
+def test_frames_leave_trails_for_as_long_as_is_set():
+    robot = Robot()
+    display = TfDisplay(TYPES, {"Trails/base": True, "Trail Time": 2.0})
+
+    def go_to(x: float, at_s: int) -> Lines | None:
+        told = Told("odom", "base", robot.clock.now_ns, (x, 1.0, 0.0))
+        robot.clock.now_ns += S
+        robot.buffer.put(columns(told))
+        display.see(robot.buffer.all_in("odom"))
+        found = frames_of(display.draw(at_s * S)).shapes.get("trails")
+        assert found is None or isinstance(found, Lines)
+        return found
+
+    assert go_to(2.0, 10) is None
+    way = go_to(3.0, 11)
+    assert way is not None
+    np.testing.assert_allclose(way.ends, [[[2, 1, 0], [3, 1, 0]]])
+    way = go_to(4.0, 12)
+    assert way is not None
+    assert len(way.ends) == 2
+    assert go_to(4.001, 12) is way
+    way = go_to(5.0, 14)
+    assert way is not None
+    np.testing.assert_allclose(way.ends, [[[4, 1, 0], [5, 1, 0]]])
+    display.see(robot.buffer.all_in("base"))
+    assert "trails" not in frames_of(display.draw(14 * S)).shapes
+    display.set("Trails", value=False)
+    assert go_to(6.0, 15) is None
+
+
+def test_ages_are_written_and_coloured_from_green_to_red():
+    robot = Robot()
+    display = shown(robot, Show_Ages=True)
+
+    def name_of(frame: str) -> Text:
+        text = display.draw(0)[f"names/{frame}"].shapes["name"]
+        assert isinstance(text, Text)
+        return text
+
+    assert (name_of("base").text, name_of("base").rgb) == ("base", (90, 220, 130))
+    display.see(robot.buffer.all_in("odom", now_ns=robot.clock.now_ns + 9 * S))
+    fresh, old = name_of("odom"), name_of("base")
+    assert (fresh.text, old.text) == ("odom", "base (9 s)")
+    assert old.rgb[0] > 150 > old.rgb[1]
+    docs = {one.name: one.doc for one in display.properties()}
+    assert docs["Frames/base"] == "Shows this frame; its oldest transform came 9 s ago."
 
 
 def test_a_pattern_that_is_none_is_refused_and_the_former_stays():
