@@ -175,3 +175,13 @@ export async function framesNow() {
   const answer = await ask({ type: "get_tf" });
   return answer?.type === "tf_frames" ? answer.frames : [];
 }
+
+/** @param {string} frame @param {string} fixed @returns {Promise<{pose: import("../types/wire.d.ts").TfPose | null, trouble: string}>} where a frame is in another; or why that is not known */
+export async function poseNow(frame, fixed) {
+  try {
+    const answer = await send({ type: "get_tf", frame, seen_from: fixed, pose_only: true });
+    return answer.type === "tf_frames" ? answer : { pose: null, trouble: "" };
+  } catch {
+    return { pose: null, trouble: "" }; // the connection says itself elsewhere what is in the way
+  }
+}
