@@ -65,14 +65,16 @@ def run() -> None:
     """All of it."""
     asyncio.run(_ticks())
     ours, stock = _orbit_of_ours(), _orbit_of_stock()
-    say(f"  a picture of 1,000,000 points on an orbit: {ours:.0f} ms; by viser alone {stock:.0f} ms")
-    judge("1M points, orbit: a picture against viser alone", ours / stock, at_most=1.2, unit="of it")
+    say(
+        f"  a picture of 1,000,000 points on an orbit: {ours:.0f} ms; by viser alone {stock:.0f} ms"
+    )
+    judge(
+        "1M points, orbit: a picture against viser alone", ours / stock, at_most=1.2, unit="of it"
+    )
 
 
 async def _ticks() -> None:
-    many = [
-        marker(Kind.CUBE, each, at=(each % 100, each // 100, 0.0)) for each in range(MARKERS)
-    ]
+    many = [marker(Kind.CUBE, each, at=(each % 100, each // 100, 0.0)) for each in range(MARKERS)]
     await _hold("10,000 markers, all moved", MarkerArrayDisplay(TYPES), moved(array_of(*many), 4))
     await _hold("a map of 16,000,000 cells", MapDisplay(TYPES), [map_message(MAP_EDGE)])
     cloud = PointCloud2Display(TYPES, {"Points at most": POINTS})
@@ -85,16 +87,18 @@ async def _hold(title: str, display: Display, messages: Iterable[Received]) -> N
     scene = DocumentScene(asyncio.get_running_loop())
     peer, _ = await joined(scene)
     held = Timings(title)
-    display.changed("Points at most") if "Points at most" in display.values else None
+    if "Points at most" in display.values:
+        display.changed("Points at most")
     every = list(messages)
     for tick in range(TICKS):
-        with held.measure():
-            display.take(every[tick % len(every)])
-            drawing = display.draw(time.time_ns())
-            scene.live.apply("d1", drawing, dict.fromkeys(drawing, (NO_TURN, ORIGIN)))
-            scene.live.draw_waiting()
-        await asyncio.sleep(0)
+        begin_s = time.thread_time()  # what others of this machine take is not the studio's
+        display.take(every[tick % len(every)])
+        drawing = display.draw(time.time_ns())
+        scene.live.apply("d1", drawing, dict.fromkeys(drawing, (NO_TURN, ORIGIN)))
+        scene.live.draw_waiting()
+        held.values_ms.append((time.thread_time() - begin_s) * 1000)
         scene.flush()
+        await asyncio.sleep(0)
         peer.frames.clear()
     scene.close()
     await asyncio.sleep(0)
@@ -138,9 +142,7 @@ def _orbit(address: str, node: str) -> float:
 
 @contextlib.contextmanager
 def _stock_viser() -> Generator[int]:
-    process = subprocess.Popen(
-        [sys.executable, "-c", _STOCK], stdout=subprocess.PIPE, text=True
-    )
+    process = subprocess.Popen([sys.executable, "-c", _STOCK], stdout=subprocess.PIPE, text=True)
     try:
         assert process.stdout is not None
         yield next(int(line.split()[1]) for line in process.stdout if line.startswith("port "))

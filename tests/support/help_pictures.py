@@ -273,21 +273,7 @@ def take_wired(browser: Browser, data: Path) -> None:
                     add_displays(tab)
                 look_at_odometry(tab)
                 for panel in filter(wanted, ON_THE_WIRE):
-                    tab.page.evaluate(SHOW_PANEL, panel)
-                    is_alone = panel not in BESIDE_THE_SCENE
-                    if is_alone:
-                        tab.page.evaluate(_RUN, "maximize")
-                    if panel == "cameraview":
-                        show_camera(tab.page)
-                    if panel == "interfaces":
-                        show_type(tab.page)
-                    if panel == "lessons":
-                        show_lesson(tab.page)
-                    tab.page.wait_for_timeout(_STILL_MS)
-                    highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
-                    camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
-                    if is_alone:
-                        tab.page.evaluate(_RUN, "maximize")
+                    take_wired_panel(camera, panel)
                 if wanted("ros"):
                     tab.page.evaluate(_RUN, "ros")
                     tab.page.locator(".ros-report").wait_for()
@@ -303,6 +289,21 @@ def take_wired(browser: Browser, data: Path) -> None:
                     take_displays(camera)
 
 
+def take_wired_panel(camera: Camera, panel: str) -> None:
+    """One panel, alone in the window but for those that the 3D view draws."""
+    page, is_alone = camera.page, panel not in BESIDE_THE_SCENE
+    page.evaluate(SHOW_PANEL, panel)
+    if is_alone:
+        page.evaluate(_RUN, "maximize")
+    if panel in SHOWN_BY:
+        SHOWN_BY[panel](page)
+    page.wait_for_timeout(_STILL_MS)
+    highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
+    camera.take(panel, page.evaluate(_DOCK_OF, panel), highest_px)
+    if is_alone:
+        page.evaluate(_RUN, "maximize")
+
+
 def show_camera(page: Page) -> None:
     """What the rover's camera sees; of the picture in the other theme the display is there."""
     page.evaluate(_ADD_CAMERA)
@@ -313,6 +314,14 @@ def show_camera(page: Page) -> None:
 def show_type(page: Page) -> None:
     page.get_by_label("Search types").fill("laser")
     page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
+
+
+SHOWN_BY: dict[str, Callable[[Page], None]] = {
+    "cameraview": show_camera,
+    "interfaces": show_type,
+    "lessons": show_lesson,
+}
+"""What is to be done in a panel before its picture is taken."""
 
 
 def take_displays(camera: Camera) -> None:
