@@ -190,7 +190,7 @@ class LiveDisplays(Event):
     """Groups that are hidden as a whole."""
     fixed_frame: str
     """As chosen; empty: the robot's root link."""
-    kinds: int
+    kinds: int = 0
     """Another number whenever the kinds of displays are others."""
 
 
