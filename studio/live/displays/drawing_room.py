@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
@@ -104,7 +105,7 @@ class DrawingRoom:
         except DisplayError:
             if not is_kept:
                 raise
-            display = MissingDisplay(types, spec.kind)
+            display = MissingDisplay(types, partial(self._plugins.why_not, spec.kind))
         self._running[spec.id] = RunningDisplay(spec, display)
 
     def get(self, display: str) -> RunningDisplay:

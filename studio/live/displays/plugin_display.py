@@ -29,7 +29,7 @@ from studio.settings import PLUGIN_LOAD_S, PLUGIN_STEP_S
 from studio.workers import Worker
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from studio.displays.display import Received, TopicRole
     from studio.displays.drawing import Drawing
@@ -283,9 +283,9 @@ class MissingDisplay(Display):
     DOC: ClassVar[str] = "A display that is not here."
     ICON: ClassVar[str] = "alert"
 
-    def __init__(self, types: TypeLibrary, kind: str) -> None:
+    def __init__(self, types: TypeLibrary, why: Callable[[], str]) -> None:
         super().__init__(types)
-        self._kind = kind
+        self._why = why
 
     def draw(self, now_ns: int) -> Drawing:
         """Nothing is seen of it."""
@@ -294,15 +294,7 @@ class MissingDisplay(Display):
 
     def statuses(self) -> tuple[Status, ...]:
         """Return what would bring it here."""
-        if self._kind.startswith(PREFIX):
-            name = self._kind.removeprefix(PREFIX)[:60]
-            sentence = (
-                f'The display "{name}" of your own is not here: start the studio with --displays '
-                "and the folder of its file. Its settings are kept."
-            )
-        else:
-            sentence = f'There is no display "{self._kind[:60]}" here. Its settings are kept.'
-        return (Status("error", "not_here", sentence),)
+        return (Status("error", "not_here", f"{self._why()} Its settings are kept."),)
 
 
 def _kind_of(file: PluginFile, described: Described) -> type[PluginDisplay]:

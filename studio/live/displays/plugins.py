@@ -75,9 +75,20 @@ class Plugins:
             return display_of_kind(kind)
         if found := self._kinds.get(kind):
             return found
-        raise DisplayError(
-            f'There is no display "{kind.removeprefix(PREFIX)[:60]}" of your own here: start the '
-            "studio with --displays and the folder of its file."
+        raise DisplayError(self.why_not(kind))
+
+    def why_not(self, kind: str) -> str:
+        """Return why there is no display of such a name here, and what would bring it."""
+        if not kind.startswith(PREFIX):
+            return f'There is no display "{kind[:60]}" here.'
+        if not self.ready.is_set():
+            return "The files of your own displays are being read."
+        name = kind.removeprefix(PREFIX)[:60]
+        if faults := list(self.faults().values()):
+            return f'No file makes your own display "{name}". One is switched off: {faults[0]}.'
+        return (
+            f'The display "{name}" of your own is not here: start the studio with --displays and '
+            "the folder of its file."
         )
 
     def kinds(self) -> tuple[type[Display], ...]:
