@@ -84,6 +84,9 @@ StudioError
     DisplayError
         DisplayMessageError
         DisplayPropertyError
+        RvizConfigError
+    ViewError
+    ToolError
     AccessError
         NotAllowedError
         NotInControlError
@@ -338,6 +341,27 @@ class DisplayPropertyError(DisplayError):
         given = "" if value is None else f", not {str(value)[:60]!r}"
         super().__init__(f"{name} {takes}{given}.")
         self.name, self.takes, self.value = name, takes, value
+
+
+class RvizConfigError(DisplayError):
+    """An `.rviz` file cannot be taken as it is; `line` is 1-based, None where it is not known."""
+
+    def __init__(self, reason: str, line: int | None = None, name: str = "") -> None:
+        what = f'"{name[:200]}"' if name else "This file"
+        place = "" if line is None else f" (line {line})"
+        super().__init__(
+            f"{what} is no config file that can be opened{place}: {reason}. What is shown stays as "
+            "it is."
+        )
+        self.reason, self.line, self.name = reason, line, name
+
+
+class ViewError(StudioError):
+    """There is no such kind of view, or it has no such property."""
+
+
+class ToolError(StudioError):
+    """There is no such tool, or it cannot do what is asked of it."""
 
 
 class FrameError(StudioError):

@@ -16,7 +16,7 @@ import { connectRos, ros } from "../model/ros.js";
 import { ageWords, flowWords, useTopicRates } from "../model/topics.js";
 
 /** @typedef {"topic" | "kind"} By */
-/** @typedef {{key: string, icon: string, label: string, note: string, aside: string, off: string, kind: string, topic: string, file: string}} Offer `off`: why it cannot be added; `file`: of the owner's own display */
+/** @typedef {{key: string, icon: string, kind: string, topic: string, types: string, doc: string, publishers: number, off: string, file: string}} Offer `off`: why it cannot be added; `file`: of the owner's own display */
 
 const TABS = /** @type {const} */ (["topic", "kind"]);
 /** The demo that publishes what displays show. */
@@ -38,7 +38,7 @@ export function AddDisplayDialog({ onClose }) {
   useEffect(() => void needKinds(), []);
   const offers =
     by.value === "topic"
-      ? foundTopics(topics.value ?? [], words.value).map(topicOffer)
+      ? foundTopics(topics.value ?? [], words.value).flatMap(topicOffers)
       : kindOffers(words.value);
   const chosen = Math.min(at.value, offers.length - 1);
   const add = async (/** @type {Offer | undefined} */ offer) => {
@@ -73,14 +73,16 @@ export function AddDisplayDialog({ onClose }) {
         }} />
       </div>
       ${by.value === "topic" && html`<${Connection} count=${topics.value?.length ?? 0} onDone=${seek} />`}
-      <${Offers} offers=${offers} chosen=${chosen} label=${t("live.add.title")} onPoint=${(
+      <${OfferHead} by=${by.value} />
+      <${Offers} offers=${offers} by=${by.value} chosen=${chosen} label=${t("live.add.title")} onPoint=${(
         /** @type {number} */ n,
       ) => {
         at.value = n;
       }} onAdd=${add} />
       ${offers.length === 0 && words.value !== "" && html`<p class="nothing">${t("filter.nothing", { words: words.value })}</p>`}
+      <p class="offer-description" aria-live="polite">${descriptionOf(offers[chosen])}</p>
     </div>
-    <footer><span class="form-note">${offers[chosen]?.off ?? ""}</span><span class="push"></span>
+    <footer><span class="push"></span>
       <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
       <button type="button" class="button primary" disabled=${!mayEdit.value || busy.value || !offers[chosen] || offers[chosen]?.off !== ""}
         onClick=${() => add(offers[chosen])}>${t("live.add")}</button></footer>
@@ -93,20 +95,20 @@ function useTopics() {
   return useTold(first, topicsNow, (look) => askedWhenChanged(look, "graph"));
 }
 
-/** @param {TopicView} topic @returns {Offer} */
-function topicOffer({ name, types, publishers, kind }) {
-  const off = kind === "" ? t("live.add.unshown", { type: types[0] ?? "" }) : "";
-  return {
-    key: name,
+/** @param {TopicView} topic @returns {Offer[]} one for each display that can show it, the best first */
+function topicOffers({ name, types, publishers, kinds: fitting }) {
+  const off = fitting.length === 0 ? t("live.add.unshown", { type: types[0] ?? "" }) : "";
+  return (fitting.length > 0 ? fitting : [""]).map((kind) => ({
+    key: `${name} ${kind}`,
     icon: kind === "" ? "minus" : (kinds.value.get(kind)?.icon ?? "box"),
-    label: name,
-    note: [types.join(", "), t("live.publishers", { count: publishers })].join(" · "),
-    aside: kindName(kind),
-    off,
     kind,
     topic: name,
+    types: types.join(", "),
+    doc: kinds.value.get(kind)?.doc ?? "",
+    publishers,
+    off,
     file: kinds.value.get(kind)?.plugin ?? "",
-  };
+  }));
 }
 
 /** @param {string} kind @returns {string} without what the owner's own have before their names */
@@ -118,8 +120,8 @@ function kindOffers(words) {
   const broken = Object.entries(pluginFaults.value).filter(
     ([file]) => !known.some((one) => one.file === file),
   );
-  return [...known, ...broken.map(brokenOffer)].filter(({ label, note, file }) =>
-    includesAll([label, note, file].join(" "), words),
+  return [...known, ...broken.map(brokenOffer)].filter(({ kind, doc, types, file }) =>
+    includesAll([kind, doc, types, file].join(" "), words),
   );
 }
 
@@ -127,12 +129,12 @@ function kindOffers(words) {
 const brokenOffer = ([file, fault]) => ({
   key: `off ${file}`,
   icon: "alert",
-  label: file,
-  note: fault,
-  aside: "",
-  off: t("live.add.plugin_off"),
   kind: "",
   topic: "",
+  types: "",
+  doc: fault,
+  publishers: 0,
+  off: `${t("live.add.plugin_off")} ${fault}`,
   file,
 });
 
@@ -140,14 +142,32 @@ const brokenOffer = ([file, fault]) => ({
 const kindOffer = ({ kind, doc, icon, types, plugin }) => ({
   key: kind,
   icon,
-  label: kindName(kind),
-  note: doc,
-  aside: types[0]?.split("/").at(-1) ?? "",
-  off: "",
   kind,
   topic: "",
+  types: types.join(", "),
+  doc,
+  publishers: 0,
+  off: "",
   file: plugin,
 });
+
+/** @param {Offer | undefined} offer @returns {string} what the chosen one draws, or why it cannot be added */
+function descriptionOf(offer) {
+  if (!offer) return "";
+  const { kind, doc, off, topic, publishers } = offer;
+  const who = topic ? t("live.publishers", { count: publishers }) : "";
+  return [off, kind && `${kindName(kind)}: ${doc}`, who].filter(Boolean).join(" · ");
+}
+
+/** @param {{by: By}} props the names of the columns; each row says them to screen readers by itself */
+function OfferHead({ by }) {
+  const columns =
+    by === "topic"
+      ? ["topic", "type", "display", "rate"].map((one) => [one, one === "type" ? "offer-wide" : ""])
+      : ["display", "doc", "type"].map((one) => [one, one === "type" ? "offer-wide" : ""]);
+  return html`<div class=${`offer-head of-${by}`} aria-hidden="true"><span></span>
+    ${columns.map(([one, name]) => html`<span key=${one} class=${`${name} ${one === "rate" ? "numbers" : ""}`}>${t(`live.add.column.${one}`)}</span>`)}</div>`;
+}
 
 /** @param {{chosen: By, onChoose: (tab: By) => void}} props */
 function Tabs({ chosen, onChoose }) {
@@ -203,8 +223,8 @@ function Connection({ count, onDone }) {
   </div>`;
 }
 
-/** @param {{offers: readonly Offer[], chosen: number, label: string, onPoint: (n: number) => void, onAdd: (offer: Offer) => void}} props */
-function Offers({ offers, chosen, label, onPoint, onAdd }) {
+/** @param {{offers: readonly Offer[], by: By, chosen: number, label: string, onPoint: (n: number) => void, onAdd: (offer: Offer) => void}} props */
+function Offers({ offers, by, chosen, label, onPoint, onAdd }) {
   const list = useRef(/** @type {HTMLElement | null} */ (null));
   const rates = useTopicRates(() => topicsInView(list.current));
   useEffect(() => {
@@ -212,11 +232,11 @@ function Offers({ offers, chosen, label, onPoint, onAdd }) {
   }, [chosen]);
   return html`<div class="add-display-list scroll" role="listbox" tabindex="0" aria-label=${label} ref=${list}>
     <${LongList} items=${offers} keyOf=${(/** @type {Offer} */ { key }) =>
-      key} row="44px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
+      key} row="36px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
       draw=${(
         /** @type {Offer} */ offer,
         /** @type {number} */ n,
-      ) => html`<${OfferRow} key=${offer.key} offer=${offer} chosen=${n === chosen} rate=${rates.value.get(offer.topic)}
+      ) => html`<${OfferRow} key=${offer.key} offer=${offer} by=${by} chosen=${n === chosen} rate=${rates.value.get(offer.topic)}
         onPoint=${() => onPoint(n)} onAdd=${() => onAdd(offer)} />`} />
   </div>`;
 }
@@ -233,16 +253,18 @@ function topicsInView(list) {
     .map((row) => row.getAttribute("data-topic") ?? "");
 }
 
-/** @param {{offer: Offer, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
-function OfferRow({ offer, chosen, rate, onPoint, onAdd }) {
-  const { icon, label, note, aside, off, topic, file } = offer;
-  return html`<div role="option" class="display-offer" aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
-    title=${off || note} onClick=${onPoint} onDblClick=${onAdd}>
+/** @param {{offer: Offer, by: By, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
+function OfferRow({ offer, by, chosen, rate, onPoint, onAdd }) {
+  const { icon, kind, topic, types, doc, off, file } = offer;
+  const name = html`<span>${kindName(kind) || file}${file && html` <span class="offer-mark" title=${t("live.add.plugin", { file })}>${t("live.add.own")}</span>`}</span>`;
+  return html`<div role="option" class=${`display-offer of-${by}`} aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
+    title=${off || doc} onClick=${onPoint} onDblClick=${onAdd}>
     <${Icon} name=${icon} size=${18} />
-    <span class="offer-words"><span>${label}</span><small>${note}</small></span>
-    ${topic && html`<${Flow} rate=${rate} />`}
-    ${file && html`<span class="offer-mark" title=${t("live.add.plugin", { file })}>${t("live.add.own")}</span>`}
-    <span class="offer-aside">${aside}</span>
+    ${
+      by === "topic"
+        ? html`<span>${topic}</span><span class="offer-more offer-wide" title=${types}>${types}</span>${name}<${Flow} rate=${rate} />`
+        : html`${name}<span class="offer-more">${doc}</span><span class="offer-more offer-wide" title=${types}>${types}</span>`
+    }
   </div>`;
 }
 

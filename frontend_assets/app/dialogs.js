@@ -26,6 +26,11 @@ const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).La
 const NodesDialog = later(async () => (await import("./nodes-dialog.js")).NodesDialog);
 const OpenDialog = later(async () => (await import("./open-dialog.js")).OpenDialog);
 const PackageDialog = later(async () => (await import("./open-dialog.js")).PackageDialog);
+const OpenConfigDialog = later(async () => (await import("./rviz-dialogs.js")).OpenConfigDialog);
+const OpenedConfigDialog = later(
+  async () => (await import("./rviz-dialogs.js")).OpenedConfigDialog,
+);
+const SaveConfigDialog = later(async () => (await import("./rviz-dialogs.js")).SaveConfigDialog);
 const RosDialog = later(async () => (await import("./ros-dialog.js")).RosDialog);
 const SaveAsDialog = later(async () => (await import("./save-as.js")).SaveAsDialog);
 const SaveDialog = later(async () => (await import("./save-dialog.js")).SaveDialog);
@@ -72,6 +77,12 @@ function ShownDialog() {
       return html`<${RosDialog} onClose=${close} />`;
     case "add_display":
       return html`<${AddDisplayDialog} onClose=${close} />`;
+    case "rviz_open":
+      return html`<${OpenConfigDialog} onClose=${close} />`;
+    case "rviz_save":
+      return html`<${SaveConfigDialog} onClose=${close} />`;
+    case "rviz_opened":
+      return html`<${OpenedConfigDialog} opened=${shown.opened} onClose=${close} />`;
     case "layouts":
       return html`<${LayoutsDialog} onClose=${close} />`;
     case "keys":

@@ -120,6 +120,7 @@ const OTHERS = {
     search: "search",
     ros: "link",
     live: "radar",
+    rviz: "list",
     keys: "keyboard",
     class: "users",
     own_nodes: "node",
@@ -152,4 +153,7 @@ export const OF_DIALOG = {
   remark: "class",
   ros: "ros",
   add_display: "live",
+  rviz_open: "rviz",
+  rviz_save: "rviz",
+  rviz_opened: "rviz",
 };

@@ -9,14 +9,27 @@ import { Dialog, SearchBox } from "../lib/ui.js";
 /** @typedef {{title: string, rows: readonly Row[]}} Group */
 
 /** Commands that have to do with where panels stand. */
-const OF_PANELS = /^(next_panel|previous_panel|maximize|move_panel|layout\.\d+)$/;
+const OF_PANELS = /^(next_panel|previous_panel|maximize|move_panel|float_panel|layout\.\d+)$/;
 /** Commands of the 3D view. */
-const OF_SCENE = /^(fit|measure.*|end_measuring|deselect)$/;
+const OF_SCENE =
+  /^(look_at|fit|zero_view|orthographic|fullscreen|leave_fullscreen|measure.*|tool.*|end_measuring|deselect)$/;
 
 /** @type {readonly Row[]} */
 const AT_TABS = [
   ["keys.tabs", ["←", "→"]],
   ["keys.tab_menu", ["Shift+F10"]],
+  ["keys.floating", ["Alt+→"]],
+  ["keys.floating_size", ["Alt+Shift+→"]],
+];
+
+/** As RViz's panel of that name has them, beside those of lists. @type {readonly Row[]} */
+const IN_DISPLAYS = [
+  ["keys.live_rename", ["F2"]],
+  ["keys.live_duplicate", ["Ctrl+D"]],
+  ["keys.live_remove", ["Delete"]],
+  ["keys.live_move", ["Alt+↑"]],
+  ["keys.live_group", ["Alt+→", "Alt+←"]],
+  ["keys.live_reset", ["Mod+R"]],
 ];
 
 /** @type {readonly Row[]} */
@@ -94,6 +107,7 @@ function allGroups() {
     { title: t("keys.page"), rows: named(ofPage) },
     { title: t("panels.menu"), rows: [...named((id) => OF_PANELS.test(id)), ...said(AT_TABS)] },
     { title: t("panel.scene"), rows: [...named((id) => OF_SCENE.test(id)), ...said(IN_SCENE)] },
+    { title: t("panel.displays"), rows: said(IN_DISPLAYS) },
     { title: t("keys.in_source"), rows: said(IN_SOURCE) },
     { title: t("keys.everywhere"), rows: said(IN_LISTS) },
     { title: t("keys.in_palette"), rows: said(IN_PALETTE) },

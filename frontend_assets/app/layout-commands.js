@@ -5,10 +5,10 @@
 /** @import { Command } from "../lib/commands.js" */
 
 import { effect } from "vendor/preact.js";
-import { addCommands, replaceCommands } from "../lib/commands.js";
+import { addCommands, commandById, replaceCommands } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { openMenu } from "../lib/ui.js";
-import { dialog, isFree, layoutControl, size } from "../model/view.js";
+import { dialog, fullView, isFree, layoutControl, size } from "../model/view.js";
 import { helpTitle, openHelp } from "./help.js";
 import { LIVE, layoutInUse, ownLayouts } from "./layouts.js";
 import { PANELS, panelTitle } from "./panels.js";
@@ -31,6 +31,23 @@ export function addLayoutCommands(dock, element) {
     if (!id || size.value === "phone") return;
     event.preventDefault();
     openPanelMenu(dock, id);
+  });
+  followFullView(dock);
+}
+
+/** The 3D view alone, as RViz's full screen, and the browser's with it where it may be had. @param {Dock} dock */
+function followFullView(dock) {
+  let wasOn = false;
+  effect(() => {
+    const on = fullView.value && size.value !== "phone";
+    if (on === wasOn) return;
+    wasOn = on;
+    dock.showAlone(on ? "scene" : null);
+    if (on) document.documentElement.requestFullscreen?.().catch(() => {});
+    else if (document.fullscreenElement) document.exitFullscreen();
+  });
+  document.addEventListener("fullscreenchange", () => {
+    if (!document.fullscreenElement) fullView.value = false;
   });
 }
 
@@ -78,10 +95,39 @@ function placeCommands(dock) {
       run: () => openPanelMenu(dock, dock.active() ?? ""),
     },
     {
+      id: "float_panel",
+      icon: "float",
+      keys: ["Mod+Shift+Enter"],
+      label: () =>
+        t(dock.isFloating(dock.active() ?? "") ? "command.dock_panel" : "command.float_panel"),
+      inText: true,
+      enabled: () => shown() && !PANELS[dock.active() ?? ""]?.keepsFrame,
+      run: () => dock.toggleFloating(dock.active() ?? ""),
+    },
+    {
       id: "close_panel",
       icon: "close",
       enabled: shown,
       run: () => dock.close(dock.active() ?? ""),
+    },
+    {
+      id: "fullscreen",
+      icon: "fullscreen",
+      keys: ["F11"],
+      inText: true,
+      enabled: () => wide() && isFree(),
+      run: () => {
+        fullView.value = !fullView.value;
+      },
+    },
+    {
+      id: "leave_fullscreen",
+      icon: "minimize",
+      keys: ["Escape"],
+      enabled: () => fullView.value && isFree(),
+      run: () => {
+        fullView.value = false;
+      },
     },
     { id: "reset_layout", icon: "reset", enabled: wide, run: () => layoutControl.value?.reset() },
     {
@@ -137,10 +183,11 @@ export function layoutItems() {
   }));
 }
 
-/** @param {Dock} dock @param {string} id what can be done with a panel, under its tab */
-function openPanelMenu(dock, id) {
-  const tab = dock.tab(id);
+/** @param {Dock} dock @param {string} id what can be done with a panel, under its tab @param {HTMLElement | null} [button] that opens it, if not the tab */
+export function openPanelMenu(dock, id, button = dock.tab(id)) {
+  const tab = button;
   if (!tab) return;
+  const isFloating = dock.isFloating(id);
   /** @type {MenuItem[]} */
   const moves = dock.places(id).map((place) => ({
     label: placeName(place),
@@ -153,14 +200,27 @@ function openPanelMenu(dock, id) {
       : []),
     ...moves,
     { label: panelTitle(id), heading: true },
-    {
-      label: t("maximize"),
-      icon: "maximize",
-      run: () => {
-        dock.show(id);
-        dock.toggleMaximized();
-      },
-    },
+    ...(PANELS[id]?.keepsFrame
+      ? [commandItem("fullscreen")]
+      : [
+          {
+            label: t(isFloating ? "command.dock_panel" : "command.float_panel"),
+            icon: isFloating ? "dock" : "float",
+            run: () => dock.toggleFloating(id),
+          },
+        ]),
+    ...(isFloating
+      ? []
+      : [
+          {
+            label: t("maximize"),
+            icon: "maximize",
+            run: () => {
+              dock.show(id);
+              dock.toggleMaximized();
+            },
+          },
+        ]),
     {
       label: t("help.of", { page: helpTitle(id) }),
       icon: "help",
@@ -169,6 +229,13 @@ function openPanelMenu(dock, id) {
     { label: t("panel.close"), icon: "close", run: () => dock.close(id) },
   ]);
 }
+
+/** @param {string} id @returns {MenuItem} */
+const commandItem = (id) => ({
+  label: t(`command.${id}`),
+  icon: commandById(id)?.icon ?? "box",
+  run: () => commandById(id)?.run(),
+});
 
 /** @param {Place} place @returns {string} */
 function placeName(place) {

@@ -141,6 +141,12 @@ function controlFor(dock, arrange) {
     },
     showBeside: dock.showBeside,
     reset: forget,
+    arrange(arrangement) {
+      const kind = size.peek();
+      if (kind === "phone") return;
+      dock.arrange(arrangement);
+      remember(storeName(kind), dock.arrangement());
+    },
   };
 }
 

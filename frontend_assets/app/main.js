@@ -2,7 +2,7 @@
 
 import { effect, html, render } from "vendor/preact.js";
 import { documentOf } from "../lib/address.js";
-import { addCommands, matches, onKey, takesText } from "../lib/commands.js";
+import { addCommands, commandById, matches, onKey, takesText } from "../lib/commands.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { anyUnderWay } from "../lib/latest.js";
@@ -14,6 +14,7 @@ import { followPresenter } from "../model/following.js";
 import { addMeasuring } from "../model/measuring.js";
 import {
   clearSelection,
+  isGoing,
   redo,
   save,
   toggleAnimation,
@@ -23,16 +24,18 @@ import {
 } from "../model/requests.js";
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
-import { activePanel, dialog, isFree, languageChoice, theme } from "../model/view.js";
-import { viewport } from "../model/viewport.js";
+import { addTools } from "../model/tools.js";
+import { activePanel, dialog, isFree, languageChoice, size, theme } from "../model/view.js";
+import { addViewCommands } from "../model/views.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
 import { followGraphics } from "./graphics.js";
 import { helpCommands, helpTitle, openHelp } from "./help.js";
-import { addLayoutCommands } from "./layout-commands.js";
+import { addLayoutCommands, openPanelMenu } from "./layout-commands.js";
 import { followSize } from "./layouts.js";
 import { menuCommands } from "./menu-commands.js";
 import { followDisk } from "./merge-dialog.js";
+import { followPagePart } from "./page-part.js";
 import { dockPanels, PANELS, panelTitle } from "./panels.js";
 import { followLink } from "./share.js";
 import { Shell } from "./shell.js";
@@ -51,6 +54,17 @@ function startDock(element) {
     restoreLabel: () => t("restore"),
     helpLabel: (id) => t("help.of", { page: helpTitle(id) }),
     onHelp: openHelp,
+    floatLabel: (id) => t("panel.float", { panel: panelTitle(id) }),
+    dockLabel: (id) => t("panel.dock", { panel: panelTitle(id) }),
+    closeLabel: (id) => t("panel.close_named", { panel: panelTitle(id) }),
+    menuLabel: (id) => t("panel.menu", { panel: panelTitle(id) }),
+    alonePanel: () => "scene",
+    aloneLabel: () => t("command.fullscreen"),
+    onKey: onKeyDown,
+    onAlone: () => commandById("fullscreen")?.run(),
+    onFloat: (id) => dock.toggleFloating(id),
+    onClose: (id) => dock.close(id),
+    onMenu: (id, button) => openPanelMenu(dock, id, button),
     icon: iconElement,
     onChange: () => arrangement?.keep(),
     onActive: (id) => {
@@ -59,6 +73,15 @@ function startDock(element) {
   });
   arrangement = followSize(dock, element, PANELS);
   addLayoutCommands(dock, element);
+  if (new URLSearchParams(location.search).has("fullscreen")) beginAlone(dock);
+}
+
+/** The 3D view alone, as `studio open --fullscreen` asks. @param {ReturnType<typeof createDock>} dock */
+function beginAlone(dock) {
+  dock.show("scene");
+  const alone = commandById("fullscreen");
+  if (alone) alone.run();
+  else if (size.peek() !== "phone") dock.toggleMaximized();
 }
 
 function addPageCommands() {
@@ -101,13 +124,6 @@ function addPageCommands() {
       run: () => void redo(),
     },
     {
-      id: "fit",
-      icon: "fit",
-      keys: ["F"],
-      enabled: () => viewport.value !== null && isFree(),
-      run: () => viewport.value?.fit(),
-    },
-    {
       id: "zero_joints",
       icon: "zero",
       enabled: () => EDITING.enabled() && mayMove.value && movable.value.length > 0,
@@ -137,14 +153,26 @@ function show(shown) {
   dialog.value = shown;
 }
 
-function listenToKeys() {
-  addEventListener("keydown", (event) => {
-    if (event.defaultPrevented || belongsToWindow(event)) return;
-    const inText = takesText(event.target);
-    if (onKey(event, { inText })) event.preventDefault();
-    else if (!inText && matches("Mod+A", event)) selectAllOf(event);
+/** @param {KeyboardEvent} event */
+function onKeyDown(event) {
+  if (event.defaultPrevented || belongsToWindow(event)) return;
+  const inText = takesText(event.target);
+  if (onKey(event, { inText })) event.preventDefault();
+  else if (!inText && matches("Mod+A", event)) selectAllOf(event);
+}
+
+/**
+ * Who leaves the studio with unsaved edits is asked, as by RViz. The studio keeps them, but one who
+ * closes a tab may have meant to save; the way to another document of the studio asks nothing.
+ */
+function askBeforeLeaving() {
+  const ask = (/** @type {Event} */ event) => {
+    if (!isGoing()) event.preventDefault();
+  };
+  effect(() => {
+    if (unsaved.value && mayEdit.value && !isCopy.value) addEventListener("beforeunload", ask);
+    else removeEventListener("beforeunload", ask);
   });
-  // Leaving with unsaved edits loses nothing (the studio holds them), so nothing asks.
 }
 
 /** @param {KeyboardEvent} event @returns {boolean} a dialog has its keys, and Escape is also that of a box with text */
@@ -177,14 +205,18 @@ effect(() => {
   if (languageChoice.value) useLanguage(nearestLanguage(languageChoice.value));
 });
 addMeasuring();
+addTools();
 addPageCommands();
+addViewCommands();
 followState();
-listenToKeys();
+addEventListener("keydown", onKeyDown);
+askBeforeLeaving();
 const root = document.getElementById("app");
 if (root) render(html`<${Shell} onDock=${startDock} />`, root);
 followMissing();
 followDisk();
 followGraphics();
+followPagePart();
 followPresenter();
 listenToDrops();
 connect(async () => {

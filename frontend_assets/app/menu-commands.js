@@ -7,12 +7,14 @@ import { commandById } from "../lib/commands.js";
 import { LANGUAGES, language, t } from "../lib/i18n.js";
 import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { unsaved } from "../model/document.js";
-import { closeDocument, goTo, reload } from "../model/requests.js";
+import { paused, pauseScene, resetScene } from "../model/live-displays.js";
+import { goTo, reload } from "../model/requests.js";
 import { canCompare, compareSides } from "../model/variants.js";
 import { dialog, isFree, languageChoice, notify, themeChoice } from "../model/view.js";
 import { classCommands } from "./control.js";
 import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
+import { closeAsking, rvizCommands } from "./rviz-commands.js";
 import { copyLink } from "./share.js";
 
 const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
@@ -24,8 +26,10 @@ export function menuCommands() {
     ...documentCommands(),
     ...classCommands(),
     ...exportCommands(),
+    ...rvizCommands(),
     ...themeCommands(),
     ...graphicsCommands(),
+    ...sceneCommands(),
     { id: "ros", icon: "link", enabled: isFree, run: showRos },
     { id: "log_out", icon: "lock", enabled: () => mayManage.value && isFree(), run: askToLogOut },
     ...languageCommands(),
@@ -53,7 +57,7 @@ function documentCommands() {
       enabled: () => onDocument() && canCompare.value,
       run: () => compareWith({ kind: "saved", name: "" }),
     },
-    { id: "close_document", icon: "close", enabled: ofOwner, run: () => void closeDocument() },
+    { id: "close_document", icon: "close", enabled: ofOwner, run: closeAsking },
   ];
 }
 
@@ -78,6 +82,20 @@ function openingCommands() {
         dialog.value = { kind: "save_as" };
       },
     },
+  ];
+}
+
+/** @returns {Command[]} what RViz's Time panel does, for all who look at the document */
+function sceneCommands() {
+  return [
+    {
+      id: "pause_scene",
+      icon: "pause",
+      label: () => t(paused.value ? "command.continue_scene" : "command.pause_scene"),
+      enabled: onDocument,
+      run: () => void pauseScene(!paused.value),
+    },
+    { id: "reset_scene", icon: "reset", enabled: onDocument, run: () => void resetScene() },
   ];
 }
 

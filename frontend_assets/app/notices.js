@@ -11,6 +11,13 @@ export function Notices() {
       notice,
     ) => html`<div key=${notice.id} class=${`notice ${notice.bad ? "bad" : ""}`} role=${notice.bad ? "alert" : "status"}>
     <${Icon} name=${notice.bad ? "error" : "check"} /><span>${notice.text}</span>
+    ${notice.action && html`<button type="button" class="text-button" onClick=${() => act(notice)}>${notice.action.label}</button>`}
     <${IconButton} icon="close" size=${14} label=${t("dismiss")} onClick=${() => dismiss(notice.id)} /></div>`,
   )}</div>`;
+}
+
+/** @param {import("../model/view.js").Notice} notice */
+function act({ id, action }) {
+  dismiss(id);
+  action?.run();
 }

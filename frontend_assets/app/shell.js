@@ -4,11 +4,11 @@ import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { later } from "../lib/loading.js";
-import { Icon, MenuButton } from "../lib/ui.js";
+import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { connection, documentId, role, turnedAway } from "../model/connection.js";
 import { documentState, gone } from "../model/document.js";
 import { goTo, openPath } from "../model/requests.js";
-import { activePanel, dialog, size } from "../model/view.js";
+import { activePanel, dialog, fullView, size } from "../model/view.js";
 import { ControlBar } from "./control.js";
 import { CopyBar } from "./copy-bar.js";
 import { Dialogs } from "./dialogs.js";
@@ -32,7 +32,8 @@ export function Shell({ onDock }) {
   useEffect(() => {
     if (dock.current) onDock(dock.current);
   }, []);
-  return html`<div class=${`shell ${size.value}`}>
+  const alone = fullView.value && size.value !== "phone";
+  return html`<div class=${`shell ${size.value} ${alone ? "full-view" : ""}`}>
     <${SkipLink} />
     <${TopBar} />
     <${ControlBar} />
@@ -49,7 +50,14 @@ export function Shell({ onDock }) {
     <${Dialogs} />
     ${help.value && html`<${HelpPlace} />`}
     <${DropLayer} />
+    ${alone && html`<${LeaveFullView} />`}
   </div>`;
+}
+
+/** Who has no Escape key gets back, too. */
+function LeaveFullView() {
+  return html`<${IconButton} class="leave-full-view" icon="minimize" label=${t("command.leave_fullscreen")}
+    hint=${`${t("command.leave_fullscreen")} (Esc)`} onClick=${() => commandById("leave_fullscreen")?.run()} />`;
 }
 
 /** The first stop of Tab: past the bar to where the work is. */

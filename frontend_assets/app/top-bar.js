@@ -15,7 +15,7 @@ import { control, you } from "../model/class.js";
 import { documentId, mayEdit, mayManage, role } from "../model/connection.js";
 import { isCopy } from "../model/copies.js";
 import { documents, history, title, unsaved } from "../model/document.js";
-import { ask, closeDocument, goTo, redo, reload, save, undo } from "../model/requests.js";
+import { ask, goTo, redo, reload, save, undo } from "../model/requests.js";
 import { dialog, languageChoice, layoutControl, size, theme, themeChoice } from "../model/view.js";
 import { ClassButtons } from "./control.js";
 import { ExportMenu, exportItems } from "./export.js";
@@ -23,6 +23,7 @@ import { graphicsItems } from "./graphics.js";
 import { layoutItems, layoutName } from "./layout-commands.js";
 import { LIVE, layoutInUse } from "./layouts.js";
 import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
+import { closeAsking, rvizItems } from "./rviz-commands.js";
 
 export function TopBar() {
   const { unsaved_count: count } = history.value;
@@ -117,7 +118,8 @@ function documentItems() {
         ]
       : []),
     { label: t("command.reload"), icon: "reload", disabled: unedited, run: reload },
-    { label: t("document.close"), icon: "close", disabled: none, run: closeDocument },
+    { label: t("rviz.config"), icon: "list", disabled: documentId.value === "", more: rvizItems },
+    { label: t("document.close"), icon: "close", disabled: none, run: closeAsking },
   ];
 }
 

@@ -13,11 +13,13 @@ import { chosenFiles, droppedFiles, holdsFiles } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
-import { mayManage } from "../model/connection.js";
+import { documentId, mayManage } from "../model/connection.js";
 import { takeDroppedTypes, takePastedType } from "../model/interfaces.js";
 import { ask, goTo } from "../model/requests.js";
+import { isConfig } from "../model/rviz-configs.js";
 import { dialog, notify } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
+import { takeConfig } from "./rviz-commands.js";
 
 const MEGABYTE = 1 << 20;
 /** The studio reads no longer command; longer texts come as a file. */
@@ -67,6 +69,11 @@ async function onDrop(event) {
 
 /** @param {readonly import("../lib/files.js").DroppedFile[]} files a robot, or types of ROS */
 async function takeFiles(files) {
+  const [only] = files;
+  if (only && files.length === 1 && isConfig(only.path) && documentId.value !== "") {
+    takeConfig(only.file);
+    return;
+  }
   if (!(await takeDroppedTypes(files))) await uploadFiles(files);
 }
 

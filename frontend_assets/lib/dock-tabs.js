@@ -14,6 +14,16 @@ import { openMenu } from "./ui.js";
  * @property {() => string} maximizeLabel
  * @property {() => string} restoreLabel
  * @property {(id: string) => string} helpLabel
+ * @property {(id: string) => string} floatLabel
+ * @property {(id: string) => string} dockLabel
+ * @property {(id: string) => string} closeLabel
+ * @property {(id: string) => string} menuLabel
+ * @property {() => string} alonePanel the one that can be shown alone, and has a button for it
+ * @property {() => string} aloneLabel
+ * @property {() => void} onAlone
+ * @property {(id: string) => void} onFloat
+ * @property {(id: string) => void} onClose
+ * @property {(id: string, button: HTMLElement) => void} onMenu what else can be done with it
  * @property {(id: string, button: HTMLElement) => void} onHelp
  * @property {(name: string) => Element} icon
  */
@@ -30,9 +40,13 @@ export function headerActions(group, options) {
     init({ containerApi }) {
       const [help, relabelHelp] = helpButton(group, options);
       const [maximize, relabelMaximize] = maximizeButton(group, options);
-      element.append(moreButton(group, options), help, maximize);
+      const [windows, relabelWindows] = windowButtons(group, options);
+      element.append(moreButton(group, options), help, ...windows.slice(0, 2), maximize);
+      element.append(...windows.slice(2));
       listening = [
         group.api.onDidActivePanelChange(relabelHelp),
+        group.api.onDidActivePanelChange(relabelWindows),
+        group.api.onDidLocationChange(relabelWindows),
         containerApi.onDidMaximizedGroupChange(relabelMaximize),
       ];
     },
@@ -108,6 +122,47 @@ function maximizeButton(group, { maximizeLabel, restoreLabel, icon }) {
   });
   relabel();
   return [button, relabel];
+}
+
+/**
+ * The menu of the panel in front, which narrow rows have instead of the others; into a window over
+ * the others or back, or alone on the screen; and away.
+ *
+ * @param {DockviewGroupPanel} group
+ * @param {ActionOptions} options
+ * @returns {[HTMLElement[], () => void]} the buttons, and what names them anew
+ */
+function windowButtons(group, options) {
+  const { icon, alonePanel, onAlone, onFloat, onClose, onMenu } = options;
+  const inFront = () => group.activePanel?.id ?? "";
+  const isAlone = () => inFront() === alonePanel();
+  const menu = iconButton("panel-menu");
+  const float = iconButton("float wide-action");
+  const close = iconButton("close-panel wide-action");
+  menu.append(icon("dots"));
+  close.append(icon("close"));
+  menu.setAttribute("aria-haspopup", "menu");
+  menu.addEventListener("click", () => onMenu(inFront(), menu));
+  float.addEventListener("click", () => (isAlone() ? onAlone() : onFloat(inFront())));
+  close.addEventListener("click", () => onClose(inFront()));
+  const isFloating = () => group.api.location.type === "floating";
+  const rename = () => {
+    const id = inFront();
+    const ofWindow = isFloating() ? options.dockLabel : options.floatLabel;
+    name(float, isAlone() ? options.aloneLabel() : ofWindow(id));
+    name(close, options.closeLabel(id));
+    name(menu, options.menuLabel(id));
+  };
+  const redraw = () => {
+    group.element.classList.toggle("floating", isFloating());
+    float.replaceChildren(icon(isAlone() ? "fullscreen" : isFloating() ? "dock" : "float"));
+    rename();
+  };
+  // The language may have changed since.
+  for (const one of [menu, float, close])
+    for (const event of ["pointerenter", "focus"]) one.addEventListener(event, rename);
+  redraw();
+  return [[menu, float, close], redraw];
 }
 
 const HEADERS = ".dv-tabs-and-actions-container";

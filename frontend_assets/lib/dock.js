@@ -26,6 +26,9 @@ import { headerActions, keepTabsWhole } from "./dock-tabs.js";
  * @property {(step: 1 | -1) => void} focusNext
  * @property {() => void} toggleMaximized the active panel over all others, and back
  * @property {(id: string) => void} close it, which `show` opens anew
+ * @property {(id: string) => boolean} isFloating it is in a window over the others
+ * @property {(id: string) => void} toggleFloating into such a window, and back to where it stood
+ * @property {(id: string | null) => void} showAlone one panel, without any other and without its tab; null: all again
  * @property {(id: string) => Place[]} places where else it can stand
  * @property {(id: string, place: Place) => void} move
  * @property {(id: string) => HTMLElement | null} tab
@@ -43,7 +46,8 @@ const THEME = { name: "studio", className: "dockview-theme-studio", gap: 6 };
 /**
  * @param {HTMLElement} element
  * @param {Record<string, Panel>} panels
- * @param {ActionOptions & {onChange: () => void, onActive: (id: string | null) => void}} options
+ * @param {ActionOptions & {onChange: () => void, onActive: (id: string | null) => void, onKey: (event: KeyboardEvent) => void}} options
+ *   `onKey` is given strokes at tabs with Ctrl, Alt or Command held, which come no further
  * @returns {Dock}
  */
 export function createDock(element, panels, options) {
@@ -51,7 +55,7 @@ export function createDock(element, panels, options) {
   const restores = new Set();
   const api = createDockview(element, {
     theme: THEME,
-    disableFloatingGroups: true,
+    floatingGroupBounds: "boundedWithinViewport",
     disableTabsOverflowList: true,
     noPanelsOverlay: "watermark",
     createComponent: ({ name }) => contentOf(panels[name], restores),
@@ -61,13 +65,26 @@ export function createDock(element, panels, options) {
   // The panel in it is a landmark of the same name.
   api.onDidAddGroup((group) => group.element.setAttribute("role", "group"));
   element.addEventListener("keydown", (event) => onTabKey(api, event));
+  // The dock takes Enter and arrows at its tabs for its own, whatever is held with them.
+  element.addEventListener(
+    "keydown",
+    (event) => {
+      if (!isHeldAtTab(event)) return;
+      event.stopPropagation();
+      if (!moveFloatingByKey(api, event)) options.onKey(event);
+    },
+    { capture: true },
+  );
+  /** Where floating panels came from, by id: a panel that stood beside it. */
+  const homes = new Map();
+  const alone = aloneIn(api, element);
   keepTabOrder(element, () => layered(api, panels));
   const tabsChanged = keepTabsWhole(element);
   let quiet = false;
   let single = false;
   api.onDidLayoutChange(() => {
     tabsChanged();
-    if (!quiet && !single) options.onChange();
+    if (!quiet && !single && !alone.isOn()) options.onChange();
   });
 
   api.onDidActivePanelChange(({ panel }) => {
@@ -91,7 +108,7 @@ export function createDock(element, panels, options) {
 
   function applySingle() {
     for (const group of api.groups) group.model.header.hidden = single;
-    api.updateOptions({ disableDnd: single });
+    api.updateOptions({ disableDnd: single, disableFloatingGroups: single });
   }
 
   return {
@@ -107,6 +124,18 @@ export function createDock(element, panels, options) {
     active: () => api.activePanel?.id ?? null,
     focusNext: (step) => focusNext(api, step),
     toggleMaximized: () => toggleMaximized(api),
+    isFloating: (id) => isFloating(api.getPanel(id)),
+    toggleFloating: (id) => {
+      if (single) return;
+      if (isFloating(api.getPanel(id))) dockPanel(api, panels, id, homes.get(id));
+      else floatPanel(api, panels, id, homes, element);
+      tabOfPanel(api, id)?.focus();
+    },
+    showAlone: (id) => {
+      if (id !== null) show(api, panels, id);
+      alone.show(id);
+      applySingle();
+    },
     close: (id) => api.getPanel(id)?.api.close(),
     places: (id) => placesFor(api, id),
     move: (id, place) => {
@@ -187,9 +216,7 @@ function show(api, panels, id) {
   }
   const panel = panels[id];
   if (!panel) return;
-  const group = api.groups.find(
-    (one) => !one.panels.some(({ id: other }) => panels[other]?.keepsFrame),
-  );
+  const group = api.groups.find((one) => isInGrid(one) && !keepsFrame(one, panels));
   api.addPanel({
     id,
     component: id,
@@ -212,9 +239,7 @@ function uncover(api, panels, id, other) {
   const area = (/** @type {DockviewApi["groups"][number]} */ { element }) =>
     element.clientWidth * element.clientHeight;
   const [largest] = api.groups
-    .filter(
-      (group) => group !== kept.group && !group.panels.some((one) => panels[one.id]?.keepsFrame),
-    )
+    .filter((group) => group !== kept.group && isInGrid(group) && !keepsFrame(group, panels))
     .sort((a, b) => area(b) - area(a));
   if (largest) movePanel(api, id, { kind: "beside", group: largest.id, names: [] });
   else movePanel(api, id, { kind: "split", edge: "right" });
@@ -234,6 +259,13 @@ function focusNext(api, step) {
     group?.element.querySelector(`${TAB}[aria-selected="true"]`) ??
     group?.element.querySelector(TAB);
   tab?.focus();
+}
+
+/** @param {KeyboardEvent} event @returns {boolean} a tab has the focus, and more than Shift is held */
+function isHeldAtTab({ target, ctrlKey, metaKey, altKey }) {
+  return (
+    (ctrlKey || metaKey || altKey) && target instanceof Element && target.closest(TAB) !== null
+  );
 }
 
 /** Arrow keys move along the tabs of a group, as people expect of tabs. @param {DockviewApi} api @param {KeyboardEvent} event */
@@ -269,10 +301,132 @@ function layered(api, panels) {
   });
 }
 
-/** @param {DockviewApi} api */
+/** @param {DockviewApi} api a window over the others has its own size */
 function toggleMaximized(api) {
   if (api.hasMaximizedGroup()) api.exitMaximizedGroup();
-  else api.activePanel?.api.maximize();
+  else if (!isFloating(api.activePanel)) api.activePanel?.api.maximize();
+}
+
+/** @typedef {DockviewApi["groups"][number]} Group */
+
+/** @param {Group} group */
+const isInGrid = (group) => group.api.location.type === "grid";
+
+/** @param {Group} group @param {Record<string, Panel>} panels */
+const keepsFrame = (group, panels) => group.panels.some(({ id }) => panels[id]?.keepsFrame);
+
+/** @param {IDockviewPanel | undefined} panel */
+const isFloating = (panel) => panel?.api.location.type === "floating";
+
+/** Of the room of all panels, for a window that floats first. */
+const FLOATING_SHARE = { width: 0.32, height: 0.5 };
+const FLOATING_LEAST_PX = { width: 300, height: 220 };
+/** Windows one after the other do not lie on top of each other. */
+const FLOATING_STEP_PX = 28;
+
+/** @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id @param {Map<string, string>} homes @param {HTMLElement} element */
+function floatPanel(api, panels, id, homes, element) {
+  show(api, panels, id);
+  const panel = api.getPanel(id);
+  if (!panel || panels[id]?.keepsFrame) return;
+  if (api.hasMaximizedGroup()) api.exitMaximizedGroup();
+  const neighbour = panel.group.panels.find((one) => one !== panel);
+  if (neighbour) homes.set(id, neighbour.id);
+  const room = { width: element.clientWidth, height: element.clientHeight };
+  const size = (/** @type {"width" | "height"} */ side) =>
+    Math.min(Math.max(room[side] * FLOATING_SHARE[side], FLOATING_LEAST_PX[side]), room[side]);
+  const [width, height] = [size("width"), size("height")];
+  const step = api.groups.filter((group) => !isInGrid(group)).length * FLOATING_STEP_PX;
+  const place = (/** @type {"width" | "height"} */ side, /** @type {number} */ own) =>
+    Math.max(0, Math.min((room[side] - own) / 2 + step, room[side] - own));
+  api.addFloatingGroup(panel, {
+    position: { left: place("width", width), top: place("height", height) },
+    width,
+    height,
+  });
+  api.getPanel(id)?.api.setActive();
+}
+
+/** @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id @param {string | undefined} home a panel that it stood beside */
+function dockPanel(api, panels, id, home) {
+  const panel = api.getPanel(id);
+  if (!panel) return;
+  const before = home ? api.getPanel(home)?.group : undefined;
+  const group =
+    before && isInGrid(before)
+      ? before
+      : api.groups.find((one) => isInGrid(one) && !keepsFrame(one, panels));
+  panel.api.moveTo({ group: group ?? api.addGroup({ direction: "left" }), position: "center" });
+  api.getPanel(id)?.api.setActive();
+}
+
+/** px, for one stroke of an arrow key. */
+const KEY_STEP_PX = 24;
+/** @type {Record<string, readonly [number, number]>} */
+const ARROWS = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+
+/**
+ * Alt and an arrow move a window over the others whose tab has the focus, with Shift they size it.
+ *
+ * @param {DockviewApi} api @param {KeyboardEvent} event @returns {boolean} they did
+ */
+function moveFloatingByKey(api, event) {
+  const step = ARROWS[event.key];
+  const tab = event.target instanceof Element ? event.target.closest(TAB) : null;
+  const group = api.groups.find((one) => tab && one.element.contains(tab));
+  if (!step || !event.altKey || !group || isInGrid(group)) return false;
+  event.preventDefault();
+  const [x, y] = [step[0] * KEY_STEP_PX, step[1] * KEY_STEP_PX];
+  const frame = group.element.closest(".dv-resize-container");
+  const id = group.activePanel?.id ?? "";
+  if (frame instanceof HTMLElement)
+    placeFloating(api, group, frame, event.shiftKey ? [0, 0, x, y] : [x, y, 0, 0]);
+  tabOfPanel(api, id)?.focus();
+  return true;
+}
+
+/** @param {DockviewApi} api @param {Group} group @param {HTMLElement} frame @param {[number, number, number, number]} by px to the right, down, wider and higher */
+function placeFloating(api, group, frame, [x, y, wider, higher]) {
+  const room = frame.offsetParent?.getBoundingClientRect();
+  if (!room) return;
+  const now = frame.getBoundingClientRect();
+  const within = (
+    /** @type {number} */ at,
+    /** @type {number} */ least,
+    /** @type {number} */ most,
+  ) => Math.max(least, Math.min(at, most));
+  const left = within(now.left - room.left + x, 0, room.width - now.width);
+  const top = within(now.top - room.top + y, 0, room.height - now.height);
+  api.addFloatingGroup(group, {
+    position: { left, top },
+    width: within(now.width + wider, FLOATING_LEAST_PX.width / 2, room.width - left),
+    height: within(now.height + higher, FLOATING_LEAST_PX.height / 2, room.height - top),
+  });
+}
+
+/** @param {DockviewApi} api @param {HTMLElement} element that holds the dock */
+function aloneIn(api, element) {
+  /** @type {IDockviewPanel | undefined} */
+  let shown;
+  let wasMaximized = false;
+  return {
+    isOn: () => shown !== undefined,
+    /** @param {string | null} id */
+    show(id) {
+      const panel = id === null ? undefined : api.getPanel(id);
+      element.classList.toggle("alone", panel !== undefined);
+      if (panel && !shown) {
+        wasMaximized = api.hasMaximizedGroup();
+        panel.api.maximize();
+      } else if (!panel && shown && !wasMaximized) api.exitMaximizedGroup();
+      shown = panel;
+    },
+  };
 }
 
 /** @param {string} id @param {Record<string, Panel>} panels */

@@ -85,8 +85,8 @@ onView((view) => {
 });
 
 /** @param {View} view */
-function takeView({ eye, target, pointer }) {
-  viewport.value?.setCamera({ position: eye, target });
+function takeView({ eye, target, pointer, up, flat, field }) {
+  viewport.value?.setCamera({ position: eye, target, up, flat, field });
   viewport.value?.setGuide(pointer);
 }
 
@@ -181,12 +181,19 @@ function showViews() {
     const view = viewport.peek();
     const camera = view?.getCamera();
     if (!view || !camera) return;
-    const { position: eye, target } = camera;
+    const { position, target, up, flat, field } = camera;
     const pointer = view.pointedPlace();
-    const now = [...eye, ...target, ...(pointer ?? [])].map(rounded).join();
+    const places = [position, target, up, pointer ?? [], [field]].flat().map(rounded);
+    const now = `${places} ${flat}`;
     if (now === last) return;
     last = now;
-    send({ type: "show_view", eye: [...eye], target: [...target], pointer }).catch(() => null);
+    send({
+      type: "show_view",
+      eye: [...position],
+      target: [...target],
+      up: [...up],
+      ...{ flat, field, pointer },
+    }).catch(() => null);
   };
   const timer = setInterval(show, SHOW_EVERY_MS);
   return () => clearInterval(timer);

@@ -6,12 +6,14 @@
 /** @import { Command, DisplayKindView, DisplayState, DisplayStates, DisplayView, FrameView, LiveDisplays, Remark, TopicView } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 /** @import { Asked } from "./wire.js" */
-/** @import { Move } from "../lib/live-displays.js" */
+/** @import { Move } from "../lib/display-groups.js" */
 
 import { computed, signal } from "vendor/preact.js";
+import { groupName, groupPaths, isWithin, outerGroup } from "../lib/display-groups.js";
+import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
-import { groupNames, moveOfDisplay, moveOfGroup } from "../lib/live-displays.js";
 import { ask } from "./requests.js";
+import { notify } from "./view.js";
 import { send, subscribe } from "./wire.js";
 
 /** @type {Signal<LiveDisplays>} */
@@ -21,9 +23,17 @@ const state = signal({
   groups_off: [],
   fixed_frame: "",
   kinds: 0,
+  paused: false,
+  background: "",
+  frame_rate: 0,
 });
 /** @type {Signal<DisplayStates>} */
-const fares = signal({ type: "display_states", states: [], fixed_frame_trouble: "" });
+const fares = signal({
+  type: "display_states",
+  states: [],
+  fixed_frame: { frame: "", level: "ok", sentence: "" },
+  fixed_frame_trouble: "",
+});
 
 /** Kinds of displays, once somebody asked for them. @type {Signal<ReadonlyMap<string, DisplayKindView>>} */
 export const kinds = signal(new Map());
@@ -31,10 +41,18 @@ export const kinds = signal(new Map());
 export const pluginFaults = signal({});
 /** In the order in which they are listed. */
 export const liveDisplays = computed(() => state.value.displays);
+/** Behind the 3D view, as `#rrggbb`; empty: that of the theme. */
+export const background = computed(() => state.value.background);
+/** Pictures of the 3D view per second at most; 0: as many as there can be. */
+export const frameRate = computed(() => state.value.frame_rate);
 export const groupsOff = computed(() => state.value.groups_off);
 /** Empty: that of the robot's root link. */
 export const fixedFrame = computed(() => state.value.fixed_frame);
-/** Why nothing can be drawn in the fixed frame; empty: it can. */
+/** Whether drawing is paused, for all who look at the document. */
+export const paused = computed(() => state.value.paused);
+/** Whether there is a frame of that name, as RViz's global status has it. */
+export const fixedFrameState = computed(() => fares.value.fixed_frame);
+/** Why the robot cannot be drawn in the fixed frame; empty: it can. */
 export const frameTrouble = computed(() => fares.value.fixed_frame_trouble);
 /** @type {import("vendor/preact.js").ReadonlySignal<ReadonlyMap<string, DisplayState>>} */
 export const displayStates = computed(
@@ -68,51 +86,61 @@ subscribe("display_states", (event) => {
 
 /** @param {string} kind @param {string} [topic] */
 export const addDisplay = (kind, topic = "") => ask({ type: "add_display", kind, topic });
-/** @param {string} display */
-export const removeDisplay = (display) => ask({ type: "remove_display", display });
+/** @param {string} display @param {string} name as it is told of, with the way back */
+export async function removeDisplay(display, name) {
+  if (await ask({ type: "remove_display", display })) offerBack(name, [display]);
+}
+/** @param {string} group all that is in it goes with it */
+export async function removeGroup(group) {
+  const gone = liveDisplays.value.filter((one) => isWithin(one.group, group));
+  if (!(await ask({ type: "remove_display", group }))) return;
+  offerBack(
+    groupName(group),
+    gone.map(({ id }) => id),
+  );
+}
+
+/** @param {string} name @param {string[]} displays */
+function offerBack(name, displays) {
+  const run = () => void ask({ type: "restore_displays", displays });
+  notify(t("live.removed", { name }), { action: { label: t("command.undo"), run } });
+}
+
 /** @param {string} display */
 export const duplicateDisplay = (display) => ask({ type: "duplicate_display", display });
 /** @param {string} display @param {string} name */
 export const renameDisplay = (display, name) => ask({ type: "arrange_display", display, name });
-/** @param {string} display @param {string} group empty: out of any */
-export const groupDisplay = (display, group) => ask({ type: "arrange_display", display, group });
 /** @param {string} display @param {boolean} enabled */
 export const switchDisplay = (display, enabled) =>
   ask({ type: "switch_displays", display, enabled });
 /** @param {string} group @param {boolean} enabled */
 export const switchGroup = (group, enabled) => ask({ type: "switch_displays", group, enabled });
+/** @param {boolean} enabled each of them, and all groups */
+export const switchAll = (enabled) => ask({ type: "switch_displays", enabled });
+/** @param {boolean} on for all who look at the document */
+export const pauseScene = (on) => ask({ type: "pause_scene", paused: on });
+/** Have all that was received be forgotten, as RViz's Reset does. */
+export const resetScene = () => ask({ type: "reset_scene" });
 /** @param {string} display @param {Listening} listening */
 export const listenTo = (display, listening) =>
   ask({ type: "set_display_topic", display, ...listening });
 /** @param {string} frame empty: that of the robot's root link */
 export const setFixedFrame = (frame) => ask({ type: "set_fixed_frame", frame });
 
-/** @param {string} group @param {string} name */
-export async function renameGroup(group, name) {
-  const members = liveDisplays.value.filter((one) => one.group === group);
-  for (const { id } of members) if (!(await groupDisplay(id, name))) return;
-}
-
-/** @param {string} group all that are in it go with it */
-export async function removeGroup(group) {
-  const members = liveDisplays.value.filter((one) => one.group === group);
-  for (const { id } of members) if (!(await removeDisplay(id))) return;
-}
-
-/** @param {string} display @param {1 | -1} step */
-export const moveDisplay = (display, step) =>
-  placeDisplays(moveOfDisplay(liveDisplays.value, display, step));
-/** @param {string} group @param {1 | -1} step */
-export const moveGroup = (group, step) =>
-  placeDisplays(moveOfGroup(liveDisplays.value, group, step));
-
-/** @param {readonly Move[] | null} moves one after the other */
-export async function placeDisplays(moves) {
-  for (const one of moves ?? []) if (!(await ask({ type: "arrange_display", ...one }))) return;
-}
+/** @param {string} group its path @param {string} name with slashes it goes into groups of that name */
+export const renameGroup = (group, name) =>
+  ask({
+    type: "arrange_group",
+    group,
+    to: [outerGroup(group), name].filter(Boolean).join("/"),
+  });
+/** @param {string} group what is in it stands where it stood */
+export const dissolveGroup = (group) => ask({ type: "arrange_group", group, to: "" });
+/** @param {Move | null} move null: there is nothing to do */
+export const moveLive = (move) => move && ask(move);
 
 /** @returns {string[]} */
-export const groupsNow = () => groupNames(liveDisplays.value);
+export const groupsNow = () => groupPaths(liveDisplays.value);
 
 /** @type {Map<string, ReturnType<typeof latestSender<Value>>>} */
 const senders = new Map();

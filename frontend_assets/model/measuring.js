@@ -20,6 +20,7 @@ import { followFrames, linkPoses } from "./frames.js";
 import { centreOfMass, followMasses, masses, sumOf } from "./masses.js";
 import { selection } from "./selection.js";
 import { millimetres } from "./tf.js";
+import { hasKind, putToolAway, takeKind, toolInHand } from "./tools.js";
 import { degrees, isFree } from "./view.js";
 import { viewport } from "./viewport.js";
 
@@ -201,7 +202,7 @@ export const measureMode = remembered("measure.mode", /** @type {MeasureMode} */
   MODES.some((mode) => mode === value),
 );
 /** Whether clicks measure now. */
-export const measuring = signal(false);
+export const measuring = computed(() => toolInHand.value?.kind === "Measure");
 /** Three things make an angle, two a distance. @type {Signal<2 | 3>} */
 export const endsWanted = signal(2);
 /** The ends of the measure that is being made. @type {Signal<readonly Anchor[]>} */
@@ -219,19 +220,16 @@ export const measuredNow = computed(() => {
   }));
 });
 
-export function startMeasuring() {
-  batch(() => {
-    pending.value = [];
-    measuring.value = true;
-  });
-}
+export const startMeasuring = () => takeKind("Measure");
+export const stopMeasuring = putToolAway;
 
-export function stopMeasuring() {
-  batch(() => {
-    pending.value = [];
-    measuring.value = false;
+// What was begun of a measure is forgotten with the tool.
+effect(() => {
+  measuring.value;
+  untracked(() => {
+    if (pending.value.length > 0) pending.value = [];
   });
-}
+});
 
 /** Escape: forget what was clicked of a measure, then end. */
 function stepBack() {
@@ -314,8 +312,8 @@ export function addMeasuring() {
     {
       id: "measure",
       icon: "measure",
-      keys: ["M"],
-      enabled: () => robot.value !== null && isFree(),
+      keys: ["N"],
+      enabled: () => robot.value !== null && hasKind("Measure") && isFree(),
       run: () => (measuring.value ? stopMeasuring() : startMeasuring()),
     },
     {

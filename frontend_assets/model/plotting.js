@@ -16,10 +16,10 @@ import { notify } from "./view.js";
 
 /** @typedef {{topic: string, path: string}} Series */
 
-const SERIES_MAX = 16;
+export const SERIES_MAX = 16;
 
 /** @param {any} one @returns {boolean} */
-const isSeries = (one) => typeof one?.topic === "string" && typeof one?.path === "string";
+export const isSeries = (one) => typeof one?.topic === "string" && typeof one?.path === "string";
 
 /** @type {import("vendor/preact.js").Signal<readonly Series[]>} */
 export const series = remembered(

@@ -111,8 +111,14 @@ export function reload() {
   return undefined;
 }
 
+let going = false;
+
+/** @returns {boolean} the page is on its way to another document of the studio */
+export const isGoing = () => going;
+
 /** @param {string} id */
 export function goTo(id) {
+  going = true;
   location.assign(documentAddress(id));
 }
 

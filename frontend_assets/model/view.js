@@ -47,27 +47,31 @@ export const soughtSite = signal(null);
 /** @type {Signal<"wide" | "medium" | "phone">} */
 export const size = signal("wide");
 
+/** Whether the 3D view is all that is seen, as RViz's full screen. */
+export const fullView = signal(new URLSearchParams(globalThis.location?.search).has("fullscreen"));
+
 /** @typedef {"recent" | "browse" | "examples" | "new" | "paste" | "ros"} OpenTab */
-/** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "class"} | {kind: "class_name"} | {kind: "nodes"} | {kind: "remark", document: string} | {kind: "layouts"} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
+/** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "class"} | {kind: "class_name"} | {kind: "nodes"} | {kind: "remark", document: string} | {kind: "layouts"} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "rviz_open"} | {kind: "rviz_save"} | {kind: "rviz_opened", opened: import("../types/wire.d.ts").RvizConfigOpened} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
 /** The one window over the page. @type {Signal<Shown | null>} */
 export const dialog = signal(null);
 /** No window waits for an answer; the palette is gone before what it found begins. */
 export const isFree = () => dialog.value === null || dialog.value.kind === "palette";
 
-/** @typedef {{id: number, text: string, bad: boolean}} Notice */
+/** @typedef {{label: string, run: () => void}} NoticeAction what a click on it does, as to take back what was done */
+/** @typedef {{id: number, text: string, bad: boolean, action: NoticeAction | null}} Notice */
 /** @type {Signal<readonly Notice[]>} */
 export const notices = signal([]);
 let noticeCount = 0;
 
-/** @param {string} text @param {{bad?: boolean}} [options] shown for some seconds; a bad one longer */
-export function notify(text, { bad = false } = {}) {
+/** @param {string} text @param {{bad?: boolean, action?: NoticeAction}} [options] shown for some seconds; what wants a decision longer */
+export function notify(text, { bad = false, action } = {}) {
   noticeCount += 1;
   const id = noticeCount;
   notices.value = [
     ...notices.value.filter((one) => one.text !== text).slice(-2),
-    { id, text, bad },
+    { id, text, bad, action: action ?? null },
   ];
-  setTimeout(() => dismiss(id), bad ? 9000 : 3500);
+  setTimeout(() => dismiss(id), bad || action ? 9000 : 3500);
 }
 
 /** @param {number} id of a notice */
@@ -84,6 +88,7 @@ export const activePanel = signal(null);
  * @property {(name: string) => void} use a layout; the empty name is the studio's own
  * @property {(id: string, other: string) => void} showBeside a panel, with another one kept in sight
  * @property {() => void} reset to the layout in use as it was saved
+ * @property {(arrangement: import("../lib/arrangement.js").Arrangement) => void} arrange the panels so, as a file says
  */
 
 /** What arranges the dock; null until it stands. @type {Signal<LayoutControl | null>} */

@@ -5,14 +5,18 @@
  */
 
 /** @import { JointView, RobotState } from "../types/wire.d.ts" */
+/** @import { Value, Values } from "../lib/view-poses.js" */
 
-import { effect, signal, untracked } from "vendor/preact.js";
+import { computed, effect, signal, untracked } from "vendor/preact.js";
 import { isStroke, onKey } from "../lib/commands.js";
+import { isKind, targetOf } from "../lib/view-poses.js";
 import { connection, documentId } from "./connection.js";
 import { movable, position, robot } from "./document.js";
+import { background, frameRate } from "./live-displays.js";
 import { lights } from "./origin.js";
 import { moveJoint } from "./requests.js";
 import { mayMove } from "./ros.js";
+import { followSelection, outlined, selectNothing, takePicked } from "./selected-items.js";
 import {
   hiddenLinks,
   hovered,
@@ -21,7 +25,7 @@ import {
   selectedJoint,
   selectLink,
 } from "./selection.js";
-import { comparedFrames, drawnChain, followedFrames, litChain } from "./tf.js";
+import { comparedFrames, drawnChain, followedFrames, litChain, millimetres } from "./tf.js";
 import { degrees, mouseMode, theme } from "./view.js";
 import { send } from "./wire.js";
 
@@ -72,25 +76,48 @@ function askFor(frame) {
  * @typedef {{kind: "point", link: string, at: readonly [number, number, number], normal: readonly [number, number, number] | null} | {kind: "frame", link: string} | {kind: "axis", link: string, joint: string}} Anchor
  */
 /** @typedef {{light: boolean, software: boolean, renderer: string}} Graphics */
+/** A view of the camera, by RViz's name of its class and of its properties. @typedef {{kind: string, values: Values}} ShownView */
+/** @typedef {readonly [number, number, number]} Triple */
+
+/**
+ * @typedef {object} CameraPose in the root frame, m
+ * @property {Triple} position
+ * @property {Triple} target
+ * @property {Triple} [up] where the top of the picture points
+ * @property {boolean} [flat] without perspective
+ * @property {number} [field] its opening angle from below to above, rad
+ */
 
 /**
  * @typedef {object} Studio3d what the script in the frame offers
  * @property {Promise<unknown>} ready
- * @property {EventTarget} events `hover`, `select`, `drag`, `connection`, `key`, `touch` (a hand is on the camera)
+ * @property {EventTarget} events `hover`, `select`, `drag`, `connection`, `key`, `touch` (a hand is on the camera), `view`, `turned`
  * @property {(robot: RobotState) => void} setRobot
  * @property {(positions: Record<string, number>) => void} setPositions
  * @property {() => void} fit
  * @property {(name: string) => void} view
  * @property {(link: string) => void} focus
- * @property {() => {position: [number, number, number], target: [number, number, number]} | null} getCamera in the root frame
- * @property {(pose: {position: readonly [number, number, number], target: readonly [number, number, number]}, animate?: boolean) => void} setCamera
+ * @property {() => Required<CameraPose> | null} getCamera
+ * @property {(pose: CameraPose, animate?: boolean) => void} setCamera
+ * @property {() => ShownView} getView
+ * @property {(view: ShownView, animate?: boolean) => void} useView
+ * @property {(kind: string) => void} setViewKind another, which shows the same
+ * @property {(name: string, value: Value) => void} setViewValue
+ * @property {() => void} zero RViz's Zero of the view
+ * @property {(direction: Triple) => void} seeFrom the same point from another side
+ * @property {(dx: number, dy: number) => void} turnBy as a drag of so many px
+ * @property {() => readonly [number, number, number, number]} getTurn of the camera: x, y, z, w
+ * @property {() => boolean} isPointing something is under the mouse
+ * @property {() => void} lookAtPointed turn to it
  * @property {() => [number, number, number] | null} pointedPlace where the mouse points on the robot, in the root frame
  * @property {(place: readonly [number, number, number] | null) => void} setGuide a mark at what somebody else points at
- * @property {(frame: string) => void} setTarget the camera goes with a frame; empty: with none
+ * @property {(frame: string) => void} follow the camera goes with a frame, with it in the middle; empty: with none
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
  * @property {(sight: {display: string, canvas: HTMLCanvasElement, told: (seen: boolean) => void}) => {renew: () => void, leave: () => void}} showCamera draw what a camera of the robot sees
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
+ * @property {(colour: string) => void} setBackground empty: that of the theme
+ * @property {(hz: number) => void} setFrameRate pictures per second at most; 0: no limit
  * @property {(link: string, visible: boolean) => void} setLinkVisible
  * @property {(link: string, opacity: number) => void} setLinkOpacity
  * @property {(link: string | null) => void} setHover
@@ -100,7 +127,13 @@ function askFor(frame) {
  * @property {(frames: readonly string[]) => void} setChain a line leads from one to the next
  * @property {(changed: readonly string[], moved: readonly string[]) => void} setLit what a property shapes
  * @property {(can: boolean) => void} setCanDrag
- * @property {(unit: "deg" | "rad") => void} setAngleUnit of the value at the cursor
+ * @property {(items: readonly {display: string, path: string, shape: string, box: readonly number[] | null}[]) => void} setOutlines boxes around what is selected
+ * @property {() => void} focusOutlines bring it to the middle
+ * @property {(angles: "deg" | "rad", lengths: "m" | "mm") => void} setUnits of the numbers at the mouse
+ * @property {(kind: string) => void} setTool take a tool in hand, by RViz's class without its package
+ * @property {(kind: string, values: Record<string, boolean | number | string>) => void} setToolProperties by RViz's names
+ * @property {() => boolean} cancelTool give up what is under way; whether anything was
+ * @property {(words: {displays: Record<string, string>, floor: string, nothing: string}) => void} setWords what things are called at the mouse
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
  * @property {(measures: readonly {ends: readonly Anchor[], label: string}[]) => void} setMeasures
  * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
@@ -147,6 +180,7 @@ export function attachViewport(frame) {
     viewport.value = found;
     viewportConnected.value = found.connected;
     ends = [...tell(found), listen(found)];
+    showAgain(found);
   };
   frame.addEventListener("load", begin);
   // The frame may have been loaded before anybody listened.
@@ -171,6 +205,21 @@ async function studio3dOf(frame) {
   return null;
 }
 
+/** The view that is shown; null: none yet. @type {import("vendor/preact.js").Signal<ShownView | null>} */
+export const shownView = signal(null);
+/** Whose view it was. @type {{view: Studio3d | null, document: string}} */
+let last = { view: null, document: "" };
+
+/** One that was loaded anew shows what the one before it showed. @param {Studio3d} found */
+function showAgain(found) {
+  const document = documentId.peek();
+  const shown = shownView.peek();
+  if (last.view && last.view !== found && last.document === document && shown)
+    found.useView(shown, false);
+  else if (last.view !== found) shownView.value = found.getView();
+  last = { view: found, document };
+}
+
 /** @param {Studio3d} view @returns {(() => void)[]} the ends of all that keeps it informed */
 function tell(view) {
   return [
@@ -183,6 +232,8 @@ function tell(view) {
     }),
     effect(() => view.setTheme(theme.value)),
     effect(() => view.setMouse(mouseMode.value)),
+    effect(() => view.setBackground(background.value)),
+    effect(() => view.setFrameRate(frameRate.value)),
     effect(() => view.setHover(hovered.value)),
     effect(() => view.setSelection(selected.value)),
     effect(() => {
@@ -197,7 +248,9 @@ function tell(view) {
       view.setLit(lit.changed_links, lit.moved_links);
     }),
     effect(() => view.setCanDrag(mayMove.value)),
-    effect(() => view.setAngleUnit(degrees.value ? "deg" : "rad")),
+    effect(() => view.setOutlines(outlined.value)),
+    followSelection(),
+    effect(() => view.setUnits(degrees.value ? "deg" : "rad", millimetres.value ? "mm" : "m")),
     tellLinks(view),
   ];
 }
@@ -241,6 +294,11 @@ function listen(view) {
     viewportConnected.value = connected;
   });
   on("drag", takeDrag);
+  on("picked", takePicked);
+  on("select_nothing", selectNothing);
+  on("view", (shown) => {
+    shownView.value = shown;
+  });
   on("key", (stroke, event) => {
     // Prevented, the view leaves the key to the page.
     if (isStroke(stroke) && onKey(stroke)) event.preventDefault();
@@ -260,19 +318,17 @@ export function focusLink(link) {
   viewport.value?.focus(link);
 }
 
-/** Empty: the camera goes with none. */
-export const targetFrame = signal("");
+/** The frame that the camera goes with; empty: with none. */
+export const targetFrame = computed(() => {
+  const { kind, values } = shownView.value ?? { kind: "", values: {} };
+  return isKind(kind) ? targetOf({ kind, values }) : "";
+});
 /** Why it does not go, in a sentence; empty: it does, or it is not known yet. */
 export const targetTrouble = signal("");
 
 /** Keep the camera going with its frame. @returns {() => void} the end of that */
 export function keepTargetFrame() {
   const ends = [
-    effect(() => {
-      documentId.value;
-      targetFrame.value = "";
-    }),
-    effect(() => viewport.value?.setTarget(targetFrame.value)),
     effect(() => {
       // Of another frame, robot or connection it is not known yet.
       [targetFrame.value, robot.value, connection.value];

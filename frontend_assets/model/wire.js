@@ -212,10 +212,10 @@ function answer(event) {
 }
 
 /** @typedef {readonly [number, number, number]} Point m, in the root frame */
-/** @typedef {{eye: Point, target: Point, pointer: Point | null}} View camera and pointer of the presenter */
+/** @typedef {{eye: Point, target: Point, up: Point, flat: boolean, field: number, pointer: Point | null}} View camera and pointer of the presenter */
 
 const VIEW = 2;
-const VIEW_BYTES = 44;
+const VIEW_BYTES = 60;
 
 /**
  * @param {ArrayBuffer} data as `show_view` says
@@ -229,7 +229,11 @@ export function readView(data) {
   /** @param {number} at @returns {Point} */
   const point = (at) => [number(at), number(at + 1), number(at + 2)];
   const pointer = point(6);
-  return { eye: point(0), target: point(3), pointer: Number.isNaN(pointer[0]) ? null : pointer };
+  return {
+    ...{ eye: point(0), target: point(3), up: point(9), field: number(12) },
+    flat: view.getUint8(1) === 1,
+    pointer: Number.isNaN(pointer[0]) ? null : pointer,
+  };
 }
 
 const JOINTS = 1;

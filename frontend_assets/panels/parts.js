@@ -1,11 +1,12 @@
 /**
- * What several panels show: how to connect with ROS 2, why the studio told nothing, and a place
- * in a file as a link.
+ * What several panels have: how to connect with ROS 2, why the studio told nothing, a place in a
+ * file as a link, and the key of Reset.
  */
 
 /** @import { Place } from "../types/wire.d.ts" */
 
 import { html, useSignal } from "vendor/preact.js";
+import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { placeText } from "../lib/paths.js";
 import { EmptyState, Icon } from "../lib/ui.js";
@@ -74,4 +75,14 @@ export function PlaceLink({ place, words }) {
   if (!place?.line) return text ? html`<span class="place">${text}</span>` : null;
   return html`<span class="place"><button type="button" class="text-button" title=${t("property.show_source")}
     onClick=${() => showSource(place.file, place.line, place.column || 1)}>${text}</button></span>`;
+}
+
+/** @param {KeyboardEvent} event Ctrl+R in a panel of what is shown, where no row takes it */
+export function onResetKey(event) {
+  const { key, ctrlKey, metaKey, shiftKey, altKey, defaultPrevented } = event;
+  if (defaultPrevented || key !== "r" || !(ctrlKey || metaKey) || shiftKey || altKey) return;
+  const reset = commandById("reset_scene");
+  if (!reset || reset.enabled?.() === false) return;
+  event.preventDefault();
+  reset.run();
 }

@@ -31,6 +31,16 @@ export interface AddInterfaces {
   texts: Record<string, string>;
 }
 
+/** Add a tool at the end. */
+export interface AddTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "add_tool";
+  kind: string;
+  name?: string;
+}
+
 /** A type that was taken up. */
 export interface AddedInterface {
   name: string;
@@ -111,6 +121,17 @@ export interface ArrangeDisplay {
   display: string;
   name?: string | null;
   group?: string | null;
+  before?: string | null;
+}
+
+/** Give a group, with all that is in it, another path or place; what is None stays. */
+export interface ArrangeGroup {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "arrange_group";
+  group: string;
+  to?: string | null;
   before?: string | null;
 }
 
@@ -267,6 +288,14 @@ export interface CloseLesson {
   document?: string;
   id?: string;
   type: "close_lesson";
+}
+
+/** Forget which file was opened; what is shown stays. */
+export interface CloseRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "close_rviz_config";
 }
 
 /** One Python file of a demo. */
@@ -429,6 +458,15 @@ export interface DeleteVariant {
   name: string;
 }
 
+/** Delete a saved view. */
+export interface DeleteView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "delete_view";
+  view: string;
+}
+
 /** Answer to `get_demo_code`: the file that is run first, then those of its own package. */
 export interface DemoCode {
   type: "demo_code";
@@ -460,6 +498,16 @@ export interface Demos {
   request: number;
   demos: DemoView[];
   elsewhere: string[];
+}
+
+/** Ask where items are now, and for all that is known of a few of them. */
+export interface DescribeItems {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "describe_items";
+  items: ItemKeys[];
+  detailed?: ItemRef[];
 }
 
 /** One value that a part reports. */
@@ -561,6 +609,7 @@ export interface DisplayState {
   id: string;
   rate_hz: number;
   age_s: number | null;
+  received: number;
   lost: number;
   remarks: Remark[];
 }
@@ -569,6 +618,7 @@ export interface DisplayState {
 export interface DisplayStates {
   type: "display_states";
   states: DisplayState[];
+  fixed_frame: FixedFrameState;
   fixed_frame_trouble: string;
 }
 
@@ -757,6 +807,14 @@ export interface Examples {
   examples: ExampleEntry[];
 }
 
+/** One thing known of an item. */
+export interface FactView {
+  name: string;
+  value: string | boolean | number | number[];
+  unit: string;
+  kind: string;
+}
+
 /** One feedback message of a running goal. */
 export interface FeedbackView {
   number: number;
@@ -816,6 +874,13 @@ export interface Fix {
   action: string;
   target: string;
   edits: Replacement[];
+}
+
+/** Whether there is such a frame, as RViz's global status has it. */
+export interface FixedFrameState {
+  frame: string;
+  level: "ok" | "warn" | "error";
+  sentence: string;
 }
 
 /** What the presenter has selected, points at and has open; see `show_focus`. */
@@ -898,6 +963,15 @@ export interface ForgetRecent {
   document?: string;
   id?: string;
   type: "forget_recent";
+  path: string;
+}
+
+/** Take a file out of those opened lately; answered with the list. */
+export interface ForgetRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "forget_rviz_file";
   path: string;
 }
 
@@ -1225,6 +1299,24 @@ export interface GetRenaming {
   name: string;
 }
 
+/** Ask for the text of an `.rviz` file with all that is shown. */
+export interface GetRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_rviz_text";
+  view?: ViewValues | null;
+  page?: string;
+}
+
+/** Ask for the time now; /clock is subscribed for some seconds after. */
+export interface GetSceneTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_scene_time";
+}
+
 /** Ask for the services that have a server. */
 export interface GetServices {
   request?: number;
@@ -1251,6 +1343,14 @@ export interface GetTf {
   frame?: string;
   seen_from?: string;
   pose_only?: boolean;
+}
+
+/** Ask for the kinds of tools. */
+export interface GetToolKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_tool_kinds";
 }
 
 /** Ask who publishes a topic and who subscribes to it, how, and what keeps them apart. */
@@ -1293,6 +1393,14 @@ export interface GetUrdfChanges {
   document?: string;
   id?: string;
   type: "get_urdf_changes";
+}
+
+/** Ask for the kinds of views. */
+export interface GetViewKinds {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_view_kinds";
 }
 
 /** Give control to a person who is there. */
@@ -1452,6 +1560,57 @@ export interface InterfacesAnswer {
   names: string[];
   own: string[];
   faults: InterfaceFaultView[];
+}
+
+/** All that is known of an item. */
+export interface ItemDetails {
+  display: string;
+  key: string;
+  facts: FactView[];
+  in_fixed: FactView[];
+}
+
+/** Items of one display. */
+export interface ItemKeys {
+  display: string;
+  keys: string[];
+}
+
+/** An item of a display by its key; without a display it is a link of the document's robot. */
+export interface ItemRef {
+  display: string;
+  key: string;
+}
+
+/** An item as it is now. */
+export interface ItemView {
+  display: string;
+  key: string;
+  kind: string;
+  name: string;
+  path: string;
+  frame: string;
+  stamp: string;
+  place: [number, number, number] | null;
+  box: number[] | null;
+  shape: string;
+}
+
+/** Answer to `describe_items`; items that are not named are gone. */
+export interface ItemsDescribed {
+  type: "items_described";
+  request: number;
+  fixed: string;
+  items: ItemView[];
+  details: ItemDetails[];
+}
+
+/** Answer to `pick_items`: each item once. */
+export interface ItemsPicked {
+  type: "items_picked";
+  request: number;
+  items: ItemRef[];
+  left_out: number;
 }
 
 /** Positions of all movable joints by name, after a command; streams are binary frames. */
@@ -1652,6 +1811,14 @@ export interface ListRecent {
   type: "list_recent";
 }
 
+/** Ask for the `.rviz` files of the robot's packages, and those opened lately. */
+export interface ListRvizFiles {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "list_rviz_files";
+}
+
 /** Ask for the topics that have a publisher or a subscription. */
 export interface ListTopics {
   request?: number;
@@ -1673,6 +1840,9 @@ export interface LiveDisplays {
   displays: DisplayView[];
   groups_off: string[];
   fixed_frame: string;
+  paused: boolean;
+  background: string;
+  frame_rate: number;
   kinds: number;
 }
 
@@ -1716,6 +1886,13 @@ export interface LookUp {
   file: string;
   offset: number;
   type: "look_up";
+}
+
+/** Something of a file that is only kept, and written back as it is. */
+export interface LossView {
+  reason: "no_display" | "no_property" | "no_value" | "no_tool" | "no_view" | "no_panel" | "no_option" | "window";
+  what: string;
+  names: string[];
 }
 
 /** Take down the hand of a person; of everybody, if none is named. */
@@ -1826,6 +2003,16 @@ export interface Misfit {
   subscriber: string;
   reasons: string[];
   heard: boolean;
+}
+
+/** Put a saved view before another; empty: at the end. */
+export interface MoveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "move_view";
+  view: string;
+  before?: string;
 }
 
 /** Your own copies, to all pages of a person. */
@@ -1959,6 +2146,25 @@ export interface OpenRecent {
   id?: string;
   type: "open_recent";
   path: string;
+}
+
+/** Show what an `.rviz` file says instead of the displays that there are. */
+export interface OpenRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_file";
+  path: string;
+}
+
+/** The same with the text of a file that this browser has. */
+export interface OpenRvizText {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_rviz_text";
+  name: string;
+  text: string;
 }
 
 /** Answer to `open_path`: go to `/d/<document>`. */
@@ -2158,6 +2364,34 @@ export interface PauseClass {
   document?: string;
   id?: string;
   type: "pause_class";
+}
+
+/** Pause drawing, or go on; messages are received meanwhile, and drawn when it goes on. */
+export interface PauseScene {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "pause_scene";
+  paused: boolean;
+}
+
+/** Ask what the items are that were pointed at. */
+export interface PickItems {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "pick_items";
+  nodes: PickedNode[];
+}
+
+/** A node of a display in the 3D view, and which of its parts were pointed at. */
+export interface PickedNode {
+  display: string;
+  path: string;
+  shape: string;
+  node: string;
+  rows: number[];
+  place: [number, number, number] | null;
 }
 
 /** A place in a source file; `line` and `column` are 1-based, 0 when not known. */
@@ -2429,13 +2663,14 @@ export interface Remark {
   mend: Mend | null;
 }
 
-/** Remove a display. */
+/** Remove a display, or a group with all that is in it; `restore_displays` takes it back. */
 export interface RemoveDisplay {
   request?: number;
   document?: string;
   id?: string;
   type: "remove_display";
-  display: string;
+  display?: string;
+  group?: string;
 }
 
 /** Send a person out; their browser cannot join again until it is let in. */
@@ -2445,6 +2680,15 @@ export interface RemoveMember {
   id?: string;
   type: "remove_member";
   person: string;
+}
+
+/** Remove a tool; one Interact tool stays. */
+export interface RemoveTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "remove_tool";
+  tool: string;
 }
 
 /**
@@ -2473,6 +2717,16 @@ export interface RenamePose {
   new_name: string;
 }
 
+/** Give a tool another name. */
+export interface RenameTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_tool";
+  tool: string;
+  name: string;
+}
+
 /** Give a variant another name and note. */
 export interface RenameVariant {
   request?: number;
@@ -2482,6 +2736,16 @@ export interface RenameVariant {
   name: string;
   new_name: string;
   note?: string;
+}
+
+/** Give a saved view another name. */
+export interface RenameView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "rename_view";
+  view: string;
+  name: string;
 }
 
 /** Answer to `get_renaming`: the first of `count` places, in `files` files. */
@@ -2535,6 +2799,18 @@ export interface Replacement {
   text: string;
 }
 
+/**
+ * Forget all messages and transforms received, and begin to count the time anew.
+ *
+ * All is subscribed again, so that latched messages come once more.
+ */
+export interface ResetScene {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "reset_scene";
+}
+
 /** Put a site back to its text on disk. */
 export interface ResetSite {
   request?: number;
@@ -2560,6 +2836,15 @@ export interface ResolveCollisions {
   state?: string;
 }
 
+/** Put displays back that were removed, where they stood and as they were set. */
+export interface RestoreDisplays {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "restore_displays";
+  displays: string[];
+}
+
 /** Edits of an earlier run were restored; `at` empty: nothing to report any more. */
 export interface Restored {
   type: "restored";
@@ -2583,6 +2868,60 @@ export interface RobotState {
   root: string;
   links: LinkView[];
   joints: JointView[];
+}
+
+/** Answer: the file is shown. */
+export interface RvizConfigOpened {
+  type: "rviz_config_opened";
+  request: number;
+  name: string;
+  displays: number;
+  tools: number;
+  views: number;
+  losses: LossView[];
+  view: ViewValues | null;
+  page: string;
+}
+
+/** The `.rviz` file of a document. */
+export interface RvizConfigState {
+  type: "rviz_config_state";
+  name: string;
+  path: string;
+  changed: boolean;
+  undo: boolean;
+}
+
+/** An `.rviz` file. */
+export interface RvizFileEntry {
+  path: string;
+  name: string;
+  time_s: number | null;
+  is_there: boolean;
+}
+
+/** Answer: where it was written; or that there is a file already, which is as it was. */
+export interface RvizFileSaved {
+  type: "rviz_file_saved";
+  request: number;
+  path: string;
+  is_there: boolean;
+}
+
+/** Answer: those opened lately, the newest first, then those of the packages. */
+export interface RvizFiles {
+  type: "rviz_files";
+  request: number;
+  files: RvizFileEntry[];
+  folder: string;
+}
+
+/** Answer: the text. */
+export interface RvizText {
+  type: "rviz_text";
+  request: number;
+  name: string;
+  text: string;
 }
 
 /** Write the edited bytes of these changed files of the document, or of all. */
@@ -2636,6 +2975,18 @@ export interface SavePose {
   replace?: boolean;
 }
 
+/** Write an `.rviz` file; without a path the one that was opened. */
+export interface SaveRvizFile {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_rviz_file";
+  path?: string;
+  replace?: boolean;
+  view?: ViewValues | null;
+  page?: string;
+}
+
 /** Keep the present arguments and values as a new variant. */
 export interface SaveVariant {
   request?: number;
@@ -2646,10 +2997,36 @@ export interface SaveVariant {
   note?: string;
 }
 
+/** Save a view with the document, for all who look at it. */
+export interface SaveView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_view";
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+  before?: string;
+}
+
 /** These files were written. */
 export interface Saved {
   type: "saved";
   files: string[];
+}
+
+/** A view that is saved with the document. */
+export interface SavedView {
+  id: string;
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All views that are saved with a document, in order. */
+export interface SavedViews {
+  type: "saved_views";
+  views: SavedView[];
 }
 
 /** A panel was opened in the page, which checks of the page ask about. */
@@ -2659,6 +3036,18 @@ export interface SawPanel {
   id?: string;
   type: "saw_panel";
   panel: string;
+}
+
+/** Answer to `get_scene_time`; all in seconds, with hundredths that mean something. */
+export interface SceneTime {
+  type: "scene_time";
+  request: number;
+  ros_s: number;
+  ros_elapsed_s: number;
+  wall_s: number;
+  wall_elapsed_s: number;
+  from_clock: boolean;
+  paused: boolean;
 }
 
 /** Send a copy back to its owner with a remark. */
@@ -2812,6 +3201,27 @@ export interface SetParameter {
   value_type?: string;
 }
 
+/** Change a property of a tool, by RViz's name. */
+export interface SetToolProperty {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_tool_property";
+  tool: string;
+  name: string;
+  value: boolean | number | string;
+}
+
+/** Change what all views of the document have in common; what is None stays. */
+export interface SetViewOptions {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_view_options";
+  background?: string | null;
+  frame_rate?: number | null;
+}
+
 /**
  * How serious a Problem is.
  *
@@ -2843,8 +3253,9 @@ export interface ShowFocus {
 /**
  * Where the presenter's camera and pointer are; they go to who follows as a binary frame.
  *
- * The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the camera's
- * eye, what it looks at, and the pointer, which is NaN where there is none.
+ * The frame is the byte 2, a byte that is 1 without perspective, six bytes of nothing, and
+ * thirteen little-endian float32: the camera's eye, what it looks at, the pointer, which is NaN
+ * where there is none, where the top of the picture points, and the angle that it sees.
  */
 export interface ShowView {
   request?: number;
@@ -2854,6 +3265,9 @@ export interface ShowView {
   eye: [number, number, number];
   target: [number, number, number];
   pointer?: [number, number, number] | null;
+  up?: [number, number, number];
+  flat?: boolean;
+  field?: number;
 }
 
 /** A state to compare: the present robot, the one on disk, or a variant. */
@@ -2982,7 +3396,7 @@ export interface StudentNodesState {
 /** Kind of the thing at a place in a text. */
 export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
 
-/** Show or hide displays: one, or all of a group. */
+/** Show or hide displays: one, a group as a whole, or each one of them. */
 export interface SwitchDisplays {
   request?: number;
   document?: string;
@@ -3069,6 +3483,52 @@ export interface TfPose {
   chain: string[];
 }
 
+/** A kind of tool. */
+export interface ToolKindView {
+  kind: string;
+  name: string;
+  doc: string;
+  icon: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_tool_kinds`, in the order of RViz's toolbar. */
+export interface ToolKinds {
+  type: "tool_kinds";
+  request: number;
+  kinds: ToolKindView[];
+}
+
+/** Answer to `use_tool`: what was sent where. */
+export interface ToolUsed {
+  type: "tool_used";
+  request: number;
+  sent_as: "topic" | "action";
+  name: string;
+  frame: string;
+  xyz: [number, number, number];
+  wxyz: [number, number, number, number];
+  subscriptions: number;
+  operation: number;
+}
+
+/** A tool as it is set. */
+export interface ToolView {
+  id: string;
+  kind: string;
+  name: string;
+  icon: string;
+  key: string;
+  publishes: string;
+  values: Record<string, boolean | number | string>;
+}
+
+/** All tools of a document, in order. */
+export interface Tools {
+  type: "tools";
+  tools: ToolView[];
+}
+
 /** A publisher or a subscription. */
 export interface TopicEnd {
   node: string;
@@ -3132,6 +3592,7 @@ export interface TopicView {
   types: string[];
   publishers: number;
   kind: string;
+  kinds: string[];
 }
 
 /** Answer to `get_topics`. */
@@ -3154,6 +3615,14 @@ export interface Undo {
   document?: string;
   id?: string;
   type: "undo";
+}
+
+/** Show what was shown before an `.rviz` file was opened; until something else is changed. */
+export interface UndoRvizConfig {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "undo_rviz_config";
 }
 
 /** Undo, or redo, until this many steps are done; refused when the list is no longer `of`. */
@@ -3191,6 +3660,20 @@ export interface UrdfChanges {
   hunks: DiffLineView[][];
   left_out: number;
   fault: string;
+}
+
+/** Publish what was pointed at with a tool, or send it as a goal. */
+export interface UseTool {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "use_tool";
+  tool: string;
+  fixed_frame?: string;
+  x: number;
+  y: number;
+  z?: number;
+  yaw?: number;
 }
 
 /** Answer to `read_values`: only what the text names; `now` and `auto` stay as they are. */
@@ -3238,6 +3721,27 @@ export interface Variants {
   path: string;
   only_here: string;
   trouble: string;
+}
+
+/** A kind of view. */
+export interface ViewKindView {
+  kind: string;
+  doc: string;
+  properties: PropertyView[];
+}
+
+/** Answer to `get_view_kinds`, in RViz's order. */
+export interface ViewKinds {
+  type: "view_kinds";
+  request: number;
+  kinds: ViewKindView[];
+}
+
+/** A view of the 3D view, by RViz's names. */
+export interface ViewValues {
+  kind: string;
+  name: string;
+  values: Record<string, boolean | number | string>;
 }
 
 /** Volume of all visuals or all collisions of a link, m3; an upper bound. */
@@ -3344,11 +3848,13 @@ export interface ZeroJoints {
 export type Command =
   | AddDisplay
   | AddInterfaces
+  | AddTool
   | AnimateJoints
   | ApplyFix
   | ApplyPose
   | ApplyVariant
   | ArrangeDisplay
+  | ArrangeGroup
   | AskControl
   | CallService
   | CancelCall
@@ -3357,12 +3863,15 @@ export type Command =
   | ChoosePackage
   | CloseDocument
   | CloseLesson
+  | CloseRvizConfig
   | CompareVariants
   | Complete
   | ConnectWire
   | DeleteLesson
   | DeletePose
   | DeleteVariant
+  | DeleteView
+  | DescribeItems
   | DiscardCopy
   | DiscardRestored
   | DisconnectWire
@@ -3381,6 +3890,7 @@ export type Command =
   | FollowOperations
   | FollowParameters
   | ForgetRecent
+  | ForgetRvizFile
   | ForgetWork
   | GatherAll
   | GetActions
@@ -3413,14 +3923,18 @@ export type Command =
   | GetParameters
   | GetReferences
   | GetRenaming
+  | GetRvizText
+  | GetSceneTime
   | GetServices
   | GetText
   | GetTf
+  | GetToolKinds
   | GetTopicEnds
   | GetTopicRates
   | GetTopics
   | GetUrdf
   | GetUrdfChanges
+  | GetViewKinds
   | GiveControl
   | HandIn
   | Lead
@@ -3429,11 +3943,13 @@ export type Command =
   | ListInterfaces
   | ListPlaces
   | ListRecent
+  | ListRvizFiles
   | ListTopics
   | LoadParameters
   | LookUp
   | LowerHand
   | MendAll
+  | MoveView
   | NewRobot
   | NewUntitled
   | OpenCopy
@@ -3443,7 +3959,11 @@ export type Command =
   | OpenLink
   | OpenPath
   | OpenRecent
+  | OpenRvizFile
+  | OpenRvizText
   | PauseClass
+  | PauseScene
+  | PickItems
   | PressKey
   | Publish
   | PublishJoints
@@ -3457,20 +3977,27 @@ export type Command =
   | Reload
   | RemoveDisplay
   | RemoveMember
+  | RemoveTool
   | Rename
   | RenamePose
+  | RenameTool
   | RenameVariant
+  | RenameView
   | RenewCode
   | ReplaceTexts
+  | ResetScene
   | ResetSite
   | ResolveCollisions
+  | RestoreDisplays
   | ReturnControl
   | Save
   | SaveAs
   | SaveCopy
   | SaveLesson
   | SavePose
+  | SaveRvizFile
   | SaveVariant
+  | SaveView
   | SawPanel
   | SendBack
   | SendGoal
@@ -3486,6 +4013,8 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetToolProperty
+  | SetViewOptions
   | ShowCopy
   | ShowFocus
   | ShowView
@@ -3499,8 +4028,10 @@ export type Command =
   | SwitchDisplays
   | TakeControl
   | Undo
+  | UndoRvizConfig
   | UndoTo
   | UpdateVariant
+  | UseTool
   | Watch
   | ZeroJoints;
 
@@ -3545,6 +4076,8 @@ export type Event =
   | InterfaceAnswer
   | InterfacesAnswer
   | InterfacesAdded
+  | ItemsDescribed
+  | ItemsPicked
   | JointPositions
   | Leading
   | LeftWork
@@ -3583,7 +4116,14 @@ export type Event =
   | RenamingAnswer
   | Restored
   | RobotState
+  | RvizConfigOpened
+  | RvizConfigState
+  | RvizFileSaved
+  | RvizFiles
+  | RvizText
   | Saved
+  | SavedViews
+  | SceneTime
   | Services
   | Sites
   | Stopped
@@ -3592,6 +4132,9 @@ export type Event =
   | TextsChanged
   | TextsFound
   | TfFrames
+  | ToolKinds
+  | ToolUsed
+  | Tools
   | TopicEnds
   | TopicRates
   | TopicTable
@@ -3602,6 +4145,7 @@ export type Event =
   | VariantApplied
   | VariantSaved
   | Variants
+  | ViewKinds
   | WireFeed
   | WireReport
   | WireRobots

@@ -1,35 +1,88 @@
 /** @import { Door } from "./door.js" */
 /** @import { LiveExtent } from "./extent.js" */
 /** @import { RobotView } from "./robot.js" */
-/** @import { CameraPose, Matrix4, Vector3 } from "./viser.d.ts" */
+/** @import { Frame, Kind, Pose, Size, Triple, Turn, Value, Values, View } from "../lib/view-poses.js" */
+/** @import { Way } from "../lib/view-moves.js" */
+/** @import { CameraControl, CameraPose, Matrix4, Vector3 } from "./viser.d.ts" */
+
+import { Orthographic } from "./orthographic.js";
+import { fitting } from "../lib/view-fit.js";
+import { dragged, lookedAt, pinched, wheeled, zeroed } from "../lib/view-moves.js";
+import {
+  eyeOf,
+  fieldOf,
+  followed,
+  into,
+  isFlat,
+  isKind,
+  lengthOf,
+  lookTurn,
+  minus,
+  NO_TURN,
+  numberOf,
+  ORTHOGRAPHIC,
+  orbits,
+  outOf,
+  placeIn,
+  poseBetween,
+  poseOf,
+  TARGET_FRAME,
+  targetOf,
+  towards,
+  turned,
+  turnFrom,
+  viewOf,
+  withValues,
+} from "../lib/view-poses.js";
 
 const FILL = 2 / 3;
 const FOCUS_FILL = 0.45;
-/** Long enough a lens that round things at the border stay round. */
-const FIELD_OF_VIEW_DEG = 42;
-const NEAREST_M = 0.05;
-const SMOOTH_S = 0.18;
+/** Around what may be as small as a point. */
+const ROOM_M = 0.1;
+const FLIGHT_MS = 300;
+/** viser's, and more of them where we look from afar. */
+const FAR_M = 1000;
+const FAR_SHARE = 20;
 /** After so long, and so many pictures, without another mesh the robot is there, and what an edit
  * adds moves no camera. */
 const ARRIVED = { ms: 5000, pictures: 10 };
+const ARROW_RAD_PER_PX = 0.005;
 
-/** From the target towards the eye, in the root frame; top is tipped so that x points right.
- * @type {Record<string, [number, number, number]>} */
+/** From what is looked at towards the eye, in the fixed frame. @type {Record<string, Triple>} */
 const DIRECTIONS = {
   front: [1, 0, 0],
   back: [-1, 0, 0],
   left: [0, 1, 0],
   right: [0, -1, 0],
-  top: [0, -0.001, 1],
-  bottom: [0, -0.001, -1],
+  top: [0, 0, 1],
+  bottom: [0, 0, -1],
   iso: [1, -0.8, 0.62],
 };
 
-/** This browser's own camera: fits, turns to views, and is left alone by all that the server does. */
+/** Another's camera, which is shown until a hand takes over. @typedef {{pose: Pose, flat: boolean, field: number}} Guest */
+
+/**
+ * This browser's own camera: one of RViz's views, whose values say where it is, and which may go with a
+ * frame. It is left alone by all that the server does. Places are in the fixed frame, z up.
+ */
 export class CameraView {
   #door;
   #robot;
   #live;
+  #tell;
+  #orthographic;
+  /** @type {View} */
+  #view = { kind: "Orbit", values: {} };
+  /** @type {Guest | null} */
+  #guest = null;
+  /** @type {{from: Pose, began_ms: number} | null} */
+  #flight = null;
+  /** What the last picture showed. @type {Pose | null} */
+  #shown = null;
+  /** Where the frame is, or was last, that the view goes with. @type {Frame} */
+  #frame = { place: [0, 0, 0], turn: NO_TURN };
+  /** What is to be done once a frame that was chosen is there. @type {"stay" | "look" | null} */
+  #once = null;
   #untouched = true;
   /** Width by height of the picture. */
   #aspect = 0;
@@ -37,94 +90,176 @@ export class CameraView {
   #meshes = 0;
   #lastArrival_ms = 0;
   #picturesSince = 0;
-  /** Where the eye was put when the robot arrived; null: it was moved since. @type {Vector3 | null} */
-  #arrivedAt = null;
-  #usualSmoothTime = 0;
-  /** @type {"rviz" | "trackpad"} */
-  #mouse = "rviz";
-  /** @type {object | null} The control that has these buttons: viser may make another. */
-  #mouseOf = null;
+  /** @type {CameraControl | null} viser may make another */
+  #control = null;
+  /** What was told of last. @type {View | Guest | null} */
+  #told = null;
 
-  /** @param {Door} door @param {RobotView} robot @param {LiveExtent} live */
-  constructor(door, robot, live) {
+  /** @param {Door} door @param {RobotView} robot @param {LiveExtent} live
+   * @param {(type: string, detail: object) => void} tell */
+  constructor(door, robot, live, tell) {
     this.#door = door;
     this.#robot = robot;
     this.#live = live;
+    this.#tell = tell;
+    this.#orthographic = new Orthographic(door);
     door.onPicture(() => {
-      if (this.#control() !== this.#mouseOf) this.setMouse(this.#mouse);
+      this.#takeControl();
       this.#keepInPicture();
       this.#fitWhileMeshesArrive();
-    });
-    door.ready.then(({ camera }) => {
-      if (!camera) return;
-      camera.fov = FIELD_OF_VIEW_DEG;
-      camera.updateProjectionMatrix();
+      this.#place();
+      this.#door.mutable?.camera?.updateWorldMatrix(false, false);
+      this.#tellView();
     });
   }
 
-  /** A hand on the camera ends the fitting by itself. */
+  /** A hand on the camera ends the fitting by itself, and what another shows. */
   touched() {
     this.#untouched = false;
-    const control = this.#control();
-    if (control && this.#usualSmoothTime) control.smoothTime = this.#usualSmoothTime;
+    this.#adopt();
+  }
+
+  /** The view that is shown, with all that a hand did. @returns {View} */
+  get current() {
+    return this.#guest ? this.#asView(this.#guest) : this.#view;
+  }
+
+  /** @param {{kind: string, values: Values}} view @param {boolean} [animate] */
+  use({ kind, values }, animate = true) {
+    if (!isKind(kind)) throw new RangeError(`There is no view "${kind}".`);
+    this.#untouched = false;
+    this.#once = null;
+    this.#change({ kind, values }, animate);
+  }
+
+  /** Another kind of view, which shows the same as far as it can. @param {string} kind */
+  setKind(kind) {
+    if (!isKind(kind)) throw new RangeError(`There is no view "${kind}".`);
+    this.touched();
+    if (kind === this.#view.kind) return;
+    const frame = followed({ ...this.#view, kind }, this.#frame);
+    this.#change(viewOf(kind, into(frame, this.#goal()), this.#view, this.#size()), true);
+  }
+
+  /** @param {string} name RViz's @param {Value} value */
+  setValue(name, value) {
+    this.touched();
+    if (name === TARGET_FRAME) this.#setTarget(String(value), "stay");
+    else if (name === ORTHOGRAPHIC) this.#setFlat(value === true);
+    else if (name === "Point towards") this.#change(towards(this.#view, String(value)), true);
+    else this.#change(withValues(this.#view, { [name]: value }), false);
+  }
+
+  /** Go with a frame, with it in the middle. @param {string} frame empty: with none */
+  follow(frame) {
+    if (frame === targetOf(this.#view)) return;
+    this.touched();
+    this.#setTarget(frame, frame === "" ? "stay" : "look");
+  }
+
+  /** RViz's Zero. */
+  zero() {
+    this.touched();
+    this.#change(zeroed(this.#view), true);
   }
 
   /** Show all that is drawn from where we look. @param {boolean} [animate] */
   fit(animate = true) {
+    this.#adopt();
     const corners = [...this.#robot.corners(), ...this.#live.corners()];
-    this.#look(corners, this.#direction(), FILL, animate);
+    this.#look(corners, this.#goal().turn, FILL, animate);
   }
 
   /** Show the whole robot from one side. @param {string} name @param {boolean} [animate] */
   view(name, animate = true) {
     const direction = DIRECTIONS[name];
     if (!direction) throw new RangeError(`There is no view "${name}".`);
-    this.#untouched = false;
-    this.#look(this.#robot.corners(), this.#inScene(direction), FILL, animate);
+    this.touched();
+    this.#look(this.#robot.corners(), turnFrom(direction), FILL, animate);
+  }
+
+  /** Show the same point from another side. @param {Triple} direction from it to the eye */
+  seeFrom(direction) {
+    this.touched();
+    this.#show({ ...this.#goal(), turn: turnFrom(direction) }, true);
   }
 
   /** Bring one link to the middle. @param {string} link */
   focus(link) {
     const corners = this.#robot.corners([link]);
-    this.#untouched = false;
-    this.#look(corners.length ? corners : this.#around(link), this.#direction(), FOCUS_FILL, true);
+    this.touched();
+    this.#look(corners.length ? corners : this.#around(link), this.#goal().turn, FOCUS_FILL, true);
   }
 
-  /** Bring a place of the scene to the middle, from the same side and as far away.
-   * @param {Vector3} place */
+  /** Bring points of the scene to the middle, with some room around them. @param {Vector3[]} points */
+  focusOn(points) {
+    const [first] = points;
+    if (!first) return;
+    this.touched();
+    const aside = first.clone().set(ROOM_M, ROOM_M, ROOM_M);
+    const around = points.flatMap((one) => [one.clone().add(aside), one.clone().sub(aside)]);
+    this.#look(around, this.#goal().turn, FOCUS_FILL, true);
+  }
+
+  /** Turn to a place of the scene, as RViz does: the eye stays. @param {Vector3} place */
   lookAt(place) {
-    const control = this.#control();
-    if (!control) return;
-    this.#untouched = false;
-    const eye = control.getPosition(this.#vector()).sub(control.getTarget(this.#vector()));
-    this.#move(eye.add(place), place, true);
+    const at = this.inRoot(place);
+    if (!at) return;
+    this.touched();
+    this.#change(lookedAt(this.#view, placeIn(this.#followed(), at), this.#size()), true);
   }
 
-  /** Move as something in the scene moved, in this very picture; what the camera is about to do it
-   * goes on doing. @param {Vector3} way */
-  carry(way) {
-    const [camera, control] = [this.#door.mutable?.camera, this.#control()];
-    if (!camera || !control) return;
-    this.#arrivedAt = null;
-    const now = control.getTarget(this.#vector(), false).add(way);
-    const soon = control.getTarget(this.#vector()).add(way);
-    control.moveTo(now.x, now.y, now.z, false);
-    control.moveTo(soon.x, soon.y, soon.z, true);
-    camera.position.add(way);
-    camera.updateWorldMatrix(false, false);
-    this.#door.redraw();
+  /** @param {Way} way @param {number} dx px @param {number} dy px @param {readonly [number, number]} [at] px */
+  drag(way, dx, dy, at) {
+    this.touched();
+    this.#change(dragged(this.#view, way, dx, dy, this.#size(), at), false);
+  }
+
+  /** @param {number} diff RViz's: 120 for a notch away from the hand @param {boolean} shift */
+  wheel(diff, shift) {
+    this.touched();
+    this.#change(wheeled(this.#view, diff, shift), false);
+  }
+
+  /** @param {number} ratio by which two fingers spread */
+  pinch(ratio) {
+    this.touched();
+    this.#change(pinched(this.#view, ratio), false);
+  }
+
+  /** What an orbit turns about; null: the view has no such point.
+   * @returns {{place: Triple, distance: number, size: number, isGround: boolean, slope: number} | null} */
+  get focal() {
+    const view = this.#view;
+    if (!orbits(view.kind) || this.#guest) return null;
+    const [x, y, z] = ["X", "Y", "Z"].map((axis) => numberOf(view, `Focal Point/${axis}`));
+    const pose = { focal: /** @type {Triple} */ ([x, y, z]), distance: 0, turn: NO_TURN };
+    const distance = numberOf(view, "Distance");
+    const share = (view.values["Focal Shape Fixed Size"] ?? true) ? 1 : distance;
+    const { focal: place } = outOf(this.#followed(), pose);
+    const size = numberOf(view, "Focal Shape Size") * share;
+    const slope = numberOf(view, "Pitch");
+    return { place, distance, size, isGround: view.kind === "XYOrbit", slope };
   }
 
   /** @returns {CameraPose | null} */
   get() {
-    const [control, root] = [this.#control(), this.#rootMatrix()];
-    if (!control || !root) return null;
-    const back = root.clone().invert();
-    const point = (/** @type {Vector3} */ vector) => toTriple(vector.applyMatrix4(back));
-    return {
-      position: point(control.getPosition(this.#vector())),
-      target: point(control.getTarget(this.#vector())),
-    };
+    if (!this.#control) return null;
+    const { pose, flat, field } = this.#guest ?? this.#asGuest();
+    const up = turned(pose.turn, [0, 1, 0]);
+    return { position: eyeOf(pose), target: pose.focal, up, flat, field };
+  }
+
+  /** Show another's camera. @param {CameraPose} pose @param {boolean} [animate] */
+  set({ position, target, up = [0, 0, 1], flat, field }, animate = false) {
+    const back = minus(position, target);
+    if (!(lengthOf(back) > 0)) return;
+    const before = this.#guest ?? this.#asGuest();
+    this.#untouched = false;
+    if (animate) this.#takeOff();
+    const pose = { focal: target, distance: lengthOf(back), turn: lookTurn(back, up) };
+    this.#guest = { pose, flat: flat ?? before.flat, field: field ?? before.field };
+    this.#door.redraw();
   }
 
   /** A place of the scene in the root frame. @param {Vector3} place @returns {[number, number, number] | null} */
@@ -133,70 +268,234 @@ export class CameraView {
     return root && toTriple(place.clone().applyMatrix4(root.clone().invert()));
   }
 
-  /** A place in the root frame, in the scene. @param {readonly [number, number, number]} place @returns {Vector3 | null} */
+  /** A place in the root frame, in the scene. @param {Triple} place @returns {Vector3 | null} */
   fromRoot(place) {
     const root = this.#rootMatrix();
     return root && this.#vector(...place).applyMatrix4(root);
   }
 
-  /** @param {CameraPose} pose @param {boolean} [animate] */
-  set(pose, animate = false) {
-    const root = this.#rootMatrix();
-    if (!root) return;
-    this.#untouched = false;
-    const eye = this.#vector(...pose.position).applyMatrix4(root);
-    this.#move(eye, this.#vector(...pose.target).applyMatrix4(root), animate);
-  }
-
-  /** `rviz`: left orbits, middle (or Shift and left) pans, right or wheel zooms; `trackpad`: left
-   * orbits, right pans, wheel zooms. @param {"rviz" | "trackpad"} mode */
-  setMouse(mode) {
-    this.#mouse = mode;
-    const control = this.#control();
-    this.#mouseOf = control;
-    if (!control) return;
-    const { ROTATE = 1, TRUCK = 2, DOLLY = 16 } = control.constructor.ACTION;
-    const right = mode === "trackpad" ? TRUCK : DOLLY;
-    Object.assign(control.mouseButtons, { left: ROTATE, middle: TRUCK, right, wheel: DOLLY });
+  /** How it is turned, or is about to be. @returns {Turn} */
+  get turn() {
+    return this.#goal().turn;
   }
 
   /** Distance from the eye to what it looks at, m. */
   distance() {
-    const control = this.#control();
-    if (!control) return 1;
-    return control.getPosition(this.#vector()).distanceTo(control.getTarget(this.#vector()));
+    return this.#goal().distance;
+  }
+
+  /** Where the camera is, or is about to be. @returns {Pose} */
+  #goal() {
+    if (this.#guest) return this.#guest.pose;
+    return outOf(this.#followed(), poseOf(this.#view, this.#size()));
+  }
+
+  #followed() {
+    return followed(this.#view, this.#frame);
+  }
+
+  /** @returns {Guest} */
+  #asGuest() {
+    return { pose: this.#goal(), flat: isFlat(this.#view), field: fieldOf(this.#view) };
+  }
+
+  /** What another shows as a view of our own. A map that is to be something else becomes an Orbit.
+   * @param {Guest} guest @returns {View} */
+  #asView({ pose, flat, field }) {
+    const isMap = flat && turned(pose.turn, [0, 0, 1])[2] > 0.9999;
+    const kind = this.#view.kind === "TopDownOrtho" && !isMap ? "Orbit" : this.#view.kind;
+    const before = withValues(this.#view, { [ORTHOGRAPHIC]: flat, "Field of View": field });
+    return viewOf(kind, into(followed({ ...before, kind }, this.#frame), pose), before, this.#size());
+  }
+
+  #adopt() {
+    if (!this.#guest) return;
+    this.#view = this.#asView(this.#guest);
+    this.#guest = null;
+  }
+
+  /** @param {View} view @param {boolean} animate */
+  #change(view, animate) {
+    if (animate) this.#takeOff();
+    this.#guest = null;
+    this.#view = view;
+    this.#door.redraw();
+  }
+
+  #takeOff() {
+    const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.#flight = this.#shown && !isCalm ? { from: this.#shown, began_ms: performance.now() } : null;
+  }
+
+  /** See what a camera sees, by a view of this kind. @param {Pose} pose @param {boolean} animate @param {Kind} [kind] */
+  #show(pose, animate, kind = this.#kindFor(pose)) {
+    // What was seen without perspective is seen from the side so, too.
+    const isLeft = this.#view.kind === "TopDownOrtho" && kind !== "TopDownOrtho";
+    const before = isLeft ? withValues(this.#view, { [ORTHOGRAPHIC]: true }) : this.#view;
+    const frame = followed({ ...before, kind }, this.#frame);
+    this.#change(viewOf(kind, into(frame, pose), before, this.#size()), animate);
+  }
+
+  /** A map looks down and nowhere else. @param {Pose} pose @returns {Kind} */
+  #kindFor({ turn }) {
+    const { kind } = this.#view;
+    return kind === "TopDownOrtho" && turned(turn, [0, 0, 1])[2] < 0.999 ? "Orbit" : kind;
+  }
+
+  /** What is looked at keeps its size. @param {boolean} flat */
+  #setFlat(flat) {
+    if (this.#view.kind === "TopDownOrtho") return;
+    const pose = poseOf(this.#view, this.#size());
+    const before = withValues(this.#view, { [ORTHOGRAPHIC]: flat });
+    const kept = withValues(before, viewOf(before.kind, pose, before, this.#size()).values);
+    this.#change({ ...kept, reach: pose.distance }, false);
+  }
+
+  /** @param {string} frame @param {"stay" | "look"} once */
+  #setTarget(frame, once) {
+    this.#view = withValues(this.#view, { [TARGET_FRAME]: frame || "<Fixed Frame>" });
+    this.#once = once;
+    this.#door.redraw();
+  }
+
+  /** Take over from viser: it calls us before each picture, and when an arrow key is held. */
+  #takeControl() {
+    const control = this.#door.mutable?.cameraControl ?? null;
+    if (!control || control === this.#control) return;
+    this.#control = control;
+    Object.assign(control.mouseButtons, { left: 0, middle: 0, right: 0, wheel: 0 });
+    Object.assign(control.touches, { one: 0, two: 0, three: 0 });
+    control.update = () => {
+      this.#place();
+      return false;
+    };
+    control.rotate = (azimuth, polar) => this.#turnByKey(azimuth, polar);
+    control.getPosition = (target) => target.copy(this.fromRoot(eyeOf(this.#goal())) ?? target);
+    control.getTarget = (target) => target.copy(this.fromRoot(this.#goal().focal) ?? target);
+  }
+
+  /** @param {number} azimuth rad to the right @param {number} polar rad downwards */
+  #turnByKey(azimuth, polar) {
+    const side = (orbits(this.#view.kind) ? -1 : 1) / ARROW_RAD_PER_PX;
+    this.#tell("touch", {});
+    this.drag("turn", side * azimuth, side * polar);
+  }
+
+  /** Put viser's camera where the view says. */
+  #place() {
+    const { camera } = this.#door.mutable ?? {};
+    const root = this.#door.node("");
+    if (!camera || !root || !this.#control) return;
+    this.#goWithFrame();
+    const pose = this.#inFlight(this.#goal());
+    const [x, y, z, w] = pose.turn;
+    const turn = root.getWorldQuaternion(camera.quaternion.clone());
+    camera.quaternion.copy(turn.multiply(camera.quaternion.clone().set(x, y, z, w)));
+    camera.position.copy(this.#vector(...eyeOf(pose)).applyMatrix4(root.matrixWorld));
+    this.#project(pose);
+    if (this.#shown?.turn.join() !== pose.turn.join()) this.#tell("turned", { turn: pose.turn });
+    this.#shown = pose;
+  }
+
+  /** @param {Pose} pose */
+  #project(pose) {
+    const { camera } = this.#door.mutable ?? {};
+    if (!camera) return;
+    const { flat, field } = this.#guest ?? { flat: isFlat(this.#view), field: fieldOf(this.#view) };
+    const fov = (field * 180) / Math.PI;
+    const near = Math.max(numberOf(this.#view, "Near Clip Distance"), 0.001);
+    const far = Math.max(FAR_M, FAR_SHARE * pose.distance, 2 * near);
+    if (camera.fov !== fov || camera.near !== near || camera.far !== far) {
+      Object.assign(camera, { fov, near, far });
+      camera.updateProjectionMatrix();
+    }
+    this.#orthographic.set(flat ? pose.distance : null);
+  }
+
+  /** @param {Pose} goal @returns {Pose} */
+  #inFlight(goal) {
+    if (!this.#flight) return goal;
+    const part = (performance.now() - this.#flight.began_ms) / FLIGHT_MS;
+    if (part >= 1) {
+      this.#flight = null;
+      return goal;
+    }
+    this.#door.redraw();
+    return poseBetween(this.#flight.from, goal, part * part * (3 - 2 * part));
+  }
+
+  /** The frame as it is in this very picture; one that is not there stays where it was. */
+  #goWithFrame() {
+    const name = targetOf(this.#view);
+    const now = name === "" ? { place: /** @type {Triple} */ ([0, 0, 0]), turn: NO_TURN } : this.#placeOf(name);
+    if (!now) return;
+    const [once, before] = [this.#once, this.#goal()];
+    this.#once = null;
+    this.#frame = now;
+    if (!once || this.#guest) return;
+    const pose = once === "look" ? { ...before, focal: now.place } : before;
+    // RViz jumps with one that is aligned to its frame: it shall look along an axis of the new one.
+    if (this.#view.kind === "FrameAligned" && once === "stay") return this.#change(this.#view, true);
+    if (once === "look") this.#takeOff();
+    return this.#show(pose, once === "look", this.#view.kind);
+  }
+
+  /** @param {string} name @returns {Frame | null} */
+  #placeOf(name) {
+    const node = this.#robot.node(name) ?? this.#door.node(followedName(name));
+    const [camera, root] = [this.#door.mutable?.camera, this.#door.node("")];
+    if (!node || !camera || !root) return null;
+    const back = root.matrixWorld.clone().invert();
+    const place = this.#vector().setFromMatrixPosition(node.matrixWorld).applyMatrix4(back);
+    const turn = root.getWorldQuaternion(camera.quaternion.clone()).invert();
+    turn.multiply(node.getWorldQuaternion(camera.quaternion.clone()));
+    return { place: toTriple(place), turn: [turn.x, turn.y, turn.z, turn.w] };
+  }
+
+  #tellView() {
+    const shown = this.#guest ?? this.#view;
+    if (this.#told === shown) return;
+    this.#told = shown;
+    const { kind, values } = this.current;
+    this.#tell("view", { kind, values });
+  }
+
+  #size() {
+    const { canvas } = this.#door.mutable ?? {};
+    return {
+      width: canvas?.clientWidth || innerWidth || 1,
+      height: canvas?.clientHeight || innerHeight || 1,
+    };
   }
 
   /** A picture of another shape shows at least as much: what was seen along its shorter side stays seen. */
   #keepInPicture() {
-    const [camera, control] = [this.#door.mutable?.camera, this.#control()];
     const { innerWidth: width, innerHeight: height } = window;
-    if (!camera || !control || !width || !height) return;
+    if (!this.#control || !width || !height) return;
     const before = this.#aspect;
     this.#aspect = width / height;
     if (!before || before === this.#aspect) return;
     if (this.#isArriving()) {
-      this.#fitArrived(this.#direction());
+      this.#fitArrived(this.#goal().turn);
       return;
     }
     const farther = Math.min(1, before) / Math.min(1, this.#aspect);
-    const target = control.getTarget(this.#vector());
-    const eye = control.getPosition(this.#vector()).sub(target).multiplyScalar(farther);
-    if (farther !== 1) this.#move(eye.add(target), target, false);
+    if (farther === 1 || !orbits(this.#view.kind) || this.#guest) return;
+    const Distance = numberOf(this.#view, "Distance") * farther;
+    this.#change(withValues(this.#view, { Distance }), false);
   }
 
   /** An edit that makes a mesh anew, or a hand that hides one, leaves the camera alone. */
   #fitWhileMeshesArrive() {
-    if (!this.#isArriving() || !this.#control()) return;
+    if (!this.#control || !this.#isArriving()) return;
     this.#picturesSince += 1;
     const meshes = this.#robot.meshCount();
-    const isReset = this.#isReset();
-    if (meshes <= this.#meshes && !isReset) return;
-    const first = this.#meshes === 0 || isReset;
-    this.#meshes = Math.max(meshes, this.#meshes);
+    if (meshes <= this.#meshes) return;
+    const first = this.#meshes === 0;
+    this.#meshes = meshes;
     this.#lastArrival_ms = performance.now();
     this.#picturesSince = 0;
-    this.#fitArrived(first ? this.#inScene(DIRECTIONS.iso ?? [1, 0, 0]) : this.#direction());
+    this.#fitArrived(first ? turnFrom(DIRECTIONS.iso ?? [1, 0, 0]) : this.#goal().turn);
     document.documentElement.dataset.drawn = "";
   }
 
@@ -206,68 +505,22 @@ export class CameraView {
     return rest_ms < ARRIVED.ms || this.#picturesSince < ARRIVED.pictures;
   }
 
-  /** viser puts the camera at its own place when its scene stands, which may be after the robot. */
-  #isReset() {
-    const now = this.#arrivedAt && this.#control()?.getPosition(this.#vector());
-    return Boolean(now && this.#arrivedAt && now.distanceTo(this.#arrivedAt) > NEAREST_M / 10);
-  }
-
-  /** @param {Vector3} direction */
-  #fitArrived(direction) {
-    this.#look(this.#robot.corners(this.#robot.drawn), direction, FILL, false);
-    this.#arrivedAt = this.#control()?.getPosition(this.#vector()) ?? null;
+  /** @param {Turn} turn */
+  #fitArrived(turn) {
+    this.#look(this.#robot.corners(this.#robot.drawn), turn, FILL, false);
   }
 
   /** Look at points so that they fill a part of the picture and lie in its middle.
-   * @param {Vector3[]} points @param {Vector3} direction @param {number} fill @param {boolean} animate */
-  #look(points, direction, fill, animate) {
-    const camera = this.#door.mutable?.camera;
-    const [first] = points;
-    if (!camera || !first) return;
-    const right = camera.up.clone().cross(direction).normalize();
-    const up = direction.clone().cross(right);
-    const tall = Math.tan((camera.fov * Math.PI) / 360) * fill;
-    const target = middle(points);
-    let distance = NEAREST_M;
-    // What is nearer looks larger, so that the middle of the picture is found in a few steps.
-    for (let step = 0; step < 4; step++) {
-      const seen = points.map((point) => {
-        const from = point.clone().sub(target);
-        return { x: from.dot(right) / camera.aspect, y: from.dot(up), z: from.dot(direction) };
-      });
-      const reach = seen.map(({ x, y, z }) => z + Math.max(Math.abs(x), Math.abs(y)) / tall);
-      distance = Math.max(NEAREST_M, ...reach);
-      const shift = (/** @type {"x" | "y"} */ side) => {
-        const places = seen.map((point) => point[side] / (distance - point.z));
-        return ((Math.min(...places) + Math.max(...places)) / 2) * distance;
-      };
-      target.addScaledVector(right, shift("x") * camera.aspect).addScaledVector(up, shift("y"));
-    }
-    this.#move(target.clone().addScaledVector(direction, distance), target, animate);
-  }
-
-  /** @param {Vector3} eye @param {Vector3} target @param {boolean} animate */
-  #move(eye, target, animate) {
-    const control = this.#control();
-    if (!control) return;
-    this.#arrivedAt = null;
-    this.#usualSmoothTime ||= control.smoothTime;
-    if (animate && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
-      control.smoothTime = SMOOTH_S;
-      control.setLookAt(eye.x, eye.y, eye.z, target.x, target.y, target.z, true);
-    } else {
-      // One after the other: viser found that setLookAt without animation spoils later ones.
-      control.setPosition(eye.x, eye.y, eye.z, false);
-      control.setTarget(target.x, target.y, target.z, false);
-    }
-    this.#door.redraw();
-  }
-
-  #direction() {
-    const control = this.#control();
-    if (!control) return this.#vector(0, 0, 1);
-    const eye = control.getPosition(this.#vector());
-    return eye.sub(control.getTarget(this.#vector())).normalize();
+   * @param {Vector3[]} corners @param {Turn} turn @param {number} fill @param {boolean} animate */
+  #look(corners, turn, fill, animate) {
+    const root = this.#rootMatrix();
+    if (corners.length === 0 || !root) return;
+    const back = root.clone().invert();
+    const points = corners.map((corner) => toTriple(corner.clone().applyMatrix4(back)));
+    const { width, height } = this.#size();
+    const [flat, field] = [isFlat(this.#view), fieldOf(this.#view)];
+    const picture = { field, aspect: width / height, fill, flat };
+    this.#show(fitting(points, turn, picture), animate);
   }
 
   /** Points around a link that has nothing to see. @param {string} link @returns {Vector3[]} */
@@ -282,20 +535,9 @@ export class CameraView {
     return [origin.clone().add(aside), origin.clone().sub(aside)];
   }
 
-  #control() {
-    return this.#door.mutable?.cameraControl ?? null;
-  }
-
   /** @returns {Matrix4 | null} */
   #rootMatrix() {
     return this.#door.node("")?.matrixWorld ?? null;
-  }
-
-  /** A direction of the root frame in the axes of three.js. @param {[number, number, number]} direction */
-  #inScene(direction) {
-    const root = this.#rootMatrix();
-    const vector = this.#vector(...direction);
-    return root ? vector.transformDirection(root) : vector.normalize();
   }
 
   /** @param {number} [x] @param {number} [y] @param {number} [z] @returns {Vector3} */
@@ -304,17 +546,6 @@ export class CameraView {
     if (!camera) throw new Error("The 3D view has no camera yet.");
     return camera.position.clone().set(x, y, z);
   }
-}
-
-/** @param {Vector3[]} points */
-function middle(points) {
-  const [low, high] = [Math.min, Math.max].map((pick) =>
-    points.reduce(
-      (sum, { x, y, z }) => sum.set(pick(sum.x, x), pick(sum.y, y), pick(sum.z, z)),
-      /** @type {Vector3} */ (points[0]).clone(),
-    ),
-  );
-  return /** @type {Vector3} */ (low).add(/** @type {Vector3} */ (high)).multiplyScalar(0.5);
 }
 
 /** @param {Vector3} vector @returns {[number, number, number]} */
@@ -326,53 +557,3 @@ function toTriple(vector) {
 const ROOT = "/live/followed/";
 /** Its name in the scene. @param {string} frame */
 export const followedName = (frame) => ROOT + encodeURIComponent(frame);
-/** m; a frame that moved less stands still. */
-const STILL_M = 1e-6;
-
-/** Lets the camera go with a frame, as RViz's target frame does: with its place, not with its turns. */
-export class Follow {
-  #door;
-  #robot;
-  #camera;
-  #frame = "";
-  /** Where the frame was in the last picture. @type {Vector3 | null} */
-  #last = null;
-  /** Whether the frame shall be brought to the middle once it is there. */
-  #isNew = false;
-
-  /** @param {Door} door @param {RobotView} robot @param {CameraView} camera */
-  constructor(door, robot, camera) {
-    this.#door = door;
-    this.#robot = robot;
-    this.#camera = camera;
-    door.onPicture(() => this.#go());
-  }
-
-  /** @param {string} frame empty: the camera stays where it is */
-  set(frame) {
-    if (frame === this.#frame) return;
-    this.#frame = frame;
-    this.#last = null;
-    this.#isNew = frame !== "";
-    this.#door.redraw();
-  }
-
-  #go() {
-    const node = this.#frame === "" ? undefined : this.#node();
-    const camera = this.#door.mutable?.camera;
-    if (!node || !camera) {
-      this.#last = null;
-      return;
-    }
-    const now = camera.position.clone().setFromMatrixPosition(node.matrixWorld);
-    const moved = now.clone().sub(this.#last ?? now);
-    this.#last = now;
-    if (this.#isNew) this.#camera.lookAt(now);
-    this.#isNew = false;
-    if (moved.length() > STILL_M) this.#camera.carry(moved);
-  }
-
-  #node() {
-    return this.#robot.node(this.#frame) ?? this.#door.node(followedName(this.#frame));
-  }
-}

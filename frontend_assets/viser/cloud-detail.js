@@ -185,6 +185,19 @@ export class CloudDetail {
     return this.#share.value < 1 ? { ...values, ...partOf(whole, this.#share.value) } : values;
   }
 
+  /** Which points of a cloud are drawn, by their numbers in all of it; null: all are. @param {string} name of its node */
+  drawnRows(name) {
+    const whole = this.#clouds.get(name);
+    if (!whole || this.#share.value >= 1) return null;
+    const order = orderOf(this.#share.value, whole.points.length / 3);
+    return order.subarray(0, countBelow(order, whole.points.length / 3));
+  }
+
+  /** All points of a cloud as they came; null: it is not known here. @param {string} name of its node */
+  wholePoints(name) {
+    return this.#clouds.get(name)?.points ?? null;
+  }
+
   #say() {
     const oneIn = this.#clouds.size ? 1 / this.#share.value : 1;
     if (oneIn === this.#answer) return;

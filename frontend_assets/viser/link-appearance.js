@@ -1,8 +1,9 @@
 /** @import { Door } from "./door.js" */
 /** @import { Theme } from "./theme.js" */
-/** @import { Color, Material, Object3D, Shader } from "./viser.d.ts" */
+/** @import { Camera, Color, Material, Object3D, Shader } from "./viser.d.ts" */
 /** @import { RobotView } from "./robot.js" */
 
+import { nearestOf } from "./orthographic.js";
 import { RobotView } from "./robot.js";
 
 const HOVER = { tint: 0.3, glow: 0.2 };
@@ -179,7 +180,7 @@ const LINE_PX = 2.5;
 const DIRECTIONS = 8;
 /** A link of more corners than this is drawn in half as many directions. */
 const FINE_MAX = 150_000;
-/** In multiples of the nearest distance that is drawn: what hides the outline inside of the link lies before it. */
+/** From the nearest that is drawn: what hides the outline inside of the link lies before it. */
 const HIDING = 1.001;
 const SHOWN = 1.01;
 
@@ -187,7 +188,7 @@ const PROJECT = "#include <project_vertex>";
 const LAST_OF_FRAGMENT = "#include <dithering_fragment>";
 /**
  * As far as the nearest plane, whichever way depth is counted, and moved on the screen.
- * `studioDepth` is negative: the camera looks along -z.
+ * The camera looks along -z, and `studioDepth` is the z.
  */
 const MOVED_LINE = `${PROJECT}
   vec4 studioNear = projectionMatrix * vec4(0.0, 0.0, studioDepth, 1.0);
@@ -229,7 +230,7 @@ export class Outline {
     if (this.#strokes.length === 0) this.#strokes = strokes();
     const { accent, edge } = this.#theme;
     for (const stroke of this.#strokes)
-      stroke.see(canvas, camera.near, stroke.isEdge ? edge : accent);
+      stroke.see(canvas, camera, stroke.isEdge ? edge : accent);
     this.#robot.eachMesh(this.link, (mesh) => this.#added.push(...this.#copiesOf(mesh)));
     scene.children.push(...this.#added);
   }
@@ -276,12 +277,12 @@ class Stroke {
     this.y_px = reach_px * Math.sin(turn);
   }
 
-  /** @param {HTMLCanvasElement} canvas @param {number} near m @param {string} color `#rrggbb` */
-  see(canvas, near, color) {
+  /** @param {HTMLCanvasElement} canvas @param {Camera} camera @param {string} color `#rrggbb` */
+  see(canvas, camera, color) {
     const wide = canvas.clientWidth || 1;
     const high = canvas.clientHeight || 1;
     this.shift.value = [(2 * this.x_px) / wide, (2 * this.y_px) / high];
-    this.depth.value = -near * (this.hides ? HIDING : SHOWN);
+    this.depth.value = -nearestOf(camera, this.hides ? HIDING : SHOWN);
     this.color.value = [1, 3, 5].map((at) => Number.parseInt(color.slice(at, at + 2), 16) / 255);
   }
 

@@ -1,6 +1,8 @@
 /** @import { Door } from "./door.js" */
 /** @import { Camera, Material, Message, Object3D } from "./viser.d.ts" */
 
+import { depthOf, pixelAt } from "./orthographic.js";
+
 const ROOT = "/live/";
 const NEAREST = 1003;
 const CUSTOM_BLENDING = 5;
@@ -17,7 +19,7 @@ const VISER_POINT = "vec4(col, 1.0)";
 const OUR_POINT = "vec4(col, studioOpacity)";
 const VISER_POINT_SIZE = "(scale / -world_pos.z)";
 const OUR_POINT_SIZE =
-  "(studioPixels > 0.0 ? studioPixels : max(scale * (studioByZ > 0.0 ? abs(position.z) : 1.0) / -world_pos.z, studioLeastPixels))";
+  "(studioPixels > 0.0 ? studioPixels : max(scale * (studioByZ > 0.0 ? abs(position.z) : 1.0) / gl_Position.w, studioLeastPixels))";
 /** Of points with a size in metres: from afar they would be too small to be seen. */
 const LEAST_POINT_PX = 3;
 
@@ -188,12 +190,9 @@ export class Live {
 
   /** How large a pixel is at a node. @param {Object3D} node @param {Camera} camera */
   #pixel_m(node, camera) {
-    const height = this.#door.mutable?.canvas?.clientHeight || 1;
+    const height = this.#door.mutable?.canvas?.clientHeight ?? 1;
     const place = node.position.clone().setFromMatrixPosition(node.matrixWorld);
-    const back = node.position.clone().setFromMatrixColumn(camera.matrixWorld, 2);
-    const eye = node.position.clone().setFromMatrixPosition(camera.matrixWorld);
-    const depth = Math.max(eye.sub(place).dot(back), camera.near);
-    return (2 * Math.tan((camera.fov * Math.PI) / 360) * depth) / height;
+    return pixelAt(camera, Math.max(depthOf(camera, place), camera.near), height);
   }
 }
 

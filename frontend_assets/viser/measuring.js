@@ -32,21 +32,12 @@ export class Measuring {
     this.#door = door;
     this.#robot = robot;
     this.#aim = aim;
-    door.onPicture(
-      () => {},
-      () => this.#draw(),
-    );
-  }
-
-  get on() {
-    return this.#mode !== null;
   }
 
   /** @param {AimMode | null} mode */
   setMode(mode) {
     this.#mode = mode;
     this.#aimed = null;
-    delete document.documentElement.dataset.cursor;
     this.#door.redraw();
   }
 
@@ -75,10 +66,11 @@ export class Measuring {
     return this.#mode && this.#aim.at(x, y, this.#mode, free);
   }
 
-  #draw() {
+  /** After each picture. @param {string} colour of the lines; empty: that of the theme */
+  draw(colour) {
     /** @type {{ lines: Line[], dots: Dot[], labels: Label[] }} */
     const all = { lines: [], dots: [], labels: [] };
-    for (const measure of this.#measures) this.#addMeasure(all, measure);
+    for (const measure of this.#measures) this.#addMeasure(all, measure, colour);
     if (this.#mode === "axes")
       for (const name of this.#robot.joints.keys()) this.#addAxis(all.lines, name);
     if (this.#mode === "frames")
@@ -88,11 +80,12 @@ export class Measuring {
     this.#lines.draw(all);
   }
 
-  /** @param {{ lines: Line[], dots: Dot[], labels: Label[] }} all @param {DrawnMeasure} measure */
-  #addMeasure({ lines, dots, labels }, { ends, label }) {
+  /** @param {{ lines: Line[], dots: Dot[], labels: Label[] }} all @param {DrawnMeasure} measure
+   * @param {string} colour */
+  #addMeasure({ lines, dots, labels }, { ends, label }, colour) {
     const places = ends.map((end) => this.#placeOf(end));
     const seen = places.filter((place) => place !== null);
-    if (seen.length === places.length && seen.length > 1) lines.push({ places: seen, kind: "line" });
+    if (seen.length === places.length && seen.length > 1) lines.push({ places: seen, kind: "line", colour });
     for (const end of ends) {
       if (end.kind === "axis") this.#addAxis(lines, end.joint);
       this.#addDot(dots, end);

@@ -1,7 +1,7 @@
 /** @import { Door } from "./door.js" */
 /** @import { Renderer } from "./viser.d.ts" */
 
-const BACKGROUND = ["--view-high", "--view-mid", "--view-low"];
+import { BACKGROUND } from "./theme.js";
 
 /** The 3D view as a PNG, as large as is wished, on its background or on none. */
 export class Picture {

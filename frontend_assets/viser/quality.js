@@ -4,6 +4,8 @@
 /** Fewer pictures a second than this, for so long, is slow. */
 const SLOW_HZ = 20;
 const SLOW_FOR_MS = 3000;
+/** Where pictures are limited, so many of them are expected: those of the screen come in between. */
+const OF_LIMIT = 0.6;
 /** Who asks for the next picture as soon as this after one keeps the picture moving. */
 const AT_ONCE_MS = 60;
 /** After a longer pause than this nothing moved: the tab was hidden, or the machine slept. */
@@ -40,6 +42,11 @@ export class Quality {
     document.addEventListener("visibilitychange", begin);
   }
 
+  /** Fewer than are drawn at most are slow only if they are few of those. @param {number} hz 0: no limit */
+  setLimit(hz) {
+    this.#pace.slowBelow_hz = hz > 0 ? Math.min(SLOW_HZ, hz * OF_LIMIT) : SLOW_HZ;
+  }
+
   /** What the page says of it. */
   state() {
     const { graphics = "full", gl = "hardware", renderer = "" } = document.documentElement.dataset;
@@ -74,6 +81,7 @@ export class Pace {
   /** Whether the next picture was asked for as soon as the last was there. */
   #moving = false;
   #isTold = false;
+  slowBelow_hz = SLOW_HZ;
 
   /** Count from a time on. @param {number} now_ms */
   begin(now_ms) {
@@ -105,7 +113,7 @@ export class Pace {
     if (lasted_ms < SLOW_FOR_MS) return null;
     const hz = (this.#pictures * 1000) / lasted_ms;
     this.#restart(now_ms);
-    if (hz >= SLOW_HZ) return null;
+    if (hz >= this.slowBelow_hz) return null;
     this.#isTold = true;
     return hz;
   }

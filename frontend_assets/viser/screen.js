@@ -1,6 +1,8 @@
 /** @import { Door } from "./door.js" */
 /** @import { Vector3 } from "./viser.d.ts" */
 
+import { depthOf } from "./orthographic.js";
+
 /** @typedef {[number, number]} Place px from the upper left corner of the picture */
 
 /** Where a point of the scene is seen; null: behind the eye, or there is no picture.
@@ -8,9 +10,7 @@
 export function placeOf(door, point) {
   const { canvas, camera } = door.mutable ?? {};
   if (!canvas || !camera) return null;
-  const eye = point.clone().setFromMatrixPosition(camera.matrixWorld);
-  const back = point.clone().setFromMatrixColumn(camera.matrixWorld, 2);
-  if (point.clone().sub(eye).dot(back) > -camera.near) return null;
+  if (depthOf(camera, point) < camera.near) return null;
   const seen = point.clone().project(camera);
   const frame = canvas.getBoundingClientRect();
   return [
@@ -38,10 +38,10 @@ const CHARACTER_PX = 8;
 const LINE_PX = 24;
 const SVG = "http://www.w3.org/2000/svg";
 /** Dots of measures; others are larger. */
-const SMALL = new Set(["point", "frame", "axis"]);
+const SMALL = new Set(["point", "frame", "axis", "tool"]);
 
-/** @typedef {{ places: Place[], kind: "line" | "axis" | "aim" | "chain" }} Line */
-/** @typedef {{ place: Place, kind: "point" | "frame" | "axis" | "aim" | "centre" | "guide" }} Dot */
+/** @typedef {{ places: Place[], kind: "line" | "axis" | "aim" | "chain" | "arrow", colour?: string }} Line */
+/** @typedef {{ place: Place, kind: "point" | "frame" | "axis" | "aim" | "centre" | "guide" | "tool" }} Dot */
 /** @typedef {{ place: Place, text: string, kind: "measure" | "aim" | "centre" }} Label */
 
 /** Lines, dots and words over the picture; they are in nobody's way. */
@@ -71,10 +71,11 @@ export class DrawnLines {
 }
 
 /** @param {Line} line @param {string} look */
-function lineOf({ places }, look) {
+function lineOf({ places, colour }, look) {
   const element = document.createElementNS(SVG, "polyline");
   element.setAttribute("points", places.map((place) => place.map(round).join(",")).join(" "));
   element.setAttribute("class", look);
+  if (colour && look !== "casing") element.style.stroke = colour;
   return element;
 }
 

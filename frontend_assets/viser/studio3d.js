@@ -1,35 +1,55 @@
+/** @import { Value, Values } from "../lib/view-poses.js" */
+/** @import { Tool } from "./tools/tool.js" */
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
 
 import { Aim, Measuring } from "./measuring.js";
 import { CameraPictures } from "./camera-pictures.js";
-import { CameraView, Follow } from "./camera.js";
+import { CameraView } from "./camera.js";
 import { ChainLine, Guide, Marks } from "./marks.js";
 import { CloudDetail } from "./cloud-detail.js";
 import { Door, Removed } from "./door.js";
+import { FrameRate } from "./frame-rate.js";
+import { Hands } from "./hands.js";
 import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
 import { Live } from "./live.js";
 import { Looks } from "./link-appearance.js";
-import { pick } from "./picking.js";
+import { FocusCamera } from "./tools/focus.js";
+import { Interact } from "./tools/interact.js";
+import { Measure } from "./tools/measure.js";
+import { MoveCamera } from "./tools/move-camera.js";
+import { Outlines } from "./outlines.js";
+import { pick, pickAnything } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
+import { PoseOnGround } from "./tools/pose.js";
+import { Select } from "./tools/select.js";
 import { RobotView } from "./robot.js";
+import { SurfacePoint } from "./tools/point.js";
+import { Surfaces } from "./surface.js";
+import { Units } from "./tools/units.js";
 
 /**
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `touch {}` (a hand is on the camera), `focus {link}`, `measure {anchor}`, `drag {joint, value, phase, x, y}`, `connection {connected}`, and `key {key, code,
+ * `touch {}` (a hand is on the camera), `view {kind, values}` (it is another, or has other values),
+ * `turned {turn}` (of the camera), `focus {link}` (null: of no link), `measure {anchor}`, `pose
+ * {x, y, yaw}` and `point {point, what}` (pointed at with a tool, in the fixed frame), `picked {nodes,
+ * links, how, left_out}` and `select_nothing {}` (of the tool Select), `drag {joint, value, phase, x,
+ * y}`, `connection {connected}`, and `key {key, code,
  * ctrlKey, metaKey, shiftKey, altKey, repeat}`, which may be prevented.
  */
 class Studio3d {
   events = new EventTarget();
   #door = new Door();
   #robot = new RobotView(this.#door);
+  #rate = new FrameRate(window);
   #quality = new Quality(this.#door, (hz) => this.#tell("slow", { hz }));
-  #camera = new CameraView(this.#door, this.#robot, new LiveExtent(this.#door));
-  #follow = new Follow(this.#door, this.#robot, this.#camera);
+  #camera = new CameraView(this.#door, this.#robot, new LiveExtent(this.#door), (type, detail) =>
+    this.#tell(type, detail),
+  );
   #light = new Light(this.#door);
   #still = new Still(this.#door);
   #picture = new Picture(this.#door);
@@ -44,20 +64,50 @@ class Studio3d {
     this.#robot,
     new Aim(this.#door, this.#robot, () => this.#camera.distance()),
   );
-  #pointer = new Pointer(
+  #units = new Units();
+  /** @type {(type: string, detail: object) => void} */
+  #tellPage = (type, detail) => void this.#tell(type, detail);
+  #detail = new CloudDetail(this.#door, (oneIn) => this.#tell("detail", { oneIn }));
+  #outlines = new Outlines(this.#door);
+  #interact = new Interact(
     this.#door,
     this.#robot,
     this.#looks,
     this.#camera,
-    this.#measuring,
-    (type, detail) => this.#tell(type, detail),
+    this.#units,
+    this.#tellPage,
   );
+  #surfaces = new Surfaces(this.#door, this.#robot);
+  #pose = new PoseOnGround(this.#door, this.#units, this.#tellPage);
+  #point = new SurfacePoint(this.#door, this.#surfaces, this.#units, ({ point, what }) =>
+    this.#tellPage("point", { point, what }),
+  );
+  /** By RViz's class without its package. @type {Record<string, Tool>} */
+  #tools = {
+    Interact: this.#interact,
+    MoveCamera: new MoveCamera(),
+    FocusCamera: new FocusCamera(this.#door, this.#surfaces, this.#camera, this.#tellPage),
+    Select: new Select(this.#door, this.#robot, this.#detail, this.#tellPage),
+    Measure: new Measure(this.#measuring, this.#tellPage),
+    SetInitialPose: this.#pose,
+    SetGoal: this.#pose,
+    PublishPoint: this.#point,
+  };
+  #pointer = new Pointer(
+    this.#door,
+    this.#robot,
+    this.#camera,
+    [...new Set(Object.values(this.#tools))],
+    this.#tellPage,
+  );
+
+  /** After the pointer, which may take a press for itself. */
+  #hands = new Hands(this.#door, this.#camera);
 
   constructor() {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
     this.ready = this.#door.ready.then(() => undefined);
     new Live(this.#door);
-    new CloudDetail(this.#door, (oneIn) => this.#tell("detail", { oneIn }));
     new Removed(this.#door);
     this.#door.onConnection((connected) => this.#tell("connection", { connected }));
     forwardKeys(
@@ -94,9 +144,66 @@ class Studio3d {
     this.#camera.focus(link);
   }
 
-  /** Let the camera go with a frame. @param {string} frame empty: with none */
-  setTarget(frame) {
-    this.#follow.set(frame);
+  /** Let the camera go with a frame, with it in the middle. @param {string} frame empty: with none */
+  follow(frame) {
+    this.#camera.follow(frame);
+  }
+
+  /** The view as it is now, by RViz's names. @returns {{kind: string, values: Values}} */
+  getView() {
+    const { kind, values } = this.#camera.current;
+    return { kind, values };
+  }
+
+  /** @param {{kind: string, values: Values}} view @param {boolean} [animate] */
+  useView(view, animate) {
+    this.#camera.use(view, animate);
+  }
+
+  /** Another kind of view, which shows the same. @param {string} kind */
+  setViewKind(kind) {
+    this.#camera.setKind(kind);
+  }
+
+  /** @param {string} name @param {Value} value */
+  setViewValue(name, value) {
+    this.#camera.setValue(name, value);
+  }
+
+  /** RViz's Zero of the view. */
+  zero() {
+    this.#camera.zero();
+  }
+
+  /** Show the same point from another side. @param {readonly [number, number, number]} direction */
+  seeFrom(direction) {
+    this.#camera.seeFrom(direction);
+  }
+
+  /** Turn the view as a drag of the mouse does. @param {number} dx px @param {number} dy px */
+  turnBy(dx, dy) {
+    this.#camera.drag("turn", dx, dy);
+  }
+
+  /** How the camera is turned. @returns {readonly [number, number, number, number]} x, y, z, w */
+  getTurn() {
+    return this.#camera.turn;
+  }
+
+  /** Whether something is under the mouse. */
+  isPointing() {
+    return this.#pointedAnything() !== null;
+  }
+
+  /** Turn to what is under the mouse. */
+  lookAtPointed() {
+    const point = this.#pointedAnything();
+    if (point) this.#camera.lookAt(point);
+  }
+
+  #pointedAnything() {
+    const over = this.#hands.over;
+    return over && pickAnything(this.#door, this.#robot, over.x, over.y);
   }
 
   /** Whether this browser draws lightly, by software, and with what. */
@@ -150,19 +257,62 @@ class Studio3d {
     this.#theme.set(name);
   }
 
+  /** What is behind the scene. @param {string} colour as `#rrggbb`; empty: that of the theme */
+  setBackground(colour) {
+    this.#theme.setBackground(colour);
+  }
+
+  /** @param {number} hz pictures per second at most; 0: as many as there can be */
+  setFrameRate(hz) {
+    this.#rate.set(hz);
+    this.#quality.setLimit(hz);
+  }
+
   /** @param {"rviz" | "trackpad"} mode */
   setMouse(mode) {
-    this.#camera.setMouse(mode);
+    this.#hands.mouse = mode;
   }
 
   /** Whether links may be dragged here. @param {boolean} can */
   setCanDrag(can) {
-    this.#pointer.canDrag = can;
+    this.#interact.canDrag = can;
   }
 
-  /** Of the value at the cursor. @param {"deg" | "rad"} unit */
-  setAngleUnit(unit) {
-    this.#pointer.angleUnit = unit;
+  /** Of the numbers at the mouse. @param {"deg" | "rad"} angles @param {"m" | "mm"} lengths */
+  setUnits(angles, lengths) {
+    Object.assign(this.#units, { angles, lengths });
+  }
+
+  /** What is set of the tools of a kind. @param {string} kind @param {Tool["values"]} values by RViz's names */
+  setToolProperties(kind, values) {
+    const tool = this.#tools[kind];
+    if (tool) tool.values = values;
+    this.#door.redraw();
+  }
+
+  /** What things are called at the mouse. @param {import("./tools/point.js").SurfacePoint["words"]} words */
+  setWords(words) {
+    this.#point.words = words;
+  }
+
+  /** Give up what is under way with the tool in hand. @returns {boolean} whether anything was */
+  cancelTool() {
+    return this.#pointer.cancel();
+  }
+
+  /** Take a tool in hand. @param {string} kind as RViz names its class; one that is not known: Interact */
+  setTool(kind) {
+    this.#pointer.hold(this.#tools[kind] ?? this.#interact);
+  }
+
+  /** Boxes are drawn around these. @param {readonly import("./outlines.js").Outlined[]} items */
+  setOutlines(items) {
+    this.#outlines.set(items);
+  }
+
+  /** Bring what is outlined to the middle. */
+  focusOutlines() {
+    this.#camera.focusOn(this.#outlines.corners());
   }
 
   /** In this browser only. @param {string} link @param {boolean} visible */
@@ -233,10 +383,16 @@ class Studio3d {
     return this.events.dispatchEvent(new CustomEvent(type, { detail, cancelable: true }));
   }
 
-  /** While a link is dragged, Escape means that and nothing else. @param {{ key: string }} stroke */
+  /** While something is dragged, Escape means that and nothing else. @param {{ key: string }} stroke */
   #endsDrag({ key }) {
-    if (key !== "Escape" || !this.#pointer.dragging) return false;
-    this.#pointer.cancel();
+    if (key !== "Escape") return false;
+    return this.#pointer.cancel() || this.#endsSelection();
+  }
+
+  /** With the tool Select in hand Escape empties the selection, if there is one. */
+  #endsSelection() {
+    if (this.#pointer.tool !== this.#tools.Select || this.#outlines.count === 0) return false;
+    this.#tell("select_nothing", {});
     return true;
   }
 

@@ -23,6 +23,9 @@ const CALM_GRID = `
     float density = max(fwidth(r.x), fwidth(r.y));
     return (1.0 - min(line, 1.0)) * (1.0 - smoothstep(0.12, 0.5, density));`;
 
+/** What the style sheet paints behind the scene with, the middle first. */
+export const BACKGROUND = ["--view-high", "--view-mid", "--view-low"];
+
 /** Colours of this browser: background, grid and accent. */
 export class Theme {
   /** @type {ThemeName} */
@@ -69,6 +72,15 @@ export class Theme {
     this.#door.redraw();
   }
 
+  /** @param {string} colour as `#rrggbb`; empty: that of the theme */
+  setBackground(colour) {
+    const { style } = document.documentElement;
+    for (const name of BACKGROUND) {
+      if (colour === "") style.removeProperty(name);
+      else style.setProperty(name, colour);
+    }
+  }
+
   /** The server sends a grid without a theme. @param {Message} message */
   #paintGrid(message) {
     if (message.name !== GRID) return;
@@ -102,6 +114,9 @@ export class Theme {
 const FIRST_ORDER = 10_000;
 const VISER_PLATE = "vec4(1.0, 1.0, 1.0, 0.85 * vAlpha)";
 const VISER_INK = "vec4(0.0, 0.0, 0.0, a)";
+/** By which words keep their size on the screen; ours holds without perspective, too. */
+const VISER_DEPTH = "-(viewMatrix * vec4(labelPos, 1.0)).z";
+const OUR_DEPTH = "(projectionMatrix * viewMatrix * vec4(labelPos, 1.0)).w";
 
 /** sRGB, 0 to 1. @type {Record<"dark" | "light", { plate: number[], ink: number[] }>} */
 const COLOURS = {
@@ -162,6 +177,7 @@ export class Plates {
       .replace(VISER_PLATE, "vec4(studioPlate, 0.85 * vAlpha)")
       .replace(VISER_INK, "vec4(studioInk, a)");
     if (shader === material.fragmentShader) return;
+    material.vertexShader = material.vertexShader.replace(VISER_DEPTH, OUR_DEPTH);
     material.fragmentShader = `uniform vec3 studioPlate;\nuniform vec3 studioInk;\n${shader}`;
     Object.assign(material.uniforms, { studioPlate: this.#plate, studioInk: this.#ink });
     material.needsUpdate = true;

@@ -107,6 +107,8 @@ export interface Geometry {
   attributes?: {
     position?: { count: number; getX(at: number): number; getY(at: number): number; getZ(at: number): number };
   };
+  /** Corners of triangles, three after three; null: all places are, in their order. */
+  index?: { count: number; getX(at: number): number } | null;
   boundingBox: Box3 | null;
   computeBoundingBox(): void;
 }
@@ -117,6 +119,10 @@ export interface Hit {
   object: Object3D;
   /** Its corners by their numbers, and where it faces in the mesh's own axes. */
   face?: { a: number; b: number; c: number; normal: Vector3 } | null;
+  /** Which of a mesh that is drawn many times. */
+  instanceId?: number;
+  /** Which of the triangles. */
+  faceIndex?: number | null;
 }
 
 export interface Pointing {
@@ -161,6 +167,8 @@ export interface Camera extends Object3D {
   far: number;
   projectionMatrix: Matrix4;
   projectionMatrixInverse: Matrix4;
+  /** Ours: only while a picture without perspective is drawn. */
+  isOrthographicCamera?: boolean;
   updateProjectionMatrix(): void;
 }
 
@@ -183,26 +191,17 @@ export interface Scene extends Object3D {
   onAfterRender: (renderer: Renderer) => void;
 }
 
+/** What viser moves its camera with; ours takes its place. */
 export interface CameraControl {
-  enabled: boolean;
-  smoothTime: number;
   mouseButtons: { left: number; middle: number; right: number; wheel: number };
+  touches: { one: number; two: number; three: number };
   constructor: { ACTION: Record<string, number> };
+  /** Called before each picture. */
+  update(seconds: number): boolean;
+  /** By the arrow keys, while they are held, rad. */
+  rotate(azimuth: number, polar: number, animate?: boolean): unknown;
   getPosition(target: Vector3): Vector3;
-  /** Where it looks, or is about to look (the default). */
-  getTarget(target: Vector3, isEnd?: boolean): Vector3;
-  moveTo(x: number, y: number, z: number, animate: boolean): Promise<void>;
-  setPosition(x: number, y: number, z: number, animate: boolean): Promise<void>;
-  setTarget(x: number, y: number, z: number, animate: boolean): Promise<void>;
-  setLookAt(
-    px: number,
-    py: number,
-    pz: number,
-    tx: number,
-    ty: number,
-    tz: number,
-    animate: boolean,
-  ): Promise<void>;
+  getTarget(target: Vector3): Vector3;
 }
 
 export interface Message {
@@ -258,10 +257,17 @@ export interface RobotState {
   joints: JointView[];
 }
 
+/** A camera, in the root frame of the robot: x forward, z up. */
 export interface CameraPose {
-  /** Metres, in the root frame of the robot: x forward, z up. */
-  position: [number, number, number];
-  target: [number, number, number];
+  /** Metres. */
+  position: readonly [number, number, number];
+  target: readonly [number, number, number];
+  /** Where the top of the picture points; without: upwards. */
+  up?: readonly [number, number, number];
+  /** Whether it sees without perspective; without: with it. */
+  flat?: boolean;
+  /** Its opening angle from below to above, rad; without: as it is. */
+  field?: number;
 }
 
 declare global {

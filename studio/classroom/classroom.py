@@ -559,7 +559,7 @@ COMMANDS.presenter(Lead, lambda room, c, _: room.following.lead(leading=c.leadin
 COMMANDS.presenter(GatherAll, lambda room, _, __: room.following.gather())
 COMMANDS.presenter(
     ShowView,
-    lambda room, c, who: room.following.show_view(who, c.document, (c.eye, c.target), c.pointer),
+    lambda room, c, who: room.following.show_view(who, c.document, c),
     limits=_VIEWS,
 )
 COMMANDS.presenter(

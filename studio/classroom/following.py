@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from studio.protocol.classroom import Focus, Gather, Leading
 from studio.protocol.listeners import Audience, encode, send
@@ -12,13 +12,12 @@ from studio.protocol.listeners import Audience, encode, send
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from studio.protocol.classroom import ShowView
     from studio.protocol.listeners import Listener
 
-Point: TypeAlias = "tuple[float, float, float]"
-Place: TypeAlias = "tuple[Point, Point]"
 VIEW: Final = 2
 """First byte of the frame; 1 are joints."""
-_FRAME: Final = struct.Struct("<B7x9f")
+_FRAME: Final = struct.Struct("<BB6x13f")
 _NOWHERE: Final = (math.nan,) * 3
 _KEY: Final = "view"
 
@@ -80,22 +79,20 @@ class Following:
         """Whether a page follows."""
         return listener in self._followers
 
-    def show_view(
-        self, leader: Listener, document: str, place: Place, pointer: Point | None
-    ) -> None:
+    def show_view(self, leader: Listener, document: str, view: ShowView) -> None:
         """Show camera and pointer to all who follow.
 
         Args:
             leader: The page that shows.
             document: What it shows.
-            place: The camera's eye, and what it looks at, in m in the root frame.
-            pointer: What the mouse points at, likewise; None: nothing.
+            view: In m in the root frame.
         """
         if not self.leading:
             return
         self._leader = leader
-        numbers = (*place[0], *place[1], *(pointer or _NOWHERE))
-        self._view = _FRAME.pack(VIEW, *numbers)
+        pointer = view.pointer or _NOWHERE
+        numbers = (*view.eye, *view.target, *pointer, *view.up, view.field)
+        self._view = _FRAME.pack(VIEW, view.flat, *numbers)
         for page in self._others(leader, document):
             page.post(self._view, binary=True, key=_KEY)
 

@@ -221,7 +221,16 @@ def serve(
     gc.freeze()
     gc.set_threshold(_NEW_OBJECTS_MAX)
     gc.enable()
-    opening = Opening(path, arguments, nodes, joins_ros=nodes is not None)
+    view: Path | None = getattr(options, "view", None)
+    opening = Opening(
+        path,
+        arguments,
+        nodes,
+        joins_ros=nodes is not None,
+        view=view.expanduser().absolute() if view else None,
+        fixed_frame=getattr(options, "fixed_frame", ""),
+        fullscreen=getattr(options, "fullscreen", False),
+    )
     launch(settings, opening, viewer_link=options.viewer_link)
 
 

@@ -9,11 +9,16 @@ import numpy as np
 from studio.displays.display import Status, StillDisplay
 from studio.displays.drawing import FIXED_FRAME, NO_TURN, NOTHING, Axes, Placed
 from studio.displays.properties import Property
+from studio.displays.selection import Item, box_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from studio.displays.drawing import Drawing
+    from studio.displays.selection import Picked
 
 _LEAST_M = 0.0001
+_PATH = "axes"
 
 
 class AxesDisplay(StillDisplay):
@@ -28,6 +33,17 @@ class AxesDisplay(StillDisplay):
         Property("Radius", "number", 0.1, "Radius of each axis.", low=_LEAST_M, high=1e6, unit="m"),
         Property("Alpha", "number", 1.0, "How opaque it is: 0 is not seen.", low=0.0, high=1.0),
     )
+
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the frame, by the one path that there is."""
+        return (picked.path,) if picked.path == _PATH else ()
+
+    def item(self, key: str) -> Item | None:
+        """Return the frame."""
+        placed = self.draw(0).get(key)
+        if placed is None:
+            return None
+        return Item("frame", placed.frame, key, placed.frame, 0, box_of(placed.shapes))
 
     def statuses(self) -> tuple[Status, ...]:
         """Return a warning when the axes are invisible."""
@@ -46,6 +62,4 @@ class AxesDisplay(StillDisplay):
             float(self.values["Radius"]) / 2,  # RViz takes it for the thickness, too
             float(self.values["Alpha"]),
         )
-        return {
-            "axes": Placed(str(self.values["Reference Frame"]), 0, {"axes": axes}, follows=True)
-        }
+        return {_PATH: Placed(str(self.values["Reference Frame"]), 0, {"axes": axes}, follows=True)}

@@ -14,9 +14,20 @@ from studio.displays.colour_maps import COLOUR_MAPS, RAINBOW, mapped
 from studio.displays.display import Display, Limits, Status, reading_fields
 from studio.displays.drawing import BODIES_MAX, NOTHING, Drawing, Placed, Points
 from studio.displays.properties import Property, rgb_of
+from studio.displays.selection import (
+    FACTS_MAX,
+    NEWEST,
+    Fact,
+    Item,
+    box_at,
+    index_of,
+    number_fact,
+    position_fact,
+    row_of,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -24,6 +35,7 @@ if TYPE_CHECKING:
     from studio.displays.display import Received
     from studio.displays.drawing import PointStyle
     from studio.displays.properties import Value
+    from studio.displays.selection import ItemKind, Picked
     from studio.ros.types.library import TypeLibrary
 
 AUTOMATIC: Final = "Automatic"
@@ -123,6 +135,7 @@ CLOUD_PROPERTIES: Final = (
     ),
 )  # fmt: skip
 
+_SHAPE: Final = "points"
 _WHITE: Final = np.full(3, 255, dtype=np.uint8)
 _SIZE: Final = "Size (m)"
 _WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time", POINTS_AT_MOST}
@@ -276,6 +289,7 @@ class _Kept:
     """A message that is seen, where it is drawn, and how it was drawn last."""
 
     path: str
+    number: int
     received: Received
     cloud: Cloud
     colours: NDArray[np.uint8] | None = None
@@ -287,10 +301,13 @@ class CloudDisplay(Display):
     """Keeps the newest cloud, and those before it until they decayed; derived classes read one."""
 
     PROPERTIES: ClassVar[tuple[Property, ...]] = CLOUD_PROPERTIES
+    ITEM: ClassVar[ItemKind] = "point"
+    """What one of its points is."""
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)
         self._kept: deque[_Kept] = deque()
+        self._number = 0
         self._left_out = 0
         self._precise = False
         self._drawing: Drawing | None = NOTHING
@@ -311,7 +328,8 @@ class CloudDisplay(Display):
         if not self._decay_ns():
             self._kept.clear()
         self._decay(received.received_ns)
-        self._kept.append(_Kept(self._free_path(), received, cloud))
+        self._number += 1
+        self._kept.append(_Kept(self._free_path(), self._number, received, cloud))
         self._hold_limits()
         self._drawing = None
 
@@ -345,6 +363,65 @@ class CloudDisplay(Display):
                 one.path: placed for one in self._kept if (placed := self._placed(one)) is not None
             }
         return self._drawing
+
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the keys of points: which message, and their index in it."""
+        kept = next((one for one in self._kept if one.path == picked.path), None)
+        if kept is None:
+            return ()
+        rows = np.unique(picked.rows[(picked.rows >= 0) & (picked.rows < kept.cloud.count)])
+        raw = rows if kept.cloud.raw is None else kept.cloud.raw[rows]
+        message = str(kept.number) if self._decay_ns() else NEWEST
+        return [f"{message}/{index}" for index in raw.tolist()]
+
+    def item(self, key: str) -> Item | None:
+        """Return a point that is drawn; of a message without decay, that of the newest one."""
+        kept, row, index = self._of_key(key)
+        if kept is None:
+            return None
+        cloud = kept.cloud
+        box = box_at(cloud.positions[row].tolist(), (float(self.values[_SIZE]),) * 3)
+        return Item(
+            self.ITEM,
+            str(index),
+            kept.path,
+            cloud.frame,
+            cloud.stamp_ns,
+            box,
+            shape=_SHAPE,
+            row=row,
+        )
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return the index of a point, where it is, and its fields."""
+        kept, row, index = self._of_key(key)
+        if kept is None:
+            return ()
+        place = position_fact(kept.cloud.positions[row].tolist())
+        return (Fact("index", index), place, *self.channel_facts(kept.cloud, index)[:FACTS_MAX])
+
+    def channel_facts(self, cloud: Cloud, index: int) -> tuple[Fact, ...]:
+        """Return the fields of a point by its index in the message, but for its place."""
+        raw = np.array([index])
+        columns = ((name, cloud.channels.numbers(name, raw)) for name in cloud.channels.names)
+        return tuple(
+            number_fact(name, float(numbers[0]), kind="field")
+            for name, numbers in columns
+            if numbers is not None
+        )
+
+    def _of_key(self, key: str) -> tuple[_Kept | None, int, int]:
+        """Return the message, the row and the index of a point; None: it is not drawn."""
+        number, _, index = key.partition("/")
+        for kept in reversed(self._kept):
+            if number in (NEWEST, str(kept.number)):
+                raw = kept.cloud.raw
+                rows = range(kept.cloud.count)
+                row = row_of(raw, index) if raw is not None else index_of(index)
+                if row is None or row not in rows:
+                    break
+                return kept, row, int(index)
+        return None, 0, 0
 
     def statuses(self) -> tuple[Status, ...]:
         """Return what is odd about the newest cloud, and what is left out."""
@@ -385,7 +462,7 @@ class CloudDisplay(Display):
             self._precise |= needs_precision(one.cloud.positions, float(self.values[_SIZE]))
             shape = self.shape_of(one.cloud, one.colours, precise=self._precise)
             cloud = one.cloud
-            one.placed = Placed(cloud.frame, cloud.stamp_ns, {"points": shape}, sweep=cloud.sweep)
+            one.placed = Placed(cloud.frame, cloud.stamp_ns, {_SHAPE: shape}, sweep=cloud.sweep)
         return one.placed
 
     def _decay_ns(self) -> int:

@@ -14,10 +14,11 @@ from studio.ros.cdr import Codec
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Mapping
+    from collections.abc import Generator, Mapping, Sequence
 
     from studio.displays.posed_robot import PosedRobot
     from studio.displays.properties import Property, Value
+    from studio.displays.selection import Fact, Item, Picked
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames import FramesNow
 
@@ -179,6 +180,14 @@ class Display(ABC):
         """Return what can be set now: namespaces of markers, for example, come with messages."""
         return self.PROPERTIES
 
+    def property_named(self, name: str) -> Property:
+        """Return a property by its name, also one that messages have yet to bring.
+
+        Raises:
+            DisplayPropertyError: There is none.
+        """
+        return self._property(name)
+
     def limit(self, limits: Limits) -> None:
         """Apply these limits to all messages from now on."""
         self.limits = limits
@@ -223,6 +232,25 @@ class Display(ABC):
     def close(self) -> None:
         """Let go of what it holds: it is taken away, and is asked for nothing more."""
         self.limits = Limits()
+
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the keys of the items that were pointed at in the last drawing, each once.
+
+        None of a display whose shapes stand for nothing that can be selected, as the lines of a
+        grid.
+        """
+        del picked
+        return ()
+
+    def item(self, key: str) -> Item | None:
+        """Return an item as it is now; None when it is gone. Keys may be any text."""
+        del key
+        return None
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return what is known of an item; nothing when it is gone."""
+        del key
+        return ()
 
     def decode(self, received: Received) -> Any:  # noqa: ANN401 - of the type that it names
         """Read a message; arrays of numbers are read-only views.

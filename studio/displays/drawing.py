@@ -34,6 +34,7 @@ NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)
 ORIGIN: Xyz = (0.0, 0.0, 0.0)
 BODIES_MAX: Final = 20_000
 """More points than this are no boxes or tiles: one costs a hundred times as much as a square."""
+Items: TypeAlias = "NDArray[np.intp]"
 PointStyle: TypeAlias = Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"]
 """RViz's names."""
 Drawing: TypeAlias = "Mapping[str, Placed]"
@@ -91,6 +92,8 @@ class Points:
         size_px: Of "points", on the screen; 0: `size_m` counts.
         size_by_z: Whether the size of each is `size_m` for each metre of its z, as a pixel of a
             depth camera grows with its distance.
+        items: Shape (N,): the number by which its display knows what each belongs to; None: its
+            row. The same for the other shapes with `items`.
     """
 
     positions: NDArray[np.float32]
@@ -101,6 +104,7 @@ class Points:
     precise: bool = False
     size_px: float = 0.0
     size_by_z: bool = False
+    items: Items | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,12 +116,14 @@ class Lines:
         colors: Shape (N, 2, 3), uint8; or (3,) when all have one.
         width_m: Thickness in the scene; 0 is a hair line on the screen.
         opacity: 1 is opaque.
+        items: Shape (N,), as those of `Points`.
     """
 
     ends: NDArray[np.float32]
     colors: NDArray[np.uint8]
     width_m: float = 0.0
     opacity: float = 1.0
+    items: Items | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -172,6 +178,7 @@ class Solids:
         scales: Shape (N, 3), float32: edges or diameters, m.
         colors: Shape (N, 3), uint8; or (3,) when all have one.
         opacities: Shape (N,), float32; or one for all.
+        items: Shape (N,), as those of `Points`.
     """
 
     kind: Literal["box", "sphere", "cylinder", "cone"]
@@ -180,6 +187,7 @@ class Solids:
     scales: NDArray[np.float32]
     colors: NDArray[np.uint8]
     opacities: NDArray[np.float32] | float = 1.0
+    items: Items | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -191,12 +199,14 @@ class Triangles:
         faces: Shape (F, 3), uint32.
         colors: Shape (V, 3), uint8; or (3,) when all have one.
         opacity: 1 is opaque.
+        items: Shape (F,), as those of `Points`.
     """
 
     vertices: NDArray[np.float32]
     faces: NDArray[np.uint32]
     colors: NDArray[np.uint8]
     opacity: float = 1.0
+    items: Items | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,21 +11,24 @@ from studio.displays.display import Status, TopicRole, frame_and_stamp, reading_
 from studio.displays.drawing import NO_TURN, Arrows, Lines, Placed, link_frame
 from studio.displays.history import Entry, HistoryDisplay
 from studio.displays.properties import Property, length, switch
+from studio.displays.selection import Fact, Item, box_of, index_of, number_fact
 from studio.displays.turning import FAR, drawable, shortest_turn, turned
 from studio.errors import DisplayMessageError, RobotError
 from studio.robot.urdf_text import robot_from_urdf
 from studio.robot.values import JointType
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from studio.displays.display import Reason, Received
     from studio.displays.drawing import Shape
     from studio.displays.properties import Value
+    from studio.displays.selection import Picked
     from studio.displays.turning import Floats
     from studio.robot.values import Joint, Robot
+    from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
 
 _DESCRIPTION: Final = "description"
@@ -55,6 +58,7 @@ class Efforts(NamedTuple):
 class Ring(NamedTuple):
     """The axis of a joint in the frame of its child link, and its effort."""
 
+    joint: str
     frame: str
     axis: Floats
     effort: float
@@ -130,6 +134,37 @@ class EffortDisplay(HistoryDisplay[Efforts]):
             for number, ring in enumerate(rings)
         }
 
+    def parts_picked(self, content: Efforts, picked: Picked) -> Sequence[str]:
+        """Return the joint whose ring it is."""
+        rings = self._rings(content)
+        number = index_of(picked.path)
+        return (rings[number].joint,) if 0 <= number < len(rings) else ()
+
+    def part_item(self, entry: Entry[Efforts], path: str, part: str) -> Item | None:
+        """Return one joint."""
+        for number, ring in enumerate(self._rings(entry.content)):
+            if ring.joint == part:
+                box = box_of(self._ring(ring))
+                return Item("joint", part, f"{path}/{number}", ring.frame, entry.stamp_ns, box)
+        return None
+
+    def part_facts(
+        self, content: Efforts, part: str, message: MessageValue | None
+    ) -> tuple[Fact, ...]:
+        """Return its effort, and where it is and how fast if the message says so."""
+        if part not in content.joints:
+            return ()
+        at = content.joints.index(part)
+        joint = self._robot.joints.get(part) if self._robot is not None else None
+        found = [Fact("name", part), number_fact("effort", float(content.efforts[at]), "N m")]
+        if joint is not None and joint.limit is not None:
+            found.append(number_fact("limit.effort", joint.limit.effort, "N m"))
+        for name, unit in (("position", "rad"), ("velocity", "rad/s")):
+            numbers = () if message is None else getattr(message, name)
+            if at < len(numbers):
+                found.append(number_fact(name, float(numbers[at]), unit))
+        return tuple(found)
+
     def statuses(self) -> tuple[Status, ...]:
         """Return a status, too, if it is unknown where the joints are."""
         newest = self.newest
@@ -174,7 +209,7 @@ class EffortDisplay(HistoryDisplay[Efforts]):
         most = joint.limit.effort if joint.limit is not None else 0.0
         share = min(abs(effort) / most, 1.0) if 0 < most <= FAR else abs(effort)
         frame = link_frame(joint.child, str(self.values["TF Prefix"]))
-        return Ring(frame, axis / size, effort, share + _LEAST)
+        return Ring(joint.name, frame, axis / size, effort, share + _LEAST)
 
     def _ring(self, ring: Ring) -> dict[str, Shape]:
         """Return a part of a circle about an axis, from the head of its arrow on."""

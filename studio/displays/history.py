@@ -4,20 +4,27 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import deque
-from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Final, Generic, NamedTuple, TypeVar
 
 from studio.displays.display import Status, StillDisplay, reading_fields
 from studio.displays.drawing import NOTHING, Placed
+from studio.displays.selection import NEWEST, Item, box_of, index_of, message_facts
 from studio.errors import StudioError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from studio.displays.display import Reason, Received
-    from studio.displays.drawing import Drawing, Shape
+    from studio.displays.drawing import Drawing, Shape, Wxyz, Xyz
     from studio.displays.properties import Property, Value
+    from studio.displays.selection import Fact, ItemKind, Picked
+    from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
 
+DECODED_MAX_BYTES: Final = 1 << 18
+"""A larger message takes too long to be read as a whole."""
+_MESSAGES_MAX_BYTES: Final = 32 << 20
+"""Of all messages that are kept as they came."""
 KEPT_MAX = 2_000
 """Messages kept at most: each has a place of its own in the scene, and up to four shapes."""
 
@@ -35,6 +42,10 @@ class Entry(NamedTuple, Generic[Content]):
 class _Kept(NamedTuple, Generic[Content]):
     path: str
     entry: Entry[Content]
+    number: int
+    """Of the message, counted from the first that came."""
+    received: Received | None
+    """None if it is too large to be kept beside what was read of it."""
 
 
 class HistoryDisplay(StillDisplay, Generic[Content]):
@@ -46,12 +57,15 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
 
     KEEPS: ClassVar[str] = ""
     """The property with the number of messages kept; empty keeps the newest alone."""
+    ITEM: ClassVar[ItemKind] = "message"
+    """What is selected of it: a whole message, or one of its parts."""
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)
         self._kept: deque[_Kept[Content]] = deque()
         self._free: list[str] = []
         self._points = 0
+        self._number = 0
         self._too_many_points = False
         self._groups: dict[str, Mapping[str, Placed]] = {}
         self._remarks: tuple[Status, ...] = ()
@@ -71,7 +85,7 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
             self._remarks = before
             raise
         if entry is not None:
-            self._keep(entry)
+            self._keep(entry, received)
 
     @abstractmethod
     def read(self, received: Received) -> Entry[Content] | None:
@@ -194,13 +208,85 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
         """The entry of the newest message that was kept."""
         return self._kept[-1].entry if self._kept else None
 
-    def _keep(self, entry: Entry[Content]) -> None:
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the keys of messages, or of parts of one."""
+        path, _, group = picked.path.partition("/")
+        kept = next((one for one in self._kept if one.path == path), None)
+        if kept is None:
+            return ()
+        message = NEWEST if self._kept_max == 1 else str(kept.number)
+        parts = self.parts_picked(kept.entry.content, picked._replace(path=group))
+        return [f"{message}/{part}" if part else message for part in parts]
+
+    def item(self, key: str) -> Item | None:
+        """Return a message that is kept still, or a part of it."""
+        kept, part = self._of_key(key)
+        if kept is None:
+            return None
+        if part:
+            return self.part_item(kept.entry, kept.path, part)
+        entry = kept.entry
+        placed = self._groups.get(kept.path, {}).get("")
+        box = box_of(placed.shapes) if placed is not None else None
+        pose = self.message_pose(entry.content)
+        return Item(self.ITEM, "", kept.path, entry.frame, entry.stamp_ns, box, *pose)
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return the fields of a message, or what is known of a part of it."""
+        kept, part = self._of_key(key)
+        if kept is None:
+            return ()
+        message = self._message_of(kept)
+        if part:
+            return self.part_facts(kept.entry.content, part, message)
+        return () if message is None else message_facts(message)
+
+    def message_pose(self, content: Content) -> tuple[Xyz | None, Wxyz | None]:
+        """Return where a message is in its frame, and how it is turned, as far as it says so."""
+        del content
+        return None, None
+
+    def parts_picked(self, content: Content, picked: Picked) -> Sequence[str]:
+        """Return the names of the parts that were pointed at; an empty one is the whole message.
+
+        The path of `picked` is that of a group of `groups`.
+        """
+        del content, picked
+        return ("",)
+
+    def part_item(self, entry: Entry[Content], path: str, part: str) -> Item | None:
+        """Return a part of a message drawn below a path; None if there is none of that name."""
+        del entry, path, part
+
+    def part_facts(
+        self, content: Content, part: str, message: MessageValue | None
+    ) -> tuple[Fact, ...]:
+        """Return what is known of a part; the message itself is None if it is a large one."""
+        del content, part, message
+        return ()
+
+    def _of_key(self, key: str) -> tuple[_Kept[Content] | None, str]:
+        number, _, part = key.partition("/")
+        if number == NEWEST:
+            return (self._kept[-1] if self._kept else None), part
+        place = index_of(number) - self._kept[0].number if self._kept else -1
+        return (self._kept[place] if 0 <= place < len(self._kept) else None), part
+
+    def _message_of(self, kept: _Kept[Content]) -> MessageValue | None:
+        received = kept.received
+        if received is None or len(received.cdr) > DECODED_MAX_BYTES:
+            return None
+        return self.decode(received)
+
+    def _keep(self, entry: Entry[Content], received: Received) -> None:
         self._points += self.points_in(entry.content)
         self._too_many_points = False
         self._drop_oldest(room_for=1)
         # The path of a dropped message is used again, so that the scene updates its shapes.
         path = self._free.pop() if self._free else str(len(self._kept))
-        self._kept.append(_Kept(path, entry))
+        self._number += 1
+        is_small = len(received.cdr) <= _MESSAGES_MAX_BYTES // self._kept_max
+        self._kept.append(_Kept(path, entry, self._number, received if is_small else None))
         self.redraw()
 
     def _drop_oldest(self, room_for: int = 0) -> None:
@@ -211,14 +297,15 @@ class HistoryDisplay(StillDisplay, Generic[Content]):
             self._drop()
 
     def _drop(self) -> None:
-        path, entry = self._kept.popleft()
+        path, entry, *_ = self._kept.popleft()
         self._points -= self.points_in(entry.content)
         self._groups.pop(path, None)
         self._free.append(path)
 
     def _drawn(self) -> Drawing:
         drawn: dict[str, Placed] = {}
-        for path, entry in self._kept:
+        for kept in self._kept:
+            path, entry = kept.path, kept.entry
             if path not in self._groups:
                 self._groups[path] = self.groups(entry)
             for name, placed in self._groups[path].items():

@@ -13,18 +13,21 @@ from studio.displays.display import Status, StillDisplay, TopicRole, reading_fie
 from studio.displays.drawing import NOTHING, Frustum, Placed
 from studio.displays.image_encodings import read_compressed, read_image
 from studio.displays.properties import Property, rgb_of
+from studio.displays.selection import NEWEST, Fact, Item, box_of, number_fact
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from studio.displays.display import Received
     from studio.displays.drawing import Drawing
     from studio.displays.properties import Value
+    from studio.displays.selection import Picked
     from studio.ros.types.library import TypeLibrary
 
 _INFO: Final = "camera_info"
+_PATH: Final = "camera"
 _COMPRESSED: Final = "sensor_msgs/msg/CompressedImage"
 _OF_SHADES: Final = ("Normalize Range", "Min Value", "Max Value", "Median window")
 _WINDOW_MAX: Final = 100
@@ -88,6 +91,8 @@ class ImageDisplay(StillDisplay):
         self.size: tuple[int, int] | None = None
         """Width and height of the picture as it was sent."""
         self.frame, self.stamp_ns = "", 0
+        self._size: tuple[int, int] | None = None
+        self._encoding = ""
         self._view: _View | None = None
         self._has_info = False
         self._ranges: deque[tuple[float, float]] = deque(maxlen=_WINDOW_MAX)
@@ -112,13 +117,38 @@ class ImageDisplay(StillDisplay):
             else:
                 self._take_picture(received.type_name, message)
 
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the picture as a whole."""
+        return (NEWEST,) if picked.path == _PATH else ()
+
+    def item(self, key: str) -> Item | None:
+        """Return the picture, with a box around what the camera sees."""
+        if key != NEWEST or self._drawing is None or _PATH not in self._drawing:
+            return None
+        box = box_of(self._drawing[_PATH].shapes)
+        return Item("image", "", _PATH, self.frame, self.stamp_ns, box)
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return size and field of view."""
+        if key != NEWEST or self.pixels is None:
+            return ()
+        found = [Fact("encoding", self._encoding[:300])]
+        if self._size is not None:
+            found += [Fact("width", self._size[1]), Fact("height", self._size[0])]
+        if self._view is not None:
+            found.append(number_fact("field_of_view", self._view.fov_y_rad, "rad"))
+        return tuple(found)
+
     def _take_picture(self, type_name: str, message: Any) -> None:  # noqa: ANN401
         read = read_compressed if type_name == _COMPRESSED else read_image
         pixels, stamp_ns = read(message, self.limits.pixels), stamp_ns_of(message.header)
         self.pixels, self.frame, self.stamp_ns = pixels, message.header.frame_id, stamp_ns
         rows, columns = pixels.shape[:2]
+        # Of a compressed picture fewer pixels may have been read than it has.
         is_packed = type_name == _COMPRESSED
         self.size = (columns, rows) if is_packed else (int(message.width), int(message.height))
+        self._size = None if is_packed else (int(message.height), int(message.width))
+        self._encoding = str(message.format if is_packed else message.encoding)
         self._shaded = None
         if _is_numbers(pixels):
             self._ranges.append(_range_of(pixels))
@@ -153,7 +183,7 @@ class ImageDisplay(StillDisplay):
             rgb=rgb_of(self.values["Edge color"]),
             opacity=float(self.values["Alpha"]),
         )
-        return {"camera": Placed(self.frame, self.stamp_ns, {"picture": shape})}
+        return {_PATH: Placed(self.frame, self.stamp_ns, {"picture": shape})}
 
     def shades(self, pixels: NDArray[Any]) -> NDArray[np.uint8]:
         """Return the picture in colours; numbers become shades of grey."""

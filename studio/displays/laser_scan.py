@@ -11,12 +11,14 @@ from studio.displays.cloud import Cloud, evenly_among
 from studio.displays.cloud_display import CloudDisplay
 from studio.displays.display import Status, TopicRole, stamp_ns_of
 from studio.displays.drawing import Sweep
+from studio.displays.selection import Fact, number_fact
 from studio.errors import DisplayMessageError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.display import Limits, Received
+    from studio.displays.selection import ItemKind
 
 _BEAMS_MAX: Final = 4_000_000
 _TURN_MAX_S: Final = 5.0
@@ -31,6 +33,7 @@ class LaserScanDisplay(CloudDisplay):
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("sensor_msgs/msg/LaserScan",), reliable=False),
     )
+    ITEM: ClassVar[ItemKind] = "beam"
 
     def read(self, received: Received, limits: Limits) -> Cloud:
         """Return the points of a scan.
@@ -53,11 +56,17 @@ class LaserScanDisplay(CloudDisplay):
             _sweep_of(scan, chosen),
         )  # fmt: skip
 
+    def channel_facts(self, cloud: Cloud, index: int) -> tuple[Fact, ...]:
+        """Return what the beam of a point measured."""
+        beams = cloud.channels
+        return beams.facts(index) if isinstance(beams, _Beams) else ()
+
 
 class _Beams:
     """Directions of the beams of a scan, and the like."""
 
     def __init__(self, scan: Any) -> None:  # noqa: ANN401 - a sensor_msgs/LaserScan
+        self._angles_rad = float(scan.angle_min), float(scan.angle_increment)
         self._columns: dict[str, NDArray[np.float32]] = {"range": scan.ranges}
         if len(scan.intensities) == len(scan.ranges):
             self._columns["intensity"] = scan.intensities
@@ -74,6 +83,17 @@ class _Beams:
         if column is None:
             return None
         return (column if raw is None else column[raw]).astype(np.float32)
+
+    def facts(self, index: int) -> tuple[Fact, ...]:
+        """Return the range, the angle and the intensity of a beam."""
+        first_rad, step_rad = self._angles_rad
+        found = [
+            number_fact("range", float(self._columns["range"][index]), "m"),
+            number_fact("angle", first_rad + index * step_rad, "rad"),
+        ]
+        if (intensities := self._columns.get("intensity")) is not None:
+            found.append(number_fact("intensity", float(intensities[index])))
+        return tuple(found)
 
     def colours(self, raw: NDArray[np.intp] | None) -> None:
         del raw

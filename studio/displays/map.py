@@ -11,17 +11,28 @@ import numpy as np
 from studio.displays.display import Status, StillDisplay, TopicRole, reading_fields, stamp_ns_of
 from studio.displays.drawing import NOTHING, Picture, Placed
 from studio.displays.properties import Property
+from studio.displays.selection import (
+    Box,
+    Fact,
+    Item,
+    box_at,
+    index_of,
+    number_fact,
+    orientation_fact,
+    position_fact,
+)
 from studio.displays.turning import drawable, turned, unit_quaternions
 from studio.errors import DisplayMessageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from studio.displays.display import Received
     from studio.displays.drawing import Drawing, Wxyz, Xyz
     from studio.displays.properties import Value
+    from studio.displays.selection import Picked
     from studio.ros.types.library import TypeLibrary
 
 SCHEMES: Final = ("map", "costmap", "raw")
@@ -30,6 +41,9 @@ TILE_CELLS: Final = 1024
 """Edge of a tile: every graphics card takes it, and a change within it is sent quickly."""
 _CELLS_MAX: Final = 256 << 20
 _UPDATES: Final = "updates"
+_PATH: Final = "map"
+_WHOLE: Final = "map"
+"""Key of the map as a whole; that of a cell is its row and column."""
 
 
 @cache
@@ -198,6 +212,8 @@ class _Grid:
     cells: NDArray[np.int8]
     step: int
     shown: NDArray[np.int8]
+    sheet: Sheet
+    """Of the cells as they came."""
 
 
 class MapDisplay(StillDisplay):
@@ -277,6 +293,54 @@ class MapDisplay(StillDisplay):
         found = (self._empty(self._grid), self._transparent(), _pooled_status(self._grid))
         return tuple(one for one in found if one is not None)
 
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the cell that was hit, or the map as a whole."""
+        if self._grid is None or not self._grid.cells.size:
+            return ()
+        if picked.place is None:
+            return (_WHOLE,)
+        sheet = self._grid.sheet
+        row, column = _cell_at(sheet, picked.place)
+        inside = 0 <= row < sheet.rows and 0 <= column < sheet.columns
+        return (f"{row}/{column}",) if inside else ()
+
+    def item(self, key: str) -> Item | None:
+        """Return a cell, or the map."""
+        grid = self._grid
+        if grid is None or not grid.cells.size:
+            return None
+        sheet = grid.sheet
+        if key == _WHOLE:
+            whole = _box_of_cells(sheet, (0, 0), (sheet.rows, sheet.columns))
+            return Item("map", "", _PATH, grid.frame, grid.stamp_ns, whole)
+        cell = _cell_of(sheet, key)
+        if cell is None:
+            return None
+        box = _box_of_cells(sheet, cell, (1, 1))
+        return Item("cell", f"{cell[0]}, {cell[1]}", _PATH, grid.frame, grid.stamp_ns, box)
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return row, column and value of a cell; of the map its size and origin."""
+        grid = self._grid
+        if grid is None:
+            return ()
+        sheet = grid.sheet
+        if key == _WHOLE:
+            return (
+                Fact("width", sheet.columns), Fact("height", sheet.rows),
+                number_fact("resolution", sheet.cell_m, "m"),
+                position_fact(sheet.corner), orientation_fact(sheet.wxyz),
+            )  # fmt: skip
+        cell = _cell_of(sheet, key)
+        if cell is None:
+            return ()
+        row, column = cell
+        return (
+            Fact("row", row), Fact("column", column), Fact("index", row * sheet.columns + column),
+            Fact("value", int(grid.cells[row, column])),
+            position_fact(_box_of_cells(sheet, cell, (1, 1)).middle),
+        )  # fmt: skip
+
     def _drawn(self) -> Drawing:
         if self._grid is None or not self._grid.cells.size:
             return NOTHING
@@ -290,7 +354,7 @@ class MapDisplay(StillDisplay):
         paint = paint_of(colours, float(self.values["Alpha"]), behind=behind)
         stamp_ns = self._grid.stamp_ns if fixed else 0
         shapes = self._tiles.painted(paint)
-        return {"map": Placed(self._grid.frame, stamp_ns, shapes, follows=not fixed)}
+        return {_PATH: Placed(self._grid.frame, stamp_ns, shapes, follows=not fixed)}
 
     def _take_map(self, message: Any) -> None:  # noqa: ANN401 - a nav_msgs/OccupancyGrid
         cells = _cells(message.info, message.data, "OccupancyGrid")
@@ -299,7 +363,8 @@ class MapDisplay(StillDisplay):
         sheet = _sheet(message.info, shown, step)
         frame = message.header.frame_id or "map"
         self._tiles.lay(sheet, shown)
-        self._grid = _Grid(frame, stamp_ns_of(message.header), cells, step, shown)
+        whole = _sheet(message.info, cells, 1)
+        self._grid = _Grid(frame, stamp_ns_of(message.header), cells, step, shown, whole)
 
     def _take_update(self, grid: _Grid, message: Any) -> None:  # noqa: ANN401
         part = _cells(message, message.data, "OccupancyGridUpdate")
@@ -375,6 +440,27 @@ def _sheet(info: Any, shown: NDArray[np.int8], step: int) -> Sheet:  # noqa: ANN
     wxyz = unit_quaternions(pose[:, 3:])[0][0]
     turned = (float(wxyz[0]), float(wxyz[1]), float(wxyz[2]), float(wxyz[3]))
     return Sheet(shown.shape[0], shown.shape[1], resolution_m * step, (x, y, z), turned)
+
+
+def _cell_at(sheet: Sheet, place: Xyz) -> tuple[int, int]:
+    """Return row and column at a place in the frame of the map; they may be beyond the map."""
+    w, x, y, z = sheet.wxyz
+    back = turned(np.array([[w, -x, -y, -z]]), np.subtract(place, sheet.corner))[0] / sheet.cell_m
+    column, row = np.clip(np.floor(back[:2]), -1, 1 << 40).astype(int).tolist()
+    return row, column
+
+
+def _cell_of(sheet: Sheet, key: str) -> tuple[int, int] | None:
+    row, column = (index_of(part) for part in (*key.split("/", 1), "")[:2])
+    return (row, column) if 0 <= row < sheet.rows and 0 <= column < sheet.columns else None
+
+
+def _box_of_cells(sheet: Sheet, cell: tuple[int, int], count: tuple[int, int]) -> Box:
+    """Return a flat box around so many rows and columns from a cell on."""
+    (row, column), (rows, columns) = cell, count
+    middle = np.array([column + columns / 2, row + rows / 2, 0.0]) * sheet.cell_m
+    at = np.asarray(sheet.corner) + turned(np.array([sheet.wxyz]), middle)[0]
+    return box_at(at, (columns * sheet.cell_m, rows * sheet.cell_m, 0.0), sheet.wxyz)
 
 
 def _step(count: int, limit: int) -> int:

@@ -15,6 +15,10 @@ from studio.displays.poses import (
     axes_shapes,
     chosen_rows,
     drawable_poses,
+    numbered,
+    one_pose,
+    pose_facts,
+    pose_parts,
     poses_of_chosen,
 )
 from studio.displays.properties import (
@@ -25,14 +29,21 @@ from studio.displays.properties import (
     length,
     rgb_of,
 )
+from studio.displays.selection import Fact, Item, box_at, box_of, wxyz_of, xyz_of
 from studio.ros.columns.poses import PATH, read_path
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from studio.displays.display import Received
     from studio.displays.drawing import Shape
+    from studio.displays.selection import Picked
     from studio.displays.turning import Flags, Floats
+    from studio.ros.types.classes import MessageValue
 
 POSES_MAX: Final = 100_000
+_POSE_M: Final = 0.05
+"""Edge of the box around a pose that is drawn as nothing but a corner of the line."""
 _AXES, _ARROWS = ("Pose Style", ("Axes",)), ("Pose Style", ("Arrows",))
 
 
@@ -77,7 +88,8 @@ class PathDisplay(HistoryDisplay[Line]):
         sound = drawable_poses(read.rows)
         # With each row how many were left out before it: where that changes there is a gap.
         rows = np.column_stack((read.rows, np.cumsum(~sound, dtype=np.float64)))
-        chosen = chosen_rows(rows, sound, "poses", min(POSES_MAX, self.limits.points), self)
+        at_most = min(POSES_MAX, self.limits.points)
+        chosen = chosen_rows(numbered(rows), sound, "poses", at_most, self)
         if chosen is None:
             return None
         if len(read.rows) == 1:
@@ -91,9 +103,41 @@ class PathDisplay(HistoryDisplay[Line]):
 
     def shapes(self, content: Line) -> dict[str, Shape]:
         """Return the line, and its poses."""
-        offset_m = np.array([self.number(f"Offset/{axis}") for axis in "XYZ"])
-        moved = Poses(content.poses.xyz + offset_m, content.poses.wxyz)
+        moved = Poses(content.poses.xyz + self._offset_m, content.poses.wxyz)
         return self._line(moved.xyz, content.joined) | self._poses(moved)
+
+    def parts_picked(self, content: Line, picked: Picked) -> Sequence[str]:
+        """Return the index of each pose; of a piece of the line, that where it begins."""
+        rows = picked.rows
+        if picked.shape == "line":
+            begins = np.flatnonzero(content.joined)
+            rows = begins[rows[rows < len(begins)]]
+        return pose_parts(content.poses, rows)
+
+    def part_item(self, entry: Entry[Line], path: str, part: str) -> Item | None:
+        """Return one pose."""
+        one = one_pose(entry.content.poses, part)
+        if one is None:
+            return None
+        shown = self.shapes(Line(one, entry.content.joined[:0]))
+        box = box_of(shown) or box_at(one.xyz[0] + self._offset_m, (_POSE_M,) * 3)
+        pose = xyz_of(one.xyz[0] + self._offset_m), wxyz_of(one.wxyz[0])
+        return Item("pose", part, path, entry.frame, entry.stamp_ns, box, *pose)
+
+    def part_facts(
+        self, content: Line, part: str, message: MessageValue | None
+    ) -> tuple[Fact, ...]:
+        """Return its index and the pose, with its own frame and stamp."""
+        found = pose_facts(content.poses, part)
+        if message is None or not found:
+            return found
+        header = message.poses[int(part)].header
+        stamp = header.stamp
+        return (
+            *found,
+            Fact("header.frame_id", header.frame_id[:300]),
+            Fact("header.stamp", f"{stamp.sec}.{stamp.nanosec:09d}", "s"),
+        )
 
     def _line(self, xyz: Floats, joined: Flags) -> dict[str, Shape]:
         if not joined.any():
@@ -103,6 +147,10 @@ class PathDisplay(HistoryDisplay[Line]):
         width_m = self.number("Line Width") if wide else 0.0
         colour = colour_of(rgb_of(self.values["Color"]))
         return {"line": Lines(ends, colour, width_m, self.number("Alpha"))}
+
+    @property
+    def _offset_m(self) -> Floats:
+        return np.array([self.number(f"Offset/{axis}") for axis in "XYZ"])
 
     def _poses(self, poses: Poses) -> dict[str, Shape]:
         match self.values["Pose Style"]:

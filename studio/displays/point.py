@@ -34,6 +34,7 @@ class PointStampedDisplay(HistoryDisplay["Floats"]):
         Property("History Length", "whole", 1, "How many messages are shown.", 1, KEPT_MAX),
     )
     KEEPS = "History Length"
+    ITEM = "point"
 
     def read(self, received: Received) -> Entry[Floats] | None:
         """Return the point, unless its numbers cannot be drawn."""

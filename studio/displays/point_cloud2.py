@@ -9,6 +9,7 @@ import numpy as np
 from studio.displays.cloud import Cloud, kept, listed, nothing_of
 from studio.displays.cloud_display import CloudDisplay
 from studio.displays.display import TopicRole, stamp_ns_of
+from studio.displays.selection import FACTS_MAX, Fact, number_fact, numbers_fact
 from studio.errors import DisplayMessageError
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ RAW_POINTS_MAX: Final = 8_000_000
 # By `datatype` of sensor_msgs/PointField: INT8 1 to FLOAT64 8.
 _NUMBERS: Final = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 _FIELDS_MAX: Final = 1000
+_NUMBERS_OF_FIELD_MAX: Final = 33
+"""Of one point that are shown: a descriptor FPFH has as many."""
 _PACKED: Final = ("rgb", "rgba")
 _PARTS: Final = ("r", "g", "b")
 
@@ -110,6 +113,29 @@ class CloudFields:
         parts = [self.numbers(one, raw) for one in _PARTS]
         whole = np.nan_to_num(np.clip(np.stack([p for p in parts if p is not None], axis=1), 0, 1))
         return np.rint(whole * 255).astype(np.uint8)
+
+    def facts(self, index: int) -> tuple[Fact, ...]:
+        """Return the fields of one point as they were sent, but for its place."""
+        if not 0 <= index < self.count:
+            return ()
+        row, column = divmod(index, self._columns)
+        return tuple(
+            self._fact(name, row, column)
+            for name in self.names[: FACTS_MAX + 3]
+            if name not in "xyz"
+        )
+
+    def _fact(self, name: str, row: int, column: int) -> Fact:
+        field = self._fields[name]
+        if name in _PACKED and field.datatype in (5, 6, 7):
+            red, green, blue = (float(one) / 255 for one in self._bytes_view(name)[row, column])
+            return Fact(name, (red, green, blue, 1.0), kind="colour")
+        dtype = self._dtype(name)
+        fits = (int(self._message.point_step) - int(field.offset)) // dtype.itemsize
+        count = min(max(int(field.count), 1), fits, _NUMBERS_OF_FIELD_MAX)
+        if count > 1:
+            return numbers_fact(name, self._view(name, dtype, count)[row, column], kind="field")
+        return number_fact(name, self._view(name, dtype)[row, column].item(), kind="field")
 
     def _add(self, field: Any) -> None:  # noqa: ANN401 - a sensor_msgs/PointField
         """Add a field by its name; of two with one name the first counts, as in RViz.
@@ -241,3 +267,10 @@ class PointCloud2Display(CloudDisplay):
             message.header.frame_id, stamp_ns_of(message.header), shown, chosen, available, fields,
             nothing_of(fields.count, shown),
         )  # fmt: skip
+
+    def channel_facts(self, cloud: Cloud, index: int) -> tuple[Fact, ...]:
+        """Return the fields of a point with the numbers that were sent, not only as colours."""
+        channels = cloud.channels
+        if isinstance(channels, CloudFields):
+            return channels.facts(index)
+        return super().channel_facts(cloud, index)

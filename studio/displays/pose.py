@@ -16,10 +16,11 @@ from studio.displays.poses import (
     pose_shapes,
     pose_sizes,
 )
+from studio.displays.selection import wxyz_of, xyz_of
 
 if TYPE_CHECKING:
     from studio.displays.display import Received
-    from studio.displays.drawing import Shape
+    from studio.displays.drawing import Shape, Wxyz, Xyz
 
 
 class PoseDisplay(HistoryDisplay[Poses]):
@@ -30,6 +31,7 @@ class PoseDisplay(HistoryDisplay[Poses]):
     ICON = "pose"
     TOPICS = (TopicRole("", ("geometry_msgs/msg/PoseStamped",)),)
     PROPERTIES = pose_properties()
+    ITEM = "pose"
 
     def read(self, received: Received) -> Entry[Poses] | None:
         """Return the pose, unless its numbers cannot be drawn."""
@@ -44,6 +46,10 @@ class PoseDisplay(HistoryDisplay[Poses]):
     def shapes(self, content: Poses) -> dict[str, Shape]:
         """Return an arrow, or axes."""
         return pose_shapes(content, self.values)
+
+    def message_pose(self, content: Poses) -> tuple[Xyz, Wxyz]:
+        """Return the pose."""
+        return xyz_of(content.xyz[0]), wxyz_of(content.wxyz[0])
 
     def sizes(self) -> tuple[str, ...]:
         """Return the properties with the length of the arrow or the axes."""

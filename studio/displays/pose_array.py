@@ -14,6 +14,9 @@ from studio.displays.poses import (
     Sizes,
     arrow_properties,
     axes_properties,
+    one_pose,
+    pose_facts,
+    pose_parts,
     pose_shapes,
     pose_sizes,
     poses_of_rows,
@@ -26,12 +29,17 @@ from studio.displays.properties import (
     length,
     rgb_of,
 )
+from studio.displays.selection import Item, box_of, wxyz_of, xyz_of
 from studio.displays.turning import turned
 from studio.ros.columns.poses import POSE_ARRAY, read_pose_array
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from studio.displays.display import Received
     from studio.displays.drawing import Shape
+    from studio.displays.selection import Fact, Picked
+    from studio.ros.types.classes import MessageValue
 
 _FLAT, _SOLID, _AXES = "Arrow (Flat)", "Arrow (3D)", "Axes"
 _SIZES = Sizes(0.23, 0.01, 0.07, 0.03, 0.3, 0.01)
@@ -71,6 +79,27 @@ class PoseArrayDisplay(HistoryDisplay[Poses]):
         if not len(content) or not self.values["Arrow Length"]:
             return {}
         return {"arrows": self._flat(content)}
+
+    def parts_picked(self, content: Poses, picked: Picked) -> Sequence[str]:
+        """Return the index of each pose; a flat arrow has three lines."""
+        lines = 3 if self.values["Shape"] == _FLAT else 1
+        return pose_parts(content, picked.rows // lines)
+
+    def part_item(self, entry: Entry[Poses], path: str, part: str) -> Item | None:
+        """Return one pose."""
+        one = one_pose(entry.content, part)
+        if one is None:
+            return None
+        box = box_of(self.shapes(one))
+        pose = xyz_of(one.xyz[0]), wxyz_of(one.wxyz[0])
+        return Item("pose", part, path, entry.frame, entry.stamp_ns, box, *pose)
+
+    def part_facts(
+        self, content: Poses, part: str, message: MessageValue | None
+    ) -> tuple[Fact, ...]:
+        """Return its index and the pose."""
+        del message
+        return pose_facts(content, part)
 
     def sizes(self) -> tuple[str, ...]:
         """Return the properties with the length of each."""

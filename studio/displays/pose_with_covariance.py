@@ -21,6 +21,7 @@ from studio.displays.poses import (
     pose_sizes,
 )
 from studio.displays.properties import Property, colour_of, rgb_of, switch
+from studio.displays.selection import wxyz_of, xyz_of
 from studio.displays.turning import product, turned
 from studio.robot.rotations import wxyz_from_matrices
 
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.displays.display import Received
-    from studio.displays.drawing import Shape
+    from studio.displays.drawing import Shape, Wxyz, Xyz
     from studio.displays.poses import Poses
     from studio.displays.properties import Value
     from studio.displays.turning import Flags, Floats
@@ -266,6 +267,7 @@ def _colours(values: Mapping[str, Value]) -> NDArray[np.uint8]:
 class SpreadDisplay(HistoryDisplay[Spread]):
     """Draws poses with a covariance; derived classes decide which orientations they take."""
 
+    ITEM = "pose"
     UNDER: ClassVar[str] = ""
     """The prefix of the names of the properties of a pose."""
 
@@ -290,6 +292,10 @@ class SpreadDisplay(HistoryDisplay[Spread]):
         """Return the pose, an ellipsoid, and the spread of its axes."""
         pose = pose_shapes(content.pose, self.values, self.UNDER)
         return pose | covariance_shapes(content, self.values)
+
+    def message_pose(self, content: Spread) -> tuple[Xyz, Wxyz]:
+        """Return the pose."""
+        return xyz_of(content.pose.xyz[0]), wxyz_of(content.pose.wxyz[0])
 
     def sizes(self) -> tuple[str, ...]:
         """Return the properties with its length, 0 of which still shows the covariance."""

@@ -15,11 +15,14 @@ from studio.displays.properties import (
     length,
     rgb_of,
 )
+from studio.displays.selection import Fact, orientation_fact, position_fact, row_of
 from studio.displays.turning import drawable, turned, unit_quaternions
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
+
+    from numpy.typing import NDArray
 
     from studio.displays.display import Reason
     from studio.displays.drawing import Rgb, Shape
@@ -40,10 +43,12 @@ class Poses(NamedTuple):
     Attributes:
         xyz: Shape (N, 3), float64, m.
         wxyz: Shape (N, 4), float64, of length 1.
+        numbers: Shape (N,), ascending: the index of each in its message; None: of one pose.
     """
 
     xyz: Floats
     wxyz: Floats
+    numbers: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.xyz)
@@ -195,12 +200,17 @@ def poses_of_rows(rows: Floats, what: str, at_most: int, display: Reporter) -> P
     Returns:
         None if there are rows and none can be drawn.
     """
-    chosen = chosen_rows(rows, drawable_poses(rows), what, at_most, display)
+    chosen = chosen_rows(numbered(rows), drawable_poses(rows), what, at_most, display)
     return None if chosen is None else poses_of_chosen(chosen, what, display)
 
 
+def numbered(rows: Floats) -> Floats:
+    """Return rows (N, K) with the index of each in one more column."""
+    return np.column_stack((rows, np.arange(len(rows), dtype=np.float64)))
+
+
 def poses_of_chosen(chosen: Floats, what: str, display: Reporter) -> Poses:
-    """Return poses of rows (N, 7 or more) that can all be drawn."""
+    """Return poses of `numbered` rows (N, 8 or more) that can all be drawn."""
     wxyz, zero = unit_quaternions(chosen[:, _WXYZ])
     if zero.any():
         display.warn(
@@ -208,7 +218,7 @@ def poses_of_chosen(chosen: Floats, what: str, display: Reporter) -> Poses:
             f"{int(zero.sum()):,} of {len(chosen):,} {what} have a quaternion of zeros, drawn as "
             "no turn: their publisher should set w to 1.",
         )
-    return Poses(chosen[:, :3], wxyz)
+    return Poses(chosen[:, :3], wxyz, chosen[:, -1])
 
 
 def drawable_poses(rows: Floats) -> Flags:
@@ -241,3 +251,30 @@ def chosen_rows(
         return chosen
     display.thin(f"Showing {at_most:,} of {count:,} {what}: more would make the view slow.")
     return chosen[np.linspace(0, len(chosen) - 1, at_most).astype(np.intp)]
+
+
+def pose_parts(poses: Poses, rows: NDArray[np.intp]) -> list[str]:
+    """Return the index in the message of each pose of these rows, once."""
+    numbers = poses.numbers
+    inside = rows[(rows >= 0) & (rows < len(poses))]
+    if numbers is None:
+        return ["0"] if len(inside) else []
+    return [str(int(one)) for one in np.unique(numbers[inside])]
+
+
+def pose_facts(poses: Poses, part: str) -> tuple[Fact, ...]:
+    """Return the index of one pose, where it is and how it is turned."""
+    row = row_of(poses.numbers, part)
+    if row is None:
+        return ()
+    return (
+        Fact("index", int(part)),
+        position_fact(poses.xyz[row].tolist()),
+        orientation_fact(poses.wxyz[row].tolist()),
+    )
+
+
+def one_pose(poses: Poses, part: str) -> Poses | None:
+    """Return one of many poses by its index in the message; None if it is not drawn."""
+    row = row_of(poses.numbers, part)
+    return None if row is None else Poses(poses.xyz[row : row + 1], poses.wxyz[row : row + 1])

@@ -12,16 +12,18 @@ import numpy as np
 from studio.displays.display import Received, Status, StillDisplay, TopicRole, reading_fields
 from studio.displays.drawing import NO_TURN, Arrows, Axes, LinkParts, Placed, link_frame
 from studio.displays.properties import UPDATE_INTERVAL, Property
+from studio.displays.selection import Fact, Item, number_fact, numbers_fact
 from studio.displays.trails import Trails
 from studio.errors import DisplayError, DisplayMessageError
 from studio.robot.rotations import matrix_from_rpy, wxyz_from_matrices
 from studio.robot.values import JointType, Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from studio.displays.drawing import Drawing, Lines, Shape
     from studio.displays.properties import Value
+    from studio.displays.selection import Picked
     from studio.robot.values import Joint
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames import FramesNow
@@ -241,6 +243,20 @@ class RobotModelDisplay(StillDisplay):
         """Return what is wrong with the description, and why the robot is invisible."""
         return (*self._of_description(), *self._of_settings())
 
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the link that a path is of."""
+        return (picked.path,) if picked.path in self.robot.links else ()
+
+    def item(self, key: str) -> Item | None:
+        """Return a link that is shown."""
+        if key not in self._shown():
+            return None
+        return Item("link", key, key, self.frame_of(key), 0, None)
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return what the description says of a link and the joint above it."""
+        return link_facts(self.robot, key)
+
     def _of_description(self) -> tuple[Status, ...]:
         if self._fault:
             return (Status("error", "bad_message", self._fault),)
@@ -362,6 +378,23 @@ def _arrow(joint: Joint) -> Arrows | None:
     tip = (axis / length * _ARROW_M).astype(np.float32)
     ends = np.stack((np.zeros(3, np.float32), tip))[None]
     return Arrows(ends, _ARROW_RGB, 0.05, 0.08, 0.05)
+
+
+def link_facts(robot: Robot, name: str) -> tuple[Fact, ...]:
+    """Return the mass of a link, its shapes, and the joint that moves it."""
+    link = robot.links.get(name)
+    if link is None:
+        return ()
+    found = [Fact("link", name)]
+    joint = next((one for one in robot.joints.values() if one.child == name), None)
+    if joint is not None:
+        found += [
+            Fact("parent", joint.parent), Fact("joint", joint.name), Fact("type", str(joint.type)),
+            numbers_fact("axis", joint.axis, "", "vector"),
+        ]  # fmt: skip
+    if link.inertial is not None:
+        found.append(number_fact("mass", link.inertial.mass_kg, "kg"))
+    return (*found, Fact("visuals", len(link.visuals)), Fact("collisions", len(link.collisions)))
 
 
 def _check(robot: Robot) -> None:

@@ -11,16 +11,27 @@ from studio.displays.display import Display, Status
 from studio.displays.drawing import NOTHING, Axes, Placed, Rgb, Solids, Text
 from studio.displays.name_pattern import PatternProperty, pattern_of
 from studio.displays.properties import UPDATE_INTERVAL, Property
+from studio.displays.selection import (
+    Fact,
+    Item,
+    box_at,
+    number_fact,
+    orientation_fact,
+    position_fact,
+    wxyz_of,
+    xyz_of,
+)
 from studio.displays.trails import TRAILS_MAX, Trails
-from studio.displays.turning import products, turned, turns_from_z
+from studio.displays.turning import product, products, turned, turns_from_z
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from studio.displays.drawing import Drawing, Lines, Shape
     from studio.displays.properties import Value
+    from studio.displays.selection import Picked
     from studio.displays.turning import Flags, Floats
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames import FramesNow
@@ -65,6 +76,8 @@ _PARTS: Final = ("Show Names", "Show Axes", "Show Arrows")
 _TRAIL_RGB: Final = (240, 180, 60)
 _FRESH: Final = np.array([90, 220, 130], np.float64)
 _OLD: Final = np.array([255, 70, 50], np.float64)
+_FRAMES_PATH: Final = "frames"
+_NAME_PATH: Final = "names/"
 _STILL: Final = 1e-6
 """A frame whose position in m or parts of a quaternion changed less did not move."""
 
@@ -398,6 +411,46 @@ class TfDisplay(Display):
             self._seen = before
         return self._drawing
 
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the names of frames by their axes, their arrows or their names."""
+        if picked.path.startswith(_NAME_PATH):
+            return (picked.path.removeprefix(_NAME_PATH),)
+        seen = self._seen
+        if seen is None:
+            return ()
+        found = _rows(_of_shape(seen, picked.shape))
+        each = 3 if picked.shape == "old_axes" else 1
+        rows: list[int] = np.unique(picked.rows // each).tolist()
+        return [seen.frames.names[found[row]] for row in rows if 0 <= row < len(found)]
+
+    def item(self, key: str) -> Item | None:
+        """Return a frame that is drawn."""
+        seen = self._seen
+        row = seen.frames.rows.get(key) if seen is not None else None
+        if seen is None or row is None or not seen.shown[row]:
+            return None
+        pose = seen.frames.wxyz_xyz[row]
+        scale = _AXIS_LENGTH_M * self._size[0]
+        middle = pose[4:] + turned(pose[None, :4], np.full(3, scale / 2))[0]
+        box = box_at(middle, (scale,) * 3, pose[:4])
+        at = xyz_of(pose[4:]), wxyz_of(pose[:4])
+        return Item("frame", key, _FRAMES_PATH, seen.frames.fixed, 0, box, *at)
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return the parent of a frame, its pose in the parent, and its age."""
+        seen = self._seen
+        row = seen.frames.rows.get(key) if seen is not None else None
+        if seen is None or row is None:
+            return ()
+        found = [Fact("name", key)]
+        parent = int(seen.frames.parents[row])
+        if parent >= 0 and seen.frames.connected[parent]:
+            wxyz, xyz = _between(seen.frames.wxyz_xyz[parent], seen.frames.wxyz_xyz[row])
+            parent_name = Fact("parent", seen.frames.names[parent])
+            found += [parent_name, position_fact(xyz), orientation_fact(wxyz)]
+        found.append(number_fact("age", float(seen.frames.ages_s[row]), "s"))
+        return tuple(found)
+
     def statuses(self) -> tuple[Status, ...]:
         """Why nothing is seen of the frames, and what is left out."""
         if not self.values["Marker Alpha"]:
@@ -459,7 +512,7 @@ class TfDisplay(Display):
             shapes["trails"] = self._drawn_trails
         if not shapes:
             return self._names
-        return {"frames": Placed(seen.frames.fixed, 0, shapes, follows=True), **self._names}
+        return {_FRAMES_PATH: Placed(seen.frames.fixed, 0, shapes, follows=True), **self._names}
 
     def _go_on(self, frames: FramesNow, now_ns: int) -> None:
         """Take where the frames are for their trails, and how old they are."""
@@ -490,8 +543,7 @@ class TfDisplay(Display):
 
     def _arrows(self, seen: _Seen) -> dict[str, Shape]:
         parents = seen.frames.parents
-        hung = seen.shown & (parents >= 0)
-        hung[hung] = seen.frames.connected[parents[hung]]
+        hung = _hung(seen)
         places: Floats = seen.frames.wxyz_xyz[:, 4:]
         shades = seen.shades.of(hung)
         return {**arrows_to_parents(places[hung], places[parents[hung]], shades, *self._size)}
@@ -507,7 +559,7 @@ class TfDisplay(Display):
             text = name_text(name, float(seen.shades.grey[row]), opacity, height_m)
             if self._ages:
                 text = self._with_age(text, self._ages[row])
-            path = f"names/{name}"
+            path = f"{_NAME_PATH}{name}"
             before = self._names.get(path)
             is_same = before is not None and before.shapes["name"] == text
             written[path] = (
@@ -543,6 +595,32 @@ class TfDisplay(Display):
         if row is None or row >= len(self._ages):
             return "Shows this frame."
         return f"Shows this frame; its oldest transform came {self._ages[row]} s ago."
+
+
+def _hung(seen: _Seen) -> Flags:
+    """Return which frames hang from a parent that is connected, too."""
+    parents = seen.frames.parents
+    hung = seen.shown & (parents >= 0)
+    hung[hung] = seen.frames.connected[parents[hung]]
+    return hung
+
+
+def _of_shape(seen: _Seen, shape: str) -> Flags:
+    """Return which frames a shape draws, in its order."""
+    if shape == "axes":
+        return seen.shown & seen.shades.fresh
+    if shape == "old_axes":
+        return seen.shown & ~seen.shades.fresh
+    hung, places = _hung(seen), seen.frames.wxyz_xyz[:, 4:]
+    offsets = places[seen.frames.parents[hung]] - places[hung]
+    hung[hung] = np.sqrt(np.einsum("ij,ij->i", offsets, offsets)) > _NEAR_M
+    return hung
+
+
+def _between(parent: Floats, child: Floats) -> tuple[Floats, Floats]:
+    """Return how a child is turned and where it is in its parent, of poses (7,) in one frame."""
+    back = parent[:4] * (1.0, -1.0, -1.0, -1.0)
+    return product(back, child[:4]), turned(back[None], child[4:] - parent[4:])[0]
 
 
 def _rows(flags: Flags) -> list[int]:

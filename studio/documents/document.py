@@ -61,6 +61,10 @@ from studio.live.displays.display_file import DisplayFile
 from studio.live.displays.document_displays import COMMANDS as DISPLAY_COMMANDS
 from studio.live.displays.document_displays import DocumentDisplays
 from studio.live.displays.robot_reading import RobotReader
+from studio.live.displays.rviz_configs import COMMANDS as CONFIG_COMMANDS
+from studio.live.displays.rviz_configs import RvizConfigs
+from studio.live.displays.selecting import COMMANDS as SELECTION_COMMANDS
+from studio.live.displays.selecting import Selecting
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
@@ -163,6 +167,9 @@ class Document:
             audience,
         )
         self.live.use(services.plugins)
+        self.selecting = Selecting(self.live.drawn)
+        self.feed.is_held = lambda: self.live.is_paused
+        self.configs = RvizConfigs(self.live, workspace, data_folder, audience)
 
     @property
     def title(self) -> str:
@@ -230,6 +237,7 @@ class Document:
     async def close(self) -> None:
         """End everything that runs for this document."""
         self.motion.close()
+        await self.configs.close()
         await asyncio.gather(self.feed.close(), self.live.close())
         background = tuple(self._background.values())
         for task in background:
@@ -382,6 +390,7 @@ class Document:
         yield from self.poses.events()
         yield from self.feed.events()
         yield from self.live.events()
+        yield from self.configs.events()
         yield from self.drafts.events()
 
     def _state_event(self) -> DocumentState:
@@ -426,3 +435,5 @@ COMMANDS.include(VARIANT_COMMANDS, lambda document, _: document.variants)
 COMMANDS.include(POSE_COMMANDS, lambda document, _: document.poses)
 COMMANDS.include(FEED_COMMANDS, lambda document, _: document.feed)
 COMMANDS.include(DISPLAY_COMMANDS, lambda document, _: document.live)
+COMMANDS.include(SELECTION_COMMANDS, lambda document, _: document.selecting)
+COMMANDS.include(CONFIG_COMMANDS, lambda document, _: document.configs)

@@ -66,6 +66,7 @@ from studio.protocol.documents import (
 from studio.protocol.listeners import Audience, send
 from studio.protocol.roles import Role, owner_of
 from studio.protocol.saving import ForgetWork
+from studio.protocol.tools import UseTool
 from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
@@ -75,10 +76,12 @@ if TYPE_CHECKING:
     from studio.packages.workspace import Progress
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
+    from studio.protocol.tools import ToolUsed
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
 _WATCHED = Limits(per_second=30)
+_TOOL_USES = Limits(per_second=10)
 """Each is answered with a whole document; all tabs of a browser may come back at once."""
 
 
@@ -399,6 +402,11 @@ def _link_to(engine: Engine, command: GetLink) -> Link:
     return link_to(document.sources, document.location, command.request)
 
 
+async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
+    use = await engine.document(command.document).live.tool_use(command)
+    return await engine.ros.tools.use(command, use, asker.person)
+
+
 COMMANDS: Final = Commands[Engine](Scope.STUDIO)
 """Every command of the studio."""
 COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(c.document, who), limits=_WATCHED)
@@ -411,6 +419,7 @@ COMMANDS.presenter(
 COMMANDS.presenter(ListFolder, lambda engine, c, _: engine.list_folder(c))
 COMMANDS.presenter(GetArguments, lambda engine, c, _: engine.launch_form(c))
 COMMANDS.controller(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
+COMMANDS.controller(UseTool, _use_tool, scope=Scope.ROS, needs_router=True, limits=_TOOL_USES)
 COMMANDS.presenter(OpenLink, lambda engine, c, _: engine.open_link(c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
 COMMANDS.include(COPY_COMMANDS, lambda engine, _: engine.copies)

@@ -21,11 +21,13 @@ if TYPE_CHECKING:
 
 USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
+    *("studio.displays.robot_model", "studio.scene.picked_rows"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
     "studio.live.displays.plugin_display",
-    "studio.live.connection.followed_joints",
+    *("studio.rviz.config", "studio.live.connection.followed_joints"),
     *("studio.live.panels.goal_work", "studio.live.panels.parameter_work"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
+    "studio.live.panels.tool_work",
     "studio.documents.lessons.graph_checks",
     *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),

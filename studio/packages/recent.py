@@ -35,8 +35,8 @@ class _Store(msgspec.Struct, frozen=True):
 class RecentFiles:
     """Newest first, each path once; what cannot be read or written is simply not remembered."""
 
-    def __init__(self, data_folder: Path) -> None:
-        self._file = data_folder / _FILE
+    def __init__(self, data_folder: Path, name: str = _FILE) -> None:
+        self._file = data_folder / name
 
     def all(self) -> tuple[RecentFile, ...]:
         """Return every entry, also of files that are gone."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, StringConstraints
@@ -158,14 +159,21 @@ class Follow(Command):
 class ShowView(Command):
     """Where the presenter's camera and pointer are; they go to who follows as a binary frame.
 
-    The frame is the byte 2, seven bytes of nothing, and nine little-endian float32: the
-    camera's eye, what it looks at, and the pointer, which is NaN where there is none.
+    The frame is the byte 2, a byte that is 1 without perspective, six bytes of nothing, and
+    thirteen little-endian float32: the camera's eye, what it looks at, the pointer, which is NaN
+    where there is none, where the top of the picture points, and the angle that it sees.
     """
 
     type: Literal["show_view"] = "show_view"
     eye: Point
     target: Point
     pointer: Point | None = None
+    up: Point = (0.0, 0.0, 1.0)
+    """Where the top of the picture points."""
+    flat: bool = False
+    """Whether it is seen without perspective: then all has the size that it has at the target."""
+    field: Annotated[float, Field(gt=0.0, lt=math.pi)] = math.pi / 4
+    """Opening angle of the camera from below to above, rad."""
 
 
 class ShowFocus(Command):

@@ -12,6 +12,8 @@ RosName: TypeAlias = Annotated[str, StringConstraints(max_length=300, pattern=r"
 """Name of a topic, a frame or a property with its link; checked where it is used."""
 ShortName: TypeAlias = Annotated[str, StringConstraints(max_length=80, pattern=r"^[^\x00-\x1f]*$")]
 DisplayId: TypeAlias = Annotated[str, StringConstraints(max_length=20)]
+GroupPath: TypeAlias = Annotated[str, StringConstraints(max_length=400, pattern=r"^[^\x00-\x1f]*$")]
+"""A group in a group is named with the outer ones before it, as `Navigation/Local`."""
 PropertyValue: TypeAlias = bool | int | float | str
 
 
@@ -24,10 +26,19 @@ class AddDisplay(Command):
 
 
 class RemoveDisplay(Command):
-    """Remove a display."""
+    """Remove a display, or a group with all that is in it; `restore_displays` takes it back."""
 
     type: Literal["remove_display"] = "remove_display"
-    display: DisplayId
+    display: DisplayId = ""
+    group: GroupPath = ""
+    """The group as a whole, if `display` is empty."""
+
+
+class RestoreDisplays(Command):
+    """Put displays back that were removed, where they stood and as they were set."""
+
+    type: Literal["restore_displays"] = "restore_displays"
+    displays: tuple[DisplayId, ...] = Field(min_length=1, max_length=200)
 
 
 class DuplicateDisplay(Command):
@@ -43,18 +54,29 @@ class ArrangeDisplay(Command):
     type: Literal["arrange_display"] = "arrange_display"
     display: DisplayId
     name: ShortName | None = None
-    group: ShortName | None = None
+    group: GroupPath | None = None
+    before: DisplayId | None = None
+    """The display that it comes to stand before; empty: at the end."""
+
+
+class ArrangeGroup(Command):
+    """Give a group, with all that is in it, another path or place; what is None stays."""
+
+    type: Literal["arrange_group"] = "arrange_group"
+    group: GroupPath
+    to: GroupPath | None = None
+    """Its new path; empty: it is dissolved. A group that has this path takes its displays in."""
     before: DisplayId | None = None
     """The display that it comes to stand before; empty: at the end."""
 
 
 class SwitchDisplays(Command):
-    """Show or hide displays: one, or all of a group."""
+    """Show or hide displays: one, a group as a whole, or each one of them."""
 
     type: Literal["switch_displays"] = "switch_displays"
     display: DisplayId = ""
-    group: ShortName = ""
-    """The group as a whole, if `display` is empty."""
+    group: GroupPath = ""
+    """The group as a whole, if `display` is empty; if this is empty, too: all displays, each."""
     enabled: bool
 
 
@@ -169,6 +191,7 @@ class DisplayView(Message):
     icon: str
     name: str
     group: str
+    """Path of the group that it is in; empty: none."""
     enabled: bool
     topic: str
     reliable: bool
@@ -187,9 +210,15 @@ class LiveDisplays(Event):
     type: Literal["live_displays"] = "live_displays"
     displays: tuple[DisplayView, ...]
     groups_off: tuple[str, ...]
-    """Groups that are hidden as a whole."""
+    """Groups that are hidden as a whole, by their paths."""
     fixed_frame: str
     """As chosen; empty: the robot's root link."""
+    paused: bool
+    """Whether drawing is paused, for all who look at the document."""
+    background: str = ""
+    """Colour behind the 3D view, as `#rrggbb`; empty: that of the theme."""
+    frame_rate: int = 0
+    """Pictures of the 3D view per second at most; 0: as many as there can be."""
     kinds: int = 0
     """Another number whenever the kinds of displays are others."""
 
@@ -218,8 +247,19 @@ class DisplayState(Message):
     rate_hz: float
     age_s: float | None
     """Since the last message."""
+    received: int
+    """Messages on its main topic since it was subscribed."""
     lost: int
     remarks: tuple[Remark, ...]
+
+
+class FixedFrameState(Message):
+    """Whether there is such a frame, as RViz's global status has it."""
+
+    frame: str
+    """The one in use."""
+    level: Literal["ok", "warn", "error"]
+    sentence: str
 
 
 class DisplayStates(Event):
@@ -227,8 +267,9 @@ class DisplayStates(Event):
 
     type: Literal["display_states"] = "display_states"
     states: tuple[DisplayState, ...]
+    fixed_frame: FixedFrameState
     fixed_frame_trouble: str
-    """Why nothing can be drawn in the fixed frame, in a sentence."""
+    """Why the robot cannot be drawn in the fixed frame, in a sentence."""
 
 
 class TopicView(Message):
@@ -240,6 +281,8 @@ class TopicView(Message):
     publishers: int
     kind: str
     """The display that shows it; empty: none does."""
+    kinds: tuple[str, ...]
+    """All displays that can show it, the best first."""
 
 
 class Topics(Event):

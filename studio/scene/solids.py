@@ -148,14 +148,25 @@ def many_of(shape: Solids, stream: str) -> dict[str, Node]:
     """
     if len(shape.positions) == 0:
         return {}
-    with np.errstate(invalid="ignore"):
-        levels = np.clip(np.rint(np.multiply(shape.opacities, _LEVELS)), 0, _LEVELS)
+    levels = levels_of(shape)
     nodes: dict[str, Node] = {}
     for level in np.unique(levels[levels > 0]).tolist():
         which = None if levels.ndim == 0 or (levels == level).all() else levels == level
         name = "many" if level == _LEVELS else f"many-{level:.0f}"
         nodes[name] = _many(shape, which, level / _LEVELS, stream)
     return nodes
+
+
+def levels_of(shape: Solids) -> NDArray[np.float64]:
+    """Return the opacity of each solid in steps of 1/32, shape (N,), or () if all have one."""
+    with np.errstate(invalid="ignore"):
+        return np.clip(np.rint(np.multiply(shape.opacities, _LEVELS)), 0, _LEVELS)
+
+
+def level_of_node(node: str) -> float:
+    """Return the level of the solids that `many_of` draws as a node of that name."""
+    _, _, level = node.partition("-")
+    return float(level) if level.isascii() and level.isdigit() else float(_LEVELS)
 
 
 def _many(shape: Solids, which: NDArray[np.bool_] | None, opacity: float, stream: str) -> Node:
@@ -200,18 +211,35 @@ def _colors(values: NDArray[np.uint8], which: NDArray[np.bool_] | None) -> NDArr
 
 def arrows_of(shape: Arrows, stream: str) -> dict[str, Node]:
     """Whole arrows, and for short ones a head that is smaller in all its sizes."""
-    with np.errstate(invalid="ignore"):
-        along: NDArray[np.float32] = shape.ends[:, 1] - shape.ends[:, 0]
-    lengths_m: NDArray[np.float32] = np.linalg.norm(along, axis=1)
-    lengths_m[~np.isfinite(lengths_m)] = 0  # from nowhere or to nowhere: not drawn
-    whole = lengths_m >= max(shape.head_length_m, _SHORTEST_M)
-    short = (lengths_m > _SHORTEST_M) & ~whole
+    along, lengths_m = _lengths_of(shape)
+    whole, short = _parts(shape, lengths_m)
     nodes: dict[str, Node] = {}
     if whole.any():
         nodes["arrows"] = _whole(shape, whole, stream)
     if short.any():
         nodes.update(many_of(_heads(shape, along, lengths_m, short), stream))
     return nodes
+
+
+def whole_and_short(shape: Arrows) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return which arrows have a shaft and a whole head, and which are all head, shape (N,)."""
+    return _parts(shape, _lengths_of(shape)[1])
+
+
+def _parts(
+    shape: Arrows, lengths_m: NDArray[np.float32]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    whole = lengths_m >= max(shape.head_length_m, _SHORTEST_M)
+    return whole, (lengths_m > _SHORTEST_M) & ~whole
+
+
+def _lengths_of(shape: Arrows) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return the ways from tails to tips, shape (N, 3), and their lengths, m."""
+    with np.errstate(invalid="ignore"):
+        along: NDArray[np.float32] = shape.ends[:, 1] - shape.ends[:, 0]
+    lengths_m: NDArray[np.float32] = np.linalg.norm(along, axis=1)
+    lengths_m[~np.isfinite(lengths_m)] = 0  # from nowhere or to nowhere: not drawn
+    return along, lengths_m
 
 
 def _whole(shape: Arrows, which: NDArray[np.bool_], stream: str) -> Node:

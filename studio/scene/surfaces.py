@@ -26,10 +26,7 @@ _FULL: Final = 65535
 def surface_of(shape: Triangles, stream: str) -> dict[str, Node]:
     """Return a node, or None without triangles; those without all their corners are skipped."""
     vertices = np.ascontiguousarray(shape.vertices, np.float32)
-    faces = np.ascontiguousarray(shape.faces, np.uint32)
-    faces = faces[(faces < len(vertices)).all(axis=1)]
-    somewhere: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(vertices), axis=1)
-    faces = faces[somewhere[faces].all(axis=1)]
+    faces = np.ascontiguousarray(shape.faces, np.uint32)[drawn_faces(shape)]
     if len(faces) == 0:
         return {}
     if shape.colors.ndim == 1:
@@ -43,6 +40,13 @@ def surface_of(shape: Triangles, stream: str) -> dict[str, Node]:
     }
     flowing: dict[str, NDArray[Any]] = {"glb_data": data}
     return {"colored": Node(_messages.GlbMessage, props, stream=stream, flowing=flowing)}
+
+
+def drawn_faces(shape: Triangles) -> NDArray[np.intp]:
+    """Return the rows of the triangles that have all their corners, ascending."""
+    known = np.flatnonzero((shape.faces < len(shape.vertices)).all(axis=1))
+    somewhere: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(shape.vertices), axis=1)
+    return known[somewhere[shape.faces[known]].all(axis=1)]
 
 
 def _plain(

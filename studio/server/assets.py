@@ -49,6 +49,7 @@ _TYPES: Final = {
 """The suffixes that are served, and as what; of others the page needs none."""
 _COMPRESSED: Final = frozenset({".png", ".webp", ".woff2", ".zst"})
 _NOT_SERVED: Final = frozenset({"tools", "screenshots", "node_modules"})
+"""Folders beside the page; a folder of it may be named so, too."""
 _INDEX: Final = "index.html"
 _WITHOUT_INDEX: Final = (
     "<!doctype html><html lang=en><title>Robot description studio</title>"
@@ -176,7 +177,8 @@ def _words(tree: Tree, language: str) -> dict[str, str]:
 def _stamp(folder: Path) -> Stamp:
     found: list[tuple[str, int, int]] = []
     for directory, names, files in os.walk(folder):
-        names[:] = sorted(name for name in names if name not in _NOT_SERVED and name[0] != ".")
+        hidden = _NOT_SERVED if Path(directory) == folder else frozenset[str]()
+        names[:] = sorted(name for name in names if name not in hidden and name[0] != ".")
         for name in sorted(files):
             path = Path(directory, name)
             if path.suffix in _TYPES and name[0] != "." and path.is_file():

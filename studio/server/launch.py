@@ -28,6 +28,7 @@ from studio.documents.engine import Engine
 from studio.errors import SettingsError, StudioError
 from studio.files import write_whole
 from studio.problems import whys
+from studio.protocol.displays import SetFixedFrame
 from studio.protocol.roles import Role
 from studio.robot import checks as robot_checks
 from studio.scene import CLIENT_PATH, viser_client
@@ -143,6 +144,12 @@ class Opening:
     then: Callable[[], None] | None = None
     joins_ros: bool = False
     """Connect with ROS 2 afterwards, even where the studio was not connected before."""
+    view: Path | None = None
+    """An `.rviz` file to show."""
+    fixed_frame: str = ""
+    """To draw in; empty: as the document has it, or the file says."""
+    fullscreen: bool = False
+    """Begin with the 3D view alone on the page."""
 
 
 def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -> None:
@@ -175,6 +182,8 @@ def launch(settings: Settings, opening: Opening, *, viewer_link: bool = False) -
             _print(_FINGERPRINT.format(place.reach.fingerprint))
         roles = (Role.PRESENTER, Role.GUEST) if viewer_link else (Role.PRESENTER,)
         links = [with_token(place.address_for(role), credentials.token_of(role)) for role in roles]
+        if opening.fullscreen:
+            links = [f"{one}&{FULL_SCREEN}" for one in links]
         visit = _Visit(opening, links, place)
         visit.run(settings, credentials, listener)
 
@@ -341,7 +350,8 @@ class _Visit:
         bar = ProgressBar(sys.stderr)
         try:
             opening = self._opening
-            await self._engine.open_path(opening.path, opening.arguments, bar.show)
+            name = await self._engine.open_path(opening.path, opening.arguments, bar.show)
+            await self._show(name)
         except Exception as error:  # noqa: BLE001 - `run` raises it, once all has ended
             self._failure = error
             self._server.should_exit = True
@@ -360,6 +370,21 @@ class _Visit:
             opening.then()
         self._engine.rejoin(always=opening.joins_ros)
 
+    async def _show(self, document: str) -> None:
+        """Show what the command line says of the 3D view.
+
+        Raises:
+            RvizConfigError: The file cannot be shown.
+        """
+        opening, one = self._opening, self._engine.document(document)
+        if opening.view is not None:
+            opened = await one.configs.open_path(opening.view)
+            kept = ", ".join(dict.fromkeys(each.what for each in opened.losses if not each.names))
+            if kept:
+                _warn(f"{opened.name} is shown; what is not here is only kept: {kept}.")
+        if opening.fixed_frame:
+            await one.live.fix(SetFixedFrame(frame=opening.fixed_frame))
+
     async def _share(self) -> None:
         """Begin the class, or go on with it, and print how others join."""
         try:
@@ -371,7 +396,12 @@ class _Visit:
 
     def _open_browser(self) -> None:
         code = self._credentials.new_code()
-        self._window.show(with_code(self._place.address, code))
+        address = with_code(self._place.address, code)
+        self._window.show(f"{address}&{FULL_SCREEN}" if self._opening.fullscreen else address)
+
+
+FULL_SCREEN: Final = "fullscreen=1"
+"""Has the page begin with the 3D view alone; `app/main.js` reads it."""
 
 
 def invitation(classroom: Classroom) -> list[str]:

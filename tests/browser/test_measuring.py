@@ -99,7 +99,7 @@ def shows(tab: StudioPage, text: str, name: str = "Distance") -> None:
 
 
 def begin(tab: StudioPage) -> None:
-    tab.page.keyboard.press("m")
+    tab.page.keyboard.press("n")
     wait_until("the card", card(tab).is_visible)
 
 
@@ -144,7 +144,7 @@ def test_two_joints_are_measured_with_three_clicks_and_keys_and_stay_true(
     tab: StudioPage, studio: RunningStudio
 ):
     tab.page.evaluate(_COUNT)
-    tab.page.keyboard.press("m")
+    tab.page.keyboard.press("n")
     link_row(tab, "base").click()
     link_row(tab, ODD_NAME).click()
     shows(tab, f"{math.hypot(0.4, 0.2):.6g} m")

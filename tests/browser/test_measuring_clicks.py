@@ -50,12 +50,12 @@ def opened(browser: Browser, server: SceneServer) -> Iterator[ScenePage]:
 def view(opened: ScenePage) -> Iterator[ScenePage]:
     opened.start_again()
     yield opened
-    opened.run("studio3d.setMeasuring(null)")
+    opened.run("studio3d.setMeasuring(null); studio3d.setTool('Interact')")
 
 
 def taken(view: ScenePage, mode: str, link: str, point: tuple[float, float, float]) -> Any:  # noqa: ANN401
     """What a click where a point of a link is seen takes."""
-    view.run("(mode) => studio3d.setMeasuring(mode)", mode)
+    view.run("(mode) => { studio3d.setTool('Measure'); studio3d.setMeasuring(mode); }", mode)
     before = len(view.heard("measure"))
     x, y = view.run(_PLACE_OF, [link, point])
     view.page.mouse.click(x, y)
@@ -92,7 +92,7 @@ def test_frames_and_axes_are_taken_through_what_hides_them(view: ScenePage):
 
 
 def test_while_measuring_nothing_is_selected_dragged_or_focused(view: ScenePage):
-    view.run("studio3d.setMeasuring('points')")
+    view.run("studio3d.setTool('Measure'); studio3d.setMeasuring('points')")
     x, y = view.place_of("upper%20arm/visual/0")
     view.page.mouse.dblclick(x, y)
     view.draw_mouse((x, y), (60, -30))
@@ -100,7 +100,7 @@ def test_while_measuring_nothing_is_selected_dragged_or_focused(view: ScenePage)
     view.until("heard.filter(([type]) => type === 'measure').length >= 2")
     for kind in ("select", "drag", "focus"):
         assert view.heard(kind) == []
-    view.run("studio3d.setMeasuring(null)")
+    view.run("studio3d.setTool('Interact')")
     view.page.mouse.click(x, y)
     view.until("heard.some(([type]) => type === 'select')")
 

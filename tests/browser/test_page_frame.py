@@ -271,3 +271,58 @@ def test_who_logs_everybody_out_is_told_how_to_come_back(opened: StudioPage):
     tab.page.get_by_role("option", name="Log everybody out").click()
     tab.page.get_by_role("button", name="Log out", exact=True).click()
     tab.page.get_by_text(_LOGGED_OUT).wait_for()
+
+
+def floating(tab: StudioPage) -> FloatRect:
+    """Where the one window over the page is."""
+    box = tab.page.locator(".dv-resize-container").bounding_box()
+    assert box is not None
+    return box
+
+
+def shift(before: FloatRect, after: FloatRect) -> tuple[int, int, int, int]:
+    """By how many pixels it moved to the right and down, and grew."""
+    right, down = round(after["x"] - before["x"]), round(after["y"] - before["y"])
+    wider, higher = after["width"] - before["width"], after["height"] - before["height"]
+    return right, down, round(wider), round(higher)
+
+
+def test_a_panel_floats_is_moved_and_sized_by_keys_and_mouse_kept_and_docked(tab: StudioPage):
+    page = tab.page
+    panel_tab(tab, "Masses").click()
+    page.get_by_role("button", name="Float Masses").click()
+    first = floating(tab)
+    for key in ("Alt+ArrowRight", "Alt+ArrowDown", "Alt+Shift+ArrowDown"):
+        page.keyboard.press(key)
+    wait_until("it moved", lambda: shift(first, floating(tab)) == (24, 24, 0, 24))
+    bar = page.locator(".dv-floating-titlebar").bounding_box()
+    assert bar is not None
+    page.mouse.move(bar["x"] + 40, bar["y"] + 6)
+    page.mouse.down()
+    page.mouse.move(bar["x"] - 60, bar["y"] + 6, steps=4)
+    page.mouse.up()
+    wait_until("it was dragged", lambda: shift(first, floating(tab)) == (-76, 24, 0, 24))
+    page.reload()
+    page.locator(".dv-resize-container").wait_for()
+    wait_until("it is kept", lambda: shift(first, floating(tab)) == (-76, 24, 0, 24))
+    page.get_by_role("button", name="Dock Masses").click()
+    wait_until("it is docked", lambda: page.locator(".dv-resize-container").count() == 0)
+    page.get_by_role("button", name="Close Masses").click()
+    wait_until("it is closed", lambda: panel_tab(tab, "Masses").count() == 0)
+
+
+def test_the_3d_view_fills_the_screen_and_gives_it_back(tab: StudioPage):
+    page = tab.page
+    bar, view = page.locator(".top-bar"), page.locator("iframe")
+    before = view.bounding_box()
+    page.get_by_role("button", name="Full screen").click()
+    bar.wait_for(state="hidden")
+    full = {"x": 0, "y": 0, "width": VIEWPORT["width"], "height": VIEWPORT["height"]}
+    wait_until("the view is all", lambda: view.bounding_box() == full)
+    page.get_by_role("button", name="Leave full screen").click()
+    wait_until("all is as before", lambda: view.bounding_box() == before)
+    page.keyboard.press("F11")
+    bar.wait_for(state="hidden")
+    page.keyboard.press("Escape")
+    bar.wait_for()
+    wait_until("all is as before", lambda: view.bounding_box() == before)

@@ -103,3 +103,52 @@ test("a tree without an end is cut", () => {
   for (let n = 0; n < 5000; n += 1) deep = { split: [deep], size: 1 };
   assert.equal(readArrangement({ parts: [deep] }, isKnown), null);
 });
+
+test("a window over the panels keeps its place in a room of another size", () => {
+  const window = {
+    tabs: ["source"],
+    shown: "source",
+    left: 0.25,
+    top: 0.5,
+    width: 0.25,
+    height: 0.5,
+  };
+  const parts = [{ tabs: ["displays"], size: 1, shown: "displays" }];
+  const dock = toDockview({ upright: false, parts, floating: [window] }, ROOM, (id) => ({ id }));
+  assert.deepEqual(Object.keys(dock.panels), ["displays", "source"]);
+  assert.deepEqual(dock.floatingGroups?.[0]?.position, {
+    left: 500,
+    top: 800,
+    width: 500,
+    height: 800,
+  });
+  assert.deepEqual(fromDockview(dock).floating, [window]);
+});
+
+test("a window that hangs on other sides, or holds groups side by side, becomes one with tabs", () => {
+  const position = { right: 200, bottom: 100, width: 400, height: 300 };
+  const leaf = (/** @type {string} */ id) => ({ type: "leaf", data: { views: [id] } });
+  const grid = { root: { type: "branch", data: [leaf("source"), leaf("outline")] } };
+  const dock = toDockview({ parts: [{ tabs: ["scene"], size: 1 }] }, ROOM, (id) => ({ id }));
+  const { floating } = fromDockview(
+    /** @type {any} */ ({ ...dock, floatingGroups: [{ grid, position }] }),
+  );
+  assert.deepEqual(floating, [
+    { tabs: ["source", "outline"], left: 0.7, top: 0.75, width: 0.2, height: 0.1875 },
+  ]);
+});
+
+test("windows from a file are few, inside the room, and hold no panel that stands elsewhere", () => {
+  const far = { tabs: ["source", "displays", "moon"], left: 9, top: -3, width: 0.5, height: "x" };
+  const read = readArrangement(
+    { parts: [{ tabs: ["displays"], size: 1 }], floating: [null, far, { tabs: [] }, 7] },
+    isKnown,
+  );
+  assert.deepEqual(read?.arrangement.floating, [
+    { tabs: ["source"], left: 0.5, top: 0, width: 0.5, height: 0.4 },
+  ]);
+  assert.deepEqual(read?.dropped, ["moon"]);
+  const many = Array.from({ length: 500 }, () => ({ tabs: ["source"] }));
+  const again = readArrangement({ parts: [{ tabs: ["scene"], size: 1 }], floating: many }, isKnown);
+  assert.equal(again?.arrangement.floating?.length, 1);
+});

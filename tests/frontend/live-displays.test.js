@@ -5,13 +5,10 @@ import {
   counts,
   firstTrouble,
   foundTopics,
-  freeName,
-  groupNames,
-  inGroups,
-  moveOfDisplay,
-  moveOfGroup,
   rateWords,
   settingRows,
+  statusesOf,
+  worstOf,
 } from "../../frontend_assets/lib/live-displays.js";
 
 /** A display of that id in a group. @param {string} id @param {string} [group] */
@@ -20,49 +17,6 @@ const display = (id, group = "") => /** @type {any} */ ({ id, group, name: id, k
 /** A property of that name. @param {string} name @param {object} [more] */
 const property = (name, more) =>
   /** @type {any} */ ({ name, kind: "switch", default: true, when: "", when_values: [], ...more });
-
-/** @param {string[]} ids @param {{display: string, before: string}[] | null} moves @returns {string[]} as the studio lists them then */
-function after(ids, moves) {
-  let now = ids;
-  for (const { display: moved, before } of moves ?? []) {
-    const others = now.filter((id) => id !== moved);
-    const at = before === "" ? others.length : others.indexOf(before);
-    now = [...others.slice(0, at), moved, ...others.slice(at)];
-  }
-  return now;
-}
-
-test("a group stands where its first member stands, with all members in it", () => {
-  const entries = inGroups([display("a"), display("b", "Nav"), display("c"), display("d", "Nav")]);
-  const shown = entries.map((one) =>
-    "display" in one ? one.display.id : [one.group, ...one.members.map(({ id }) => id)],
-  );
-  assert.deepEqual(shown, ["a", ["Nav", "b", "d"], "c"]);
-});
-
-test("groups of any name are groups, also those that objects have as properties", () => {
-  const displays = [display("a", "constructor"), display("b", "__proto__")];
-  assert.deepEqual(groupNames(displays), ["constructor", "__proto__"]);
-  assert.equal(inGroups(displays).length, 2);
-});
-
-test("a display goes up and down past what stands beside it, a group as one", () => {
-  const list = [display("a"), display("b", "G"), display("c", "G"), display("d")];
-  const ids = ["a", "b", "c", "d"];
-  assert.deepEqual(after(ids, moveOfDisplay(list, "a", 1)), ["b", "c", "a", "d"]);
-  assert.deepEqual(after(ids, moveOfDisplay(list, "d", -1)), ["a", "d", "b", "c"]);
-  assert.deepEqual(after(ids, moveOfDisplay(list, "b", 1)), ["a", "c", "b", "d"]);
-  assert.deepEqual(after(ids, moveOfGroup(list, "G", 1)), ["a", "d", "b", "c"]);
-  assert.deepEqual(after(ids, moveOfGroup(list, "G", -1)), ["b", "c", "a", "d"]);
-});
-
-test("what stands at an end goes no further, and what is not there goes nowhere", () => {
-  const list = [display("a"), display("b", "G")];
-  assert.equal(moveOfDisplay(list, "a", -1), null);
-  assert.equal(moveOfDisplay(list, "b", 1), null);
-  assert.equal(moveOfGroup(list, "G", 1), null);
-  assert.equal(moveOfDisplay(list, "x", 1), null);
-});
 
 test("a property counts while all that it depends on have the values for it", () => {
   const all = [
@@ -135,6 +89,7 @@ test("topics that a display shows come first, found by name, type or display", (
     types: [type],
     publishers: 1,
     kind,
+    kinds: kind ? [kind] : [],
   });
   const topics = [
     topic("/rosout", "rcl_interfaces/msg/Log"),
@@ -147,8 +102,31 @@ test("topics that a display shows come first, found by name, type or display", (
   assert.deepEqual(names("nothing"), []);
 });
 
-test("a free name is none of those that are taken", () => {
-  assert.equal(freeName(["Group 1", "Group 3"], "Group"), "Group 2");
+test("what is in the way of a display comes before what is well, and the worst colours its row", () => {
+  const remark = (/** @type {string} */ level, /** @type {string} */ reason) => ({
+    level,
+    reason,
+    sentence: reason,
+    mend: null,
+  });
+  /** @param {number} received @param {[string, string][]} remarks */
+  const told = (received, ...remarks) =>
+    statusesOf(
+      /** @type {any} */ ({ received, remarks: remarks.map((one) => remark(...one)) }),
+      true,
+    ).map(({ name, level }) => `${name} ${level}`);
+  assert.deepEqual(told(7, ["ok", ""]), ["topic ok", "transform ok"]);
+  assert.deepEqual(told(7, ["error", "no_frame"], ["warn", "transparent"]), [
+    "transform error",
+    "message warn",
+    "topic ok",
+  ]);
+  assert.deepEqual(told(0, ["warn", "no_message"]), ["topic warn"]);
+  assert.deepEqual(told(9, ["warn", "silent"]), ["topic warn", "transform ok"]);
+  assert.deepEqual(told(0, ["warn", "group_off"]), ["group warn"]);
+  assert.deepEqual(told(0), []);
+  assert.equal(worstOf(["ok", "error", "warn"]), "error");
+  assert.equal(worstOf([]), "ok");
 });
 
 test("one display that came was added by a person, several came with their robot", () => {

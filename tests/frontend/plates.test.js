@@ -5,6 +5,7 @@ import { Plates } from "../../frontend_assets/viser/theme.js";
 /** @param {string} colour */
 const material = (colour) => ({
   isShaderMaterial: true,
+  vertexShader: "float depth = -(viewMatrix * vec4(labelPos, 1.0)).z;",
   fragmentShader: `void main() { gl_FragColor = ${colour}; }`,
   uniforms: /** @type {Record<string, { value: unknown }>} */ ({}),
   needsUpdate: false,
@@ -48,6 +49,7 @@ test("plates and letters have the colours of the theme, also letters that came l
   hooks.read({ type: "LabelMessage" });
   hooks.draw();
   assert.match(plate.fragmentShader, /vec4\(studioPlate, 0.85 \* vAlpha\)/);
+  assert.match(plate.vertexShader, /projectionMatrix \* viewMatrix .+\.w;/); // without perspective, too
   children.push({ renderOrder: 10_002, material: letters });
   hooks.draw();
   assert.match(letters.fragmentShader, /vec4\(studioInk, a\)/);

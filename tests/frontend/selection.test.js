@@ -1,99 +1,70 @@
-/** @import { JointView, LinkView } from "../../frontend_assets/types/wire.d.ts" */
-
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { changedBy, described, idOf } from "../../frontend_assets/model/selected-items.js";
 import {
-  linkOf,
-  ofLink,
-  ofPart,
-  partWrittenAt,
-  splitPartKey,
-  stillThere,
-} from "../../frontend_assets/model/selection.js";
+  cssColour,
+  middleOf,
+  nameOf,
+  rowsOf,
+} from "../../frontend_assets/panels/selection/selection.js";
 
-/** @param {string} name @param {number} line @returns {LinkView} */
-const link = (name, line) => ({
-  ...{ name, visuals: 0, collisions: 0, mass_kg: null, meshes: [] },
-  ...{ file: "/a.xacro", line, macros: [] },
+/** @import { ItemView } from "../../frontend_assets/types/wire.d.ts" */
+/** @import { Selected } from "../../frontend_assets/model/selected-items.js" */
+
+/** @param {string} display @param {string} key @param {Partial<ItemView>} [news] @returns {ItemView} */
+const view = (display, key, news = {}) => ({
+  ...{ display, key, kind: "marker", name: key, path: "0", frame: "map", stamp: "" },
+  ...{ place: /** @type {[number, number, number]} */ ([1, 2, 3]), box: null, shape: "" },
+  ...news,
+});
+/** @param {string} display @param {string} key @param {Partial<Selected>} [news] @returns {Selected} */
+const item = (display, key, news = {}) => ({
+  ...{ ref: { display, key }, view: view(display, key), gone: false },
+  ...news,
+});
+/** @param {...Selected} items */
+const mapOf = (...items) => new Map(items.map((one) => [idOf(one.ref), one]));
+
+test("a click replaces, Shift adds and Ctrl takes away", () => {
+  const before = mapOf(item("d1", "a"));
+  const keys = (/** @type {import("../../frontend_assets/model/selected-items.js").How} */ how) => [
+    ...changedBy(before, [{ display: "d1", key: "b" }], how).keys(),
+  ];
+  assert.deepEqual(keys("replace"), ["d1 b"]);
+  assert.deepEqual(keys("add"), ["d1 a", "d1 b"]);
+  assert.deepEqual(keys("remove"), ["d1 a"]);
+  assert.equal(changedBy(before, [{ display: "d1", key: "a" }], "remove").size, 0);
+  const again = changedBy(before, [{ display: "d1", key: "a" }], "replace");
+  assert.equal(again.get("d1 a"), before.get("d1 a"), "what is known of it stays known");
 });
 
-/** @param {string} name @param {string} child @param {number} line @returns {JointView} */
-const joint = (name, child, line) => ({
-  ...{ name, type: "revolute", parent: "base", child, axis: [0, 0, 1] },
-  ...{ lower: -1, upper: 1, mimic: "", multiplier: 1, file: "/a.xacro", line },
+test("there are so many items at most", () => {
+  const refs = Array.from({ length: 5000 }, (_, at) => ({ display: "d1", key: String(at) }));
+  assert.equal(changedBy(new Map(), refs, "replace").size, 4000);
 });
 
-const ROBOT = {
-  links: [link("base", 2), link("left_wheel", 10), link("right_wheel", 10), link("odd#2", 20)],
-  joints: [joint("left_joint", "left_wheel", 14), joint("right_joint", "right_wheel", 14)],
-};
-
-test("a key is a kind and a name; the count of a repeated name is no part of it, but a sign in a name is", () => {
-  assert.deepEqual(splitPartKey(ROBOT, "joint:left_joint"), ["joint", "left_joint"]);
-  assert.deepEqual(splitPartKey(ROBOT, "link:base#2"), ["link", "base"]);
-  assert.deepEqual(splitPartKey(ROBOT, "link:odd#2"), ["link", "odd#2"]);
+test("what is not described any more is gone, and comes back with its next message", () => {
+  const before = mapOf(item("d1", "a"), item("d1", "b"));
+  const after = described(before, new Map([["d1 a", view("d1", "a", { place: [4, 5, 6] })]]));
+  assert.deepEqual(after.get("d1 a")?.view?.place, [4, 5, 6]);
+  assert.deepEqual(after.get("d1 b")?.view?.place, [1, 2, 3], "as it was last");
+  assert.equal(after.get("d1 b")?.gone, true);
+  assert.equal(described(after, new Map([["d1 b", view("d1", "b")]])).get("d1 b")?.gone, false);
 });
 
-test("a joint lights the link that it moves, and what has no link lights none of its own", () => {
-  assert.equal(linkOf(ROBOT, "joint:left_joint"), "left_wheel");
-  assert.equal(linkOf(ROBOT, "link:base"), "base");
-  assert.equal(linkOf(ROBOT, "material:red"), null);
-  assert.equal(linkOf(null, "joint:left_joint"), null);
+test("items stand by their display, and their middle is that of all whose place is known", () => {
+  const items = [item("d2", "a"), item("d1", "b"), item("d2", "c", { gone: true })];
+  assert.deepEqual(
+    rowsOf(items).map(({ id }) => id),
+    ["d2 ", "d2 a", "d2 c", "d1 ", "d1 b"],
+  );
+  const moved = item("d1", "b", { view: view("d1", "b", { place: [3, 4, 5] }) });
+  assert.deepEqual(middleOf([...items, moved]), [5 / 3, 8 / 3, 11 / 3]);
+  assert.equal(middleOf([item("d1", "x", { view: null })]), null);
 });
 
-test("a selected part remembers its element and who selected it", () => {
-  const made = ofPart(null, ROBOT, { part: "joint:left_joint", element: "limit", by: "urdf" });
-  assert.deepEqual(made, {
-    ...{ part: "joint:left_joint", link: "left_wheel", element: "limit", attribute: "" },
-    by: "urdf",
-  });
-});
-
-test("a material is explained while the link that led to it stays lit", () => {
-  const before = ofLink("base", "scene");
-  assert.equal(ofPart(before, ROBOT, { part: "material:red" }).link, "base");
-});
-
-test("choosing a link anew forgets the joint, and no link is no selection", () => {
-  assert.equal(ofLink("left_wheel", "scene")?.part, "link:left_wheel");
-  assert.equal(ofLink(null), null);
-});
-
-test("a run that keeps all parts keeps the very selection", () => {
-  const before = ofPart(null, ROBOT, { part: "joint:left_joint" });
-  assert.equal(stillThere(before, ROBOT), before);
-  const material = ofPart(ofLink("base"), ROBOT, { part: "material:red" });
-  assert.equal(stillThere(material, ROBOT), material);
-});
-
-test("a link that is gone is not selected any more, and a joint that is gone leaves its link", () => {
-  const smaller = { links: ROBOT.links.slice(0, 2), joints: [] };
-  assert.equal(stillThere(ofLink("right_wheel"), smaller), null);
-  const left = ofPart(null, ROBOT, { part: "joint:left_joint" });
-  assert.equal(stillThere(left, smaller)?.part, "link:left_wheel");
-  const right = ofPart(null, ROBOT, { part: "joint:right_joint" });
-  assert.equal(stillThere(right, smaller), null);
-});
-
-test("a joint that moves another link now lights that one", () => {
-  const before = ofPart(null, ROBOT, { part: "joint:left_joint" });
-  const hung = { ...ROBOT, joints: [joint("left_joint", "base", 14)] };
-  assert.equal(stillThere(before, hung)?.link, "base");
-  assert.equal(stillThere(before, hung)?.part, "joint:left_joint");
-});
-
-test("a place of a macro is the part of the link that is lit, else the first that it made", () => {
-  const at = { file: "/a.xacro", line: 10, kind: "link", name: "${side}_wheel" };
-  assert.equal(partWrittenAt(ROBOT, at, null), "link:left_wheel");
-  assert.equal(partWrittenAt(ROBOT, at, "right_wheel"), "link:right_wheel");
-  assert.equal(partWrittenAt(ROBOT, at, "base"), "link:left_wheel");
-  const joints = { ...at, line: 14, kind: "joint", name: "${side}_joint" };
-  assert.equal(partWrittenAt(ROBOT, joints, "right_wheel"), "joint:right_joint");
-});
-
-test("a name that is written out is found also where lines were added above it", () => {
-  const at = { file: "/a.xacro", line: 7, kind: "link", name: "base" };
-  assert.equal(partWrittenAt(ROBOT, at, null), "link:base");
-  assert.equal(partWrittenAt(ROBOT, { ...at, file: "/other.xacro" }, null), null);
-  assert.equal(partWrittenAt(ROBOT, { ...at, name: "$(arg x)" }, null), null);
+test("an item has its key for a name until it is known, and colours are those of ROS", () => {
+  assert.equal(nameOf(item("d1", "k", { view: null })), "k");
+  assert.equal(nameOf(item("d1", "k")), "selection.kind.marker k");
+  assert.equal(cssColour([1, 0.5, 0, 2]), "rgb(255 128 0 / 1)");
 });

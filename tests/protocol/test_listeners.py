@@ -4,7 +4,7 @@ from tests.support.open_documents import Ear
 
 
 def settings_in(frame: str) -> LiveDisplays:
-    return LiveDisplays(displays=(), groups_off=(), fixed_frame=frame)
+    return LiveDisplays(displays=(), groups_off=(), fixed_frame=frame, paused=False)
 
 
 def test_an_audience_hears_only_what_is_news():

@@ -24,7 +24,7 @@ VIEWER_COMMANDS = {
     *("watch", "get_urdf", "get_text", "get_origin", "get_effects"),
     *("get_outline", "look_up", "get_references"),
     *("get_frames", "get_masses", "get_display_kinds", "get_topics", "get_tf"),
-    "follow_frame",
+    *("follow_frame", "get_view_kinds"),
     "get_topic_rates",
     *("get_services", "get_actions", "read_values", "follow_operations", "get_goal_statuses"),
     "follow_changes",

@@ -90,6 +90,13 @@ def test_a_link_out_of_the_folder_is_followed_only_to_files_of_it(tmp_path: Path
     assert Assets(tmp_path / "page").current().files == {}
 
 
+def test_only_the_folder_beside_the_page_is_kept_back(tmp_path: Path):
+    for folder in ("tools", "viser/tools"):
+        (tmp_path / folder).mkdir(parents=True)
+        (tmp_path / folder / "a.js").write_text("x")
+    assert list(Assets(tmp_path).current().files) == ["viser/tools/a.js"]
+
+
 def test_a_changed_file_changes_the_address_of_all(tmp_path: Path):
     file = tmp_path / "a.js"
     file.write_text("1")

@@ -14,11 +14,14 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Drawing, Placed, Shape
 
 DIGITS = 5
+_OF_DISPLAY = "items"
+"""What the display knows its parts by is not seen."""
 
 
 def plain(shape: Shape) -> dict[str, Any]:
-    """The fields of a shape, arrays as lists of rounded numbers."""
-    made = {one.name: _plain(getattr(shape, one.name)) for one in fields(shape)}
+    """What is seen of a shape by its fields, arrays as lists of rounded numbers."""
+    seen = (one.name for one in fields(shape) if one.name != _OF_DISPLAY)
+    made = {name: _plain(getattr(shape, name)) for name in seen}
     return {"shape": type(shape).__name__, **made}
 
 
@@ -28,7 +31,11 @@ def shapes_of(drawing: Drawing) -> dict[str, dict[str, Any]]:
     return {name: plain(shape) for name, shape in placed.shapes.items()}
 
 
-_BYTES = {"colors", "pixels", "image", "palette"}
+_KINDS = {
+    **dict.fromkeys(("colors", "pixels", "image", "palette"), np.uint8),
+    "faces": np.uint32,
+    _OF_DISPLAY: np.intp,
+}
 
 
 def only(display: Display) -> Placed:
@@ -55,8 +62,7 @@ def _check(name: str, value: Any) -> None:  # noqa: ANN401 - a field of a shape
         assert not isinstance(value, float) or np.isfinite(value), name
         return
     array = cast("NDArray[Any]", value)
-    kind = np.uint32 if name == "faces" else np.float32
-    assert array.dtype == (np.uint8 if name in _BYTES else kind), name
+    assert array.dtype == _KINDS.get(name, np.float32), name
     assert np.isfinite(array).all(), name
     if name == "wxyz":
         np.testing.assert_allclose(np.linalg.norm(array, axis=1), 1.0, atol=1e-5)

@@ -204,6 +204,7 @@ WINDOWS: dict[str, Callable[[Camera], None]] = {
     "keys": run("keys"),
     "layouts": run("layouts"),
     "graphics": show_graphics,
+    "rviz": run("rviz_open"),
     "saving": show_changes,
 }
 

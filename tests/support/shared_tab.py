@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from studio.live.displays.display_file import FOLDER as DISPLAYS
 from studio.packages.recent import RecentFiles
 from tests.support.server import running_studio
 from tests.support.studio_page import VIEWPORT, StudioPage, studio_context
@@ -91,7 +92,8 @@ class SharedTab:
         session.detach()
 
     def _restore(self) -> None:
-        """The files of the robot, as they are shipped, and no others."""
+        """The files of the robot, as they are shipped, and no others; and no displays."""
+        shutil.rmtree(self.data / DISPLAYS, ignore_errors=True)
         shipped, copy = MODELS / PACKAGE, self.data / "models" / PACKAGE
         for path in copy.rglob("*"):
             if path.is_file() and not (shipped / path.relative_to(copy)).exists():

@@ -13,13 +13,15 @@ _CONNECT = """async () => {
 }"""
 _ADD_LIVE = """async () => {
   const script = document.querySelector('script[type="module"]').src;
-  const { addDisplay, groupDisplay } = await import(new URL("../model/live-displays.js", script));
-  const { liveDisplays } = await import(new URL("../model/live-displays.js", script));
+  const { addDisplay, liveDisplays, moveLive } = await import(
+    new URL("../model/live-displays.js", script)
+  );
   const kinds = [["LaserScan", "/scan"], ["Map", "/map", "Navigation"],
     ["Path", "/plan", "Navigation"], ["Odometry", "/odom", "Navigation"], ["Range", "/sonar"]];
   for (const [kind, topic, group] of kinds) {
     await addDisplay(kind, topic);
-    if (group) await groupDisplay(liveDisplays.value.at(-1).id, group);
+    const display = liveDisplays.value.at(-1).id;
+    if (group) await moveLive({ type: "arrange_display", display, group });
   }
 }"""
 _LOOK_AT = """async () => {

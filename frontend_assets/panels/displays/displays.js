@@ -5,6 +5,7 @@
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { commandById } from "../../lib/commands.js";
+import { groupsTo } from "../../lib/display-groups.js";
 import { t } from "../../lib/i18n.js";
 import { addedDisplay } from "../../lib/live-displays.js";
 import { shownNumber } from "../../lib/numbers.js";
@@ -27,8 +28,16 @@ import {
 } from "../../model/selection.js";
 import { tellIn } from "../../model/tf.js";
 import { focusLink } from "../../model/viewport.js";
-import { PlaceLink } from "../parts.js";
-import { AddDisplayButton, dropTopic, liveRows, setLiveOpen, takeTopic } from "./live-rows.js";
+import { onResetKey, PlaceLink } from "../parts.js";
+import { globalRows, ResetButton, robotTrouble } from "./global-rows.js";
+import {
+  AddDisplayButton,
+  AllDisplaysButton,
+  dropTopic,
+  liveRows,
+  setLiveOpen,
+  takeTopic,
+} from "./live-rows.js";
 import { rowId, Tree } from "./tree.js";
 
 /** Settings from 0 to 1. */
@@ -50,20 +59,31 @@ export function DisplaysPanel() {
     else now.add(id);
     closed.value = now;
   };
-  return html`<section ref=${panel} class="panel-body" aria-label=${t("panel.displays")} onDragOver=${takeTopic} onDrop=${dropTopic}>
-    <div class="panel-bar">
+  return html`<section ref=${panel} class="panel-body" aria-label=${t("panel.displays")} onDragOver=${takeTopic} onDrop=${dropTopic}
+    onKeyDown=${onResetKey}>
+    <div class="panel-bar of-displays">
       <${SearchBox} label=${t("displays.filter")} value=${filter.value} onInput=${(
         /** @type {string} */ text,
       ) => {
         filter.value = text;
       }} />
+      <${AllDisplaysButton} />
+      <${ResetButton} />
       <${AddDisplayButton} />
     </div>
     ${rows.length === 0 && filter.value === "" && html`<${EmptyState} icon="robot" title=${t("urdf.none")} />`}
     ${rows.length > 0 && html`<${Tree} rows=${rows} active=${active} setOpen=${setOpen} />`}
     ${rows.length === 0 && filter.value !== "" && html`<p class="nothing">${t("filter.nothing", { words: filter.value })}</p>`}
+    <${RowHelp} row=${rows.find(({ id }) => id === active.value)} />
     <${LinkDetails} />
   </section>`;
+}
+
+/** What the current row is, as RViz says it below its tree. @param {{row: Row | undefined}} props */
+function RowHelp({ row }) {
+  const { title, text } = row?.help ?? { title: "", text: "" };
+  if (text === "") return null;
+  return html`<aside class="row-help" aria-live="polite" aria-label=${t("displays.help")}><strong>${title}</strong><p>${text}</p></aside>`;
 }
 
 /** A link selected elsewhere is unfolded and scrolled to; one selected here stays in view above its details. @param {{value: ReadonlySet<string>}} closed @param {{current: HTMLElement | null}} panel */
@@ -98,7 +118,8 @@ function useRevealAdded(filter, closed, active, panel) {
     const added = addedDisplay(before, list);
     if (!added) return undefined;
     const row = `display:${added.id}`;
-    closed.value = new Set([...closed.value].filter((id) => id !== `group:${added.group}`));
+    const around = groupsTo(added.group).map((group) => `group:${group}`);
+    closed.value = new Set([...closed.value].filter((id) => !around.includes(id)));
     if (!liveRows(filter.value, closed.value).some(({ id }) => id === row)) filter.value = "";
     active.value = row; // so that it is drawn, however far away it is
     return whenPlaced(panel.current, () =>
@@ -111,14 +132,19 @@ function useRevealAdded(filter, closed, active, panel) {
 
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
 function treeRows(filter, closed) {
-  return [...gridRows(filter, closed), ...robotRows(filter, closed), ...liveRows(filter, closed)];
+  return [
+    ...globalRows(filter, closed),
+    ...gridRows(filter, closed),
+    ...robotRows(filter, closed),
+    ...liveRows(filter, closed),
+  ];
 }
 
 /** @param {string} filter @param {ReadonlySet<string>} closed @returns {Row[]} */
 function robotRows(filter, closed) {
   const settings = displays.value.robot;
   if (!settings && !robot.value) return [];
-  const below = [...layerRows(filter, closed), ...treeOfLinks(filter, closed)];
+  const below = [...robotTrouble(), ...layerRows(filter, closed), ...treeOfLinks(filter, closed)];
   if (below.length === 0 && !hit(t("display.robot"), filter)) return [];
   const open = filter !== "" || !closed.has("robot");
   const count = robot.value?.links.length ?? 0;

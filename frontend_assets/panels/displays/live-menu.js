@@ -3,16 +3,23 @@
 /** @import { MenuItem } from "../../lib/ui.js" */
 
 import { html, signal, useEffect, useRef } from "vendor/preact.js";
+import {
+  freeName,
+  intoMove,
+  inwardMove,
+  isWithin,
+  outerGroup,
+  outwardMove,
+  stepMove,
+} from "../../lib/display-groups.js";
 import { t } from "../../lib/i18n.js";
-import { freeName, moveOfDisplay, moveOfGroup } from "../../lib/live-displays.js";
 import { Icon, openMenu } from "../../lib/ui.js";
 import {
+  dissolveGroup,
   duplicateDisplay,
-  groupDisplay,
   groupsNow,
   liveDisplays,
-  moveDisplay,
-  moveGroup,
+  moveLive,
   removeDisplay,
   removeGroup,
   renameDisplay,
@@ -23,23 +30,39 @@ import { rowId } from "./tree.js";
 /** Id of the row whose name is being written; empty: none. */
 export const renaming = signal("");
 
-/** @param {string} display */
-export const displayKeys = (display) => ({
-  F2: () => startRenaming(`display:${display}`),
-  Delete: () => void removeDisplay(display),
+/** Keys as RViz's buttons have them, and those of lists. @param {string} display @param {string} name */
+export const displayKeys = (display, name) => ({
+  ...rowKeys(`display:${display}`),
+  Delete: () => void removeDisplay(display, name),
+  "Ctrl+x": () => void removeDisplay(display, name),
   "Ctrl+d": () => void duplicateDisplay(display),
-  "Alt+ArrowUp": () => void moveDisplay(display, -1),
-  "Alt+ArrowDown": () => void moveDisplay(display, 1),
-  ...menuKeys(`display:${display}`),
 });
 
 /** @param {string} group */
 export const groupKeys = (group) => ({
-  F2: () => startRenaming(`group:${group}`),
-  "Alt+ArrowUp": () => void moveGroup(group, -1),
-  "Alt+ArrowDown": () => void moveGroup(group, 1),
-  ...menuKeys(`group:${group}`),
+  ...rowKeys(`group:${group}`),
+  Delete: () => void removeGroup(group),
+  "Ctrl+x": () => void removeGroup(group),
 });
+
+/** @param {string} row @returns {Record<string, () => void>} */
+function rowKeys(row) {
+  const move =
+    (
+      /** @type {(displays: typeof liveDisplays.value) => import("../../lib/display-groups.js").Move | null} */ to,
+    ) =>
+    () =>
+      void moveLive(to(liveDisplays.value));
+  return {
+    F2: () => startRenaming(row),
+    "Ctrl+r": () => startRenaming(row),
+    "Alt+ArrowUp": move((all) => stepMove(all, row, -1)),
+    "Alt+ArrowDown": move((all) => stepMove(all, row, 1)),
+    "Alt+ArrowRight": move((all) => inwardMove(all, row)),
+    "Alt+ArrowLeft": move((all) => outwardMove(all, row)),
+    ...menuKeys(row),
+  };
+}
 
 /** @param {string} row */
 function menuKeys(row) {
@@ -51,7 +74,7 @@ function menuKeys(row) {
 }
 
 /** @param {string} row */
-function startRenaming(row) {
+export function startRenaming(row) {
   renaming.value = row;
 }
 
@@ -78,75 +101,91 @@ function itemsOf(row) {
 
 /** @param {string} display @returns {MenuItem[]} */
 function displayItems(display) {
-  const { group } = liveDisplays.value.find(({ id }) => id === display) ?? { group: "" };
-  const move = (/** @type {1 | -1} */ step) => ({
-    disabled: moveOfDisplay(liveDisplays.value, display, step) === null,
-    run: () => void moveDisplay(display, step),
-  });
+  const { group, name } = liveDisplays.value.find(({ id }) => id === display) ?? {
+    group: "",
+    name: "",
+  };
   return [
-    {
-      label: t("live.rename"),
-      icon: "pencil",
-      hint: "F2",
-      run: () => startRenaming(`display:${display}`),
-    },
+    renameItem(`display:${display}`),
     {
       label: t("live.duplicate"),
       icon: "copy",
       hint: "Ctrl D",
       run: () => void duplicateDisplay(display),
     },
-    { label: t("live.up"), hint: "Alt ↑", ...move(-1) },
-    { label: t("live.down"), hint: "Alt ↓", ...move(1) },
-    { label: t("live.group"), icon: "folder", more: () => groupChoices(display, group) },
+    ...moveItems(`display:${display}`, group),
     {
       label: t("live.remove"),
       icon: "trash",
       hint: t("live.key.delete"),
-      run: () => void removeDisplay(display),
+      run: () => void removeDisplay(display, name),
     },
   ];
 }
 
-/** @param {string} display @param {string} current @returns {MenuItem[]} */
-function groupChoices(display, current) {
-  const known = groupsNow();
+/** @param {string} row @returns {MenuItem} */
+const renameItem = (row) => ({
+  label: t("live.rename"),
+  icon: "pencil",
+  hint: "F2",
+  run: () => startRenaming(row),
+});
+
+/** @param {string} row @param {string} group that it stands in @returns {MenuItem[]} */
+function moveItems(row, group) {
+  const all = liveDisplays.value;
+  /** @param {string} words @param {string} hint @param {import("../../lib/display-groups.js").Move | null} move @returns {MenuItem} */
+  const item = (words, hint, move) => ({
+    label: t(words),
+    hint,
+    disabled: move === null,
+    run: () => void moveLive(move),
+  });
+  return [
+    item("live.up", "Alt ↑", stepMove(all, row, -1)),
+    item("live.down", "Alt ↓", stepMove(all, row, 1)),
+    item("live.outward", "Alt ←", outwardMove(all, row)),
+    { label: t("live.group"), icon: "folder", more: () => groupChoices(row, group) },
+  ];
+}
+
+/** @param {string} row @param {string} current @returns {MenuItem[]} */
+function groupChoices(row, current) {
+  const own = row.startsWith("group:") ? row.slice("group:".length) : null;
+  const known = groupsNow().filter((group) => own === null || !isWithin(group, own));
   /** @param {string} label @param {string} group @returns {MenuItem} */
   const choice = (label, group) => ({
     label,
     checked: group === current,
-    run: () => void groupDisplay(display, group),
+    run: () => void moveLive(group === current ? null : intoMove(liveDisplays.value, row, group)),
   });
   return [
     choice(t("live.group.none"), ""),
-    ...known.map((group) => choice(group, group)),
-    { label: t("live.group.new"), icon: "plus", run: () => newGroup(display) },
+    ...known.map((group) => choice(group.replaceAll("/", " › "), group)),
+    { label: t("live.group.new"), icon: "plus", run: () => newGroup(row, current) },
   ];
 }
 
-/** @param {string} display its name is written at once */
-async function newGroup(display) {
-  const group = freeName(groupsNow(), t("live.group.name"));
-  if (await groupDisplay(display, group)) startRenaming(`group:${group}`);
+/** @param {string} row @param {string} around the group it stands in, in which the new one is made; its name is written at once */
+async function newGroup(row, around) {
+  const stem = [around, t("live.group.name")].filter(Boolean).join("/");
+  const group = freeName(groupsNow(), stem);
+  if (await moveLive(intoMove(liveDisplays.value, row, group))) startRenaming(`group:${group}`);
 }
 
 /** @param {string} group @returns {MenuItem[]} */
 function groupItems(group) {
-  const move = (/** @type {1 | -1} */ step) => ({
-    disabled: moveOfGroup(liveDisplays.value, group, step) === null,
-    run: () => void moveGroup(group, step),
-  });
+  const row = `group:${group}`;
   return [
+    renameItem(row),
+    ...moveItems(row, outerGroup(group)),
+    { label: t("live.ungroup"), icon: "folderOpen", run: () => void dissolveGroup(group) },
     {
-      label: t("live.rename"),
-      icon: "pencil",
-      hint: "F2",
-      run: () => startRenaming(`group:${group}`),
+      label: t("live.remove_all"),
+      icon: "trash",
+      hint: t("live.key.delete"),
+      run: () => void removeGroup(group),
     },
-    { label: t("live.up"), hint: "Alt ↑", ...move(-1) },
-    { label: t("live.down"), hint: "Alt ↓", ...move(1) },
-    { label: t("live.ungroup"), icon: "folderOpen", run: () => void renameGroup(group, "") },
-    { label: t("live.remove_all"), icon: "trash", run: () => void removeGroup(group) },
   ];
 }
 

@@ -1,13 +1,15 @@
 /** Displays of what others publish, as rows of the tree: by group, with their state and their settings. */
 
-/** @import { Drop } from "../../lib/live-displays.js" */
-/** @import { DisplayState, DisplayView } from "../../types/wire.d.ts" */
+/** @import { Entry } from "../../lib/display-groups.js" */
+/** @import { Level, Status } from "../../lib/live-displays.js" */
+/** @import { DisplayState, DisplayView, Remark } from "../../types/wire.d.ts" */
 /** @import { Row } from "./tree.js" */
 
 import { html, signal } from "vendor/preact.js";
+import { displaysIn, groupName, groupsTo, inGroups } from "../../lib/display-groups.js";
 import { t } from "../../lib/i18n.js";
-import { dropOn, firstTrouble, inGroups, rateWords } from "../../lib/live-displays.js";
-import { Icon } from "../../lib/ui.js";
+import { firstTrouble, rateWords, statusesOf, worstOf } from "../../lib/live-displays.js";
+import { Icon, IconButton } from "../../lib/ui.js";
 import { documentId, mayEdit } from "../../model/connection.js";
 import {
   addDisplay,
@@ -17,59 +19,15 @@ import {
   liveDisplays,
   mendDisplay,
   needKinds,
-  placeDisplays,
+  switchAll,
   switchDisplay,
   switchGroup,
 } from "../../model/live-displays.js";
 import { dialog } from "../../model/view.js";
 import { endDrag, takesDrop, dragged as topic } from "../topic-drag.js";
-import { displayKeys, groupKeys, NameBox, RowMenu, renaming } from "./live-menu.js";
+import { draggable, dropMark, droppable } from "./live-drag.js";
+import { displayKeys, groupKeys, NameBox, RowMenu, renaming, startRenaming } from "./live-menu.js";
 import { settingsOf } from "./live-settings.js";
-
-/** Id of the row that is dragged; empty: none. */
-const dragged = signal("");
-/** Where it would be dropped now. @type {import("vendor/preact.js").Signal<{row: string, where: Drop["where"]} | null>} */
-const goal = signal(null);
-
-/** @param {string} row @returns {string} a class that marks where it would come to stand */
-function dropMark(row) {
-  if (dragged.value === row) return "dragged";
-  return goal.value?.row === row ? `drop-${goal.value.where}` : "";
-}
-
-/** @param {string} row its id; it can be dragged, and be dropped on @returns {Record<string, unknown>} attributes of its element */
-const draggable = (row) => ({
-  draggable: true,
-  onDragStart: (/** @type {DragEvent} */ event) => {
-    dragged.value = row;
-    event.dataTransfer?.setData("text/plain", "");
-    if (event.dataTransfer) event.dataTransfer.effectAllowed = "move";
-  },
-  onDragEnd: end,
-  ...droppable(row),
-});
-
-/** @param {string} row @returns {Record<string, unknown>} */
-const droppable = (row) => ({
-  onDragOver: (/** @type {DragEvent} */ event) => {
-    const drop = dropAt(event, row);
-    const where = drop?.where ?? null;
-    if (goal.peek()?.row !== row || goal.peek()?.where !== where)
-      goal.value = where && { row, where };
-    if (drop) event.preventDefault();
-  },
-  onDragLeave: () => {
-    if (goal.peek()?.row === row) goal.value = null;
-  },
-  onDrop: (/** @type {DragEvent} */ event) => {
-    const drop = dropAt(event, row);
-    if (!drop) return;
-    event.preventDefault();
-    event.stopPropagation();
-    end();
-    placeDisplays(drop.moves);
-  },
-});
 
 /** A topic of which there is a display may be dropped on the panel. @param {DragEvent} event */
 export function takeTopic(event) {
@@ -85,18 +43,6 @@ export function dropTopic(event) {
   addDisplay(what.kind, what.topic);
 }
 
-function end() {
-  dragged.value = "";
-  goal.value = null;
-}
-
-/** @param {DragEvent} event @param {string} row @returns {Drop | null} null: nothing of ours is dragged, or it cannot go there */
-function dropAt(event, row) {
-  if (dragged.peek() === "") return null;
-  const { top, height } = /** @type {HTMLElement} */ (event.currentTarget).getBoundingClientRect();
-  return dropOn(liveDisplays.peek(), dragged.peek(), row, (event.clientY - top) / height);
-}
-
 /** What is said of all displays at once is said below the first one only. */
 const SAID_ONCE = new Set(["not_connected", "connection_lost"]);
 /** Rows of displays and of their settings that are unfolded: at first none is. @type {import("vendor/preact.js").Signal<ReadonlySet<string>>} */
@@ -105,7 +51,7 @@ const isOpen = (/** @type {string} */ id) => unfolded.value.has(id);
 
 /** @param {string} id of a row @param {boolean} open @returns {boolean} it was one of ours */
 export function setLiveOpen(id, open) {
-  if (!/^(display|setting):/.test(id)) return false;
+  if (!/^(display|setting|status):/.test(id)) return false;
   const now = new Set(unfolded.value);
   if (open) now.add(id);
   else now.delete(id);
@@ -120,8 +66,8 @@ export function AddDisplayButton() {
     dialog.value = { kind: "add_display" };
   };
   const hint = mayEdit.value ? t("live.add.hint") : t("display.shared");
-  return html`<button type="button" class="button small add-display" title=${hint} disabled=${!mayEdit.value}
-    onClick=${add}><${Icon} name="plus" size=${15} />${t("live.add")}</button>`;
+  return html`<button type="button" class="button small add-display" title=${hint} aria-label=${t("live.add")} disabled=${!mayEdit.value}
+    onClick=${add}><${Icon} name="plus" size=${15} /><span class="label">${t("live.add")}</span></button>`;
 }
 
 /** @param {string} filter @param {ReadonlySet<string>} closed groups that are folded @returns {Row[]} */
@@ -147,48 +93,68 @@ const remarkOf = (id) => firstTrouble(displayStates.value.get(id));
 
 /** @param {string} words @param {ReadonlySet<string>} closed @returns {Row[]} */
 function rowsOf(words, closed) {
-  return inGroups(liveDisplays.value).flatMap((entry) => {
-    if ("display" in entry) return displayRows(entry.display, 1, words);
-    const hits = entry.group.toLowerCase().includes(words) ? "" : words;
-    const below = entry.members.flatMap((one) => displayRows(one, 2, hits));
-    if (below.length === 0) return [];
-    const open = words !== "" || !closed.has(`group:${entry.group}`);
-    return [groupRow(entry.group, entry.members.length, open), ...(open ? below : [])];
-  });
+  return inGroups(liveDisplays.value).flatMap((entry) => entryRows(entry, 1, words, closed));
 }
 
-/** @param {string} group @param {number} count @param {boolean} open @returns {Row} */
-function groupRow(group, count, open) {
-  const on = !groupsOff.value.includes(group);
-  const id = `group:${group}`;
+/** @param {Entry} entry @param {number} level @param {string} words @param {ReadonlySet<string>} closed @returns {Row[]} */
+function entryRows(entry, level, words, closed) {
+  if ("display" in entry) return displayRows(entry.display, level, words);
+  const { group, entries } = entry;
+  const hits = groupName(group).toLowerCase().includes(words) ? "" : words;
+  const below = entries.flatMap((one) => entryRows(one, level + 1, hits, closed));
+  if (below.length === 0) return [];
+  const open = words !== "" || !closed.has(`group:${group}`);
+  return [groupRow(entry, level, open), ...(open ? below : [])];
+}
+
+/** @param {string} group @returns {boolean} it, or one that it stands in, is hidden */
+const isOff = (group) => groupsTo(group).some((one) => groupsOff.value.includes(one));
+
+/** @param {Extract<Entry, {group: string}>} entry @param {number} level @param {boolean} open @returns {Row} */
+function groupRow(entry, level, open) {
+  const { group } = entry;
+  const [id, name] = [`group:${group}`, groupName(group)];
+  const members = displaysIn(entry);
+  const worst = worstOf(members.map(levelOf));
   return {
     id,
-    level: 1,
-    label: group,
+    level,
+    label: name,
     icon: open ? "folderOpen" : "folder",
     expandable: true,
     expanded: open,
-    faded: !on,
-    meta: open ? "" : String(count),
-    ...renamable(id, group),
-    kind: dropMark(id),
+    faded: isOff(group),
+    meta: open ? "" : String(members.length),
+    ...(!open && worst !== "ok" && { tone: worst }),
+    ...renamable(id, name),
+    kind: `group ${dropMark(id)}`,
     ...(mayEdit.value && {
       attributes: renaming.value === id ? {} : draggable(id),
       keys: groupKeys(group),
-      controls: () => html`<${RowMenu} row=${id} name=${group} />`,
+      controls: () => html`<${RowMenu} row=${id} name=${name} />`,
     }),
     eye: {
-      on,
-      label: t("display.show", { name: group }),
+      on: !groupsOff.value.includes(group),
+      label: t("display.show", { name }),
       set: (shown) => void switchGroup(group, shown),
       shared: true,
     },
   };
 }
 
-/** @param {string} id @param {string} text @returns {Pick<Row, "name">} */
+/** @param {DisplayView} display @returns {Level} the worst of its statuses; of one that is hidden none counts */
+function levelOf({ id, enabled, group }) {
+  if (!enabled || isOff(group)) return "ok";
+  return worstOf((displayStates.value.get(id)?.remarks ?? []).map(({ level }) => level));
+}
+
+/** @param {string} id @param {string} text @returns {Pick<Row, "name" | "rename">} */
 const renamable = (id, text) =>
-  renaming.value === id ? { name: () => html`<${NameBox} row=${id} text=${text} />` } : {};
+  renaming.value === id
+    ? { name: () => html`<${NameBox} row=${id} text=${text} />` }
+    : mayEdit.value
+      ? { rename: () => startRenaming(id) }
+      : {};
 
 /** @param {DisplayView} display @param {number} level @param {string} words @returns {Row[]} */
 function displayRows(display, level, words) {
@@ -196,10 +162,9 @@ function displayRows(display, level, words) {
   if (![name, kind, topic].some((text) => text.toLowerCase().includes(words))) return [];
   const state = displayStates.value.get(id);
   const open = isOpen(`display:${id}`);
-  const below = [
-    ...remarkRows(display, level + 1, state),
-    ...(open ? settingsOf(display, level + 1, isOpen) : []),
-  ];
+  const below = open
+    ? [...statusRows(display, level + 1, state), ...settingsOf(display, level + 1, isOpen)]
+    : remarkRows(display, level + 1, state);
   return [displayRow(display, level, state, open), ...below.map(takingDrops)];
 }
 
@@ -213,21 +178,23 @@ function takingDrops(row) {
 function displayRow(display, level, state, open) {
   const { id, name, kind, icon, enabled, group } = display;
   const row = `display:${id}`;
+  const doc = kinds.value.get(kind)?.doc ?? "";
   return {
     id: row,
-    kind: `display ${dropMark(row)}`,
+    kind: `display level-${levelOf(display)} ${dropMark(row)}`,
     level,
     label: name,
-    hint: `${name}\n${kinds.value.get(kind)?.doc ?? kind}`,
+    hint: `${name}\n${doc || kind}`,
+    help: { title: kind, text: doc },
     icon,
     expandable: true,
     expanded: open,
-    faded: !enabled || groupsOff.value.includes(group),
+    faded: !enabled || isOff(group),
     ...metaOf(display, state),
     ...renamable(row, name),
     ...(mayEdit.value && {
       attributes: renaming.value === row ? {} : draggable(row),
-      keys: displayKeys(id),
+      keys: displayKeys(id, name),
       controls: () => html`<${RowMenu} row=${row} name=${name} />`,
     }),
     eye: {
@@ -259,13 +226,76 @@ function reasonWords(reason, level) {
 function remarkRows({ id, enabled }, level, state) {
   const remark = enabled ? firstTrouble(state) : null;
   if (!remark) return [];
+  return [remarkRow(`remark:${id}`, level, remark)];
+}
+
+/** @param {string} id @param {number} level @param {Remark} remark @param {string} [status] its name, said before it @returns {Row} */
+function remarkRow(id, level, remark, status = "") {
   const { mend, sentence } = remark;
   const name = () => html`<span class="live-remark">
-    <span>${sentence}</span>
+    <span>${status && html`<strong>${status}:</strong> `}${sentence}</span>
     ${mend && mayEdit.value && html`<button type="button" class="button small" onClick=${() => mendDisplay(remark)}>${mend.label}</button>`}
   </span>`;
-  const icon = remark.level === "error" ? "error" : "alert";
-  return [
-    { id: `remark:${id}`, level, label: sentence, icon, kind: `tree-note ${remark.level}`, name },
-  ];
+  const label = status ? `${status}: ${sentence}` : sentence;
+  return {
+    id,
+    level,
+    label,
+    icon: levelIcon(remark.level),
+    kind: `tree-note ${remark.level}`,
+    name,
+  };
+}
+
+/** @param {Level} level */
+export const levelIcon = (level) => ({ ok: "check", warn: "alert", error: "error" })[level];
+
+/** @param {Level} level @returns {string} */
+export const levelWords = (level) => t(`live.level.${level}`);
+
+/** @param {DisplayView} display @param {number} level @param {DisplayState | undefined} state @returns {Row[]} its statuses below one row that takes the worst of them */
+function statusRows({ id, kind, enabled }, level, state) {
+  const listens = (kinds.value.get(kind)?.types.length ?? 0) > 0;
+  const statuses = enabled ? statusesOf(state, listens) : [];
+  if (statuses.length === 0) return [];
+  const worst = worstOf(statuses.map((one) => one.level));
+  // What is in the way is seen without a click; for what is well there is one.
+  const row = worst === "ok" ? `status:${id}:well` : `status:${id}`;
+  const open = worst === "ok" ? isOpen(row) : !isOpen(row);
+  /** @type {Row} */
+  const head = {
+    id: row,
+    level,
+    label: t("live.status", { level: levelWords(worst) }),
+    icon: levelIcon(worst),
+    kind: `status level-${worst}`,
+    help: { title: t("live.status.title"), text: t("live.status.help") },
+    expandable: true,
+    expanded: open,
+    setOpen: (wanted) => setLiveOpen(row, worst === "ok" ? wanted : !wanted),
+  };
+  if (!open) return [head];
+  const below = statuses.map((one, n) => statusRow(`status:${id}:${n}`, level + 1, one, state));
+  return [head, ...below];
+}
+
+/** @param {string} id @param {number} level @param {Status} status @param {DisplayState | undefined} state @returns {Row} */
+function statusRow(id, level, { name, remark }, state) {
+  const title = t(`live.status.${name}`);
+  if (remark) return remarkRow(id, level, remark, title);
+  const text =
+    name === "topic"
+      ? t("live.status.received", { count: state?.received ?? 0 })
+      : t("live.status.well");
+  return { id, level, label: title, icon: "check", kind: "status level-ok", meta: text };
+}
+
+/** Shows or hides every display; says which of the two it would do. */
+export function AllDisplaysButton() {
+  const displays = liveDisplays.value;
+  if (displays.length === 0) return null;
+  const anyShown = displays.some(({ enabled, group }) => enabled && !isOff(group));
+  const label = t(anyShown ? "live.hide_all" : "live.show_all");
+  return html`<${IconButton} icon=${anyShown ? "eye" : "eyeOff"} label=${label} hint=${mayEdit.value ? label : t("display.shared")}
+    disabled=${!mayEdit.value} onClick=${() => void switchAll(!anyShown)} />`;
 }

@@ -8,15 +8,13 @@ import { html, useEffect, useSignal } from "vendor/preact.js";
 import { asText } from "../../lib/frame-pose.js";
 import { t } from "../../lib/i18n.js";
 import { counts, settingRows } from "../../lib/live-displays.js";
-import { niceStep, parseNumber, shownNumber } from "../../lib/numbers.js";
+import { parseNumber } from "../../lib/numbers.js";
 import { PickBox } from "../../lib/pick-box.js";
 import { TextBox } from "../../lib/slider.js";
-import { Switch } from "../../lib/ui.js";
 import { mayEdit } from "../../model/connection.js";
 import { robot } from "../../model/document.js";
 import {
   fixedFrame,
-  framesNow,
   kinds,
   listenTo,
   poseNow,
@@ -24,12 +22,15 @@ import {
   settingOf,
   topicsNow,
 } from "../../model/live-displays.js";
+import { Choice, PropertyEditor } from "../property-editor.js";
 
 const POSE_EVERY_MS = 1000;
 
 /** @param {DisplayView} display @param {number} level @param {(id: string) => boolean} isOpen @returns {Row[]} */
 export function settingsOf(display, level, isOpen) {
   const kind = kinds.value.get(display.kind);
+  // One of a config file that there is not here has no settings that could be shown.
+  if (!kind && kinds.value.size > 0) return [];
   if (!kind) return [{ id: `setting:${display.id}`, level, label: t("loading"), icon: "" }];
   const properties = [...kind.properties, ...display.more];
   const byName = new Map(properties.map((one) => [one.name, one]));
@@ -47,6 +48,7 @@ export function settingsOf(display, level, isOpen) {
         label,
         icon: "",
         hint: property?.doc ?? label,
+        ...(property?.doc && { help: { title: path, text: property.doc } }),
         expandable: folds,
         expanded: folds && isOpen(idOf(path)),
         kind: "setting",
@@ -115,6 +117,10 @@ function listeningRows(display, kind, level, isOpen) {
       icon: "",
       kind: "setting",
       hint: kind.types.join("\n"),
+      help: {
+        title: t("live.topic"),
+        text: t("live.topic.help", { types: kind.types.join(", ") }),
+      },
       controls:
         () => html`<${PickBox} label=${t("live.topic")} text=${topic} placeholder=${t("live.topic.none")}
         disabled=${!mayEdit.value} choices=${() => topicsFor(kind)} none=${t("live.topic.nothing", { type: kind.types[0] ?? "" })}
@@ -125,6 +131,7 @@ function listeningRows(display, kind, level, isOpen) {
       level,
       label: t("live.listening"),
       icon: "",
+      help: { title: t("live.listening"), text: t("live.listening.help") },
       kind: "setting",
       expandable: true,
       expanded: open,
@@ -164,7 +171,7 @@ function qosRows({ id, wished, reliable, latched, depth }, level, listen) {
   });
   /** @param {"reliable" | "latched"} name @param {boolean} now @param {string} yes @param {string} no */
   const either = (name, now, yes, no) =>
-    html`<${Choice} label=${t(`live.qos.${name}`)} value=${String(wished[name])}
+    html`<${Choice} label=${t(`live.qos.${name}`)} value=${String(wished[name])} disabled=${!mayEdit.value}
       choices=${[
         ["null", t("live.qos.auto", { now: now ? yes : no })],
         ["true", yes],
@@ -186,60 +193,10 @@ function qosRows({ id, wished, reliable, latched, depth }, level, listen) {
   ];
 }
 
-/** @param {{label: string, value: string, choices: readonly (readonly [string, string])[], onChoose: (value: string) => void}} props */
-function Choice({ label, value, choices, onChoose }) {
-  return html`<select class="box" aria-label=${label} value=${value} disabled=${!mayEdit.value}
-    onChange=${(/** @type {any} */ event) => onChoose(event.currentTarget.value)}>
-    ${choices.map(([one, words]) => html`<option key=${one} value=${one} selected=${one === value}>${words}</option>`)}
-  </select>`;
-}
-
 /** @param {{display: DisplayView, property: PropertyView}} props the widget of a property */
 function Editor({ display, property }) {
-  const value = settingOf(display, property.name) ?? property.default;
-  const set = (/** @type {boolean | number | string} */ one) =>
-    void setProperty(display.id, property.name, one);
-  const label = `${display.name}: ${property.name}`;
-  const off = !mayEdit.value;
-  switch (property.kind) {
-    case "switch":
-      return html`<${Switch} label=${label} checked=${value === true} disabled=${off} onChange=${set} />`;
-    case "colour":
-      return html`<input type="color" class="colour" aria-label=${label} title=${String(value)} value=${String(value)} disabled=${off}
-        onInput=${(/** @type {any} */ event) => set(event.currentTarget.value)} />`;
-    case "choice":
-      return html`<${Choice} label=${label} value=${String(value)} choices=${property.choices.map((one) => [one, one])} onChoose=${set} />`;
-    case "frame":
-      return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} none=${t("live.frame.none")}
-        choices=${async () => ["<Fixed Frame>", ...(await framesNow()).map(nameOf)]} />`;
-    case "topic":
-      return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} placeholder=${t("live.topic.none")}
-        none=${t("live.topic.nothing", { type: property.choices[0] ?? "" })} choices=${() => topicsFor({ types: property.choices })} />`;
-    case "fact":
-      return html`<output class="fact" aria-label=${label} title=${String(value)}>${String(value)}</output>`;
-    case "text":
-      return html`<${PickBox} label=${label} text=${String(value)} disabled=${off} onWrite=${set} placeholder=""
-        choices=${property.choices.length > 0 ? async () => property.choices : undefined} />`;
-    default:
-      return html`<${NumberEditor} label=${label} property=${property} value=${Number(value)} set=${set} />`;
-  }
-}
-
-/** @param {{label: string, property: PropertyView, value: number, set: (value: number) => void}} props */
-function NumberEditor({ label, property, value, set }) {
-  const { low, high, unit, kind } = property;
-  if (low === 0 && high === 1 && kind === "number")
-    return html`<input type="range" class="slider short" min="0" max="1" step="0.01" value=${value} aria-label=${label}
-      title=${shownNumber(value)} disabled=${!mayEdit.value} style=${`--fill:${value * 100}%`}
-      onInput=${(/** @type {any} */ event) => set(Number(event.currentTarget.value))} />`;
-  const step = kind === "whole" ? 1 : niceStep(0, Math.max(Math.abs(value), 0.01) * 4);
-  /** @param {string} typed */
-  const write = (typed) => {
-    const number = parseNumber(typed);
-    if (number === null) return;
-    const within = Math.min(Math.max(number, low ?? number), high ?? number);
-    set(kind === "whole" ? Math.round(within) : within);
-  };
-  return html`<${TextBox} class="number narrow" label=${label} text=${shownNumber(value)} number=${value} step=${step}
-    disabled=${!mayEdit.value} onWrite=${write} />${unit && html`<span class="unit">${unit}</span>`}`;
+  return html`<${PropertyEditor} label=${`${display.name}: ${property.name}`} property=${property} disabled=${!mayEdit.value}
+    value=${settingOf(display, property.name) ?? property.default} set=${(
+      /** @type {boolean | number | string} */ one,
+    ) => void setProperty(display.id, property.name, one)} />`;
 }

@@ -2,7 +2,7 @@
 
 /** @import { ComponentChildren } from "vendor/preact.js" */
 
-import { html, useRef } from "vendor/preact.js";
+import { html, useEffect, useRef } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { LongList, siblingPlaces } from "../../lib/long-list.js";
 import { parseNumber, shownNumber } from "../../lib/numbers.js";
@@ -31,6 +31,9 @@ import { focusLink } from "../../model/viewport.js";
  * @property {string} [kind] one more class of the row
  * @property {string} [hint] longer tooltip of its label
  * @property {() => ComponentChildren} [name] drawn in the place of the label
+ * @property {() => void} [rename] has its name be written, as a double click on it asks
+ * @property {{title: string, text: string}} [help] what it is, said below the tree while it is the current row
+ * @property {(open: boolean) => void} [setOpen] folds it, where that is not the tree's to keep
  * @property {() => ComponentChildren} [controls] drawn before its eye
  * @property {Readonly<Record<string, unknown>>} [attributes] more of its element, as what makes it be dragged
  * @property {Readonly<Record<string, () => void>>} [keys] what keys do beside those of every row, as `Alt+ArrowUp`
@@ -55,6 +58,7 @@ export function Tree({ rows, active, setOpen }) {
     active.value = row.id;
     requestAnimationFrame(() => document.getElementById(rowId(row.id))?.focus());
   };
+  useNeighbour(rows, active, go);
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
     if (event.target instanceof HTMLElement && event.target.closest(".tree-control")) return;
@@ -76,6 +80,24 @@ export function Tree({ rows, active, setOpen }) {
           active.value = row.id;
         }} />`} />
   </div>`;
+}
+
+/**
+ * When the current row goes, as by Delete, the one above it takes its place, and the focus if that was on it.
+ * @param {Row[]} rows @param {{value: string}} active @param {(row: Row | undefined) => void} go
+ */
+function useNeighbour(rows, active, go) {
+  const before = useRef(/** @type {string[]} */ ([]));
+  useEffect(() => {
+    const ids = before.current;
+    before.current = rows.map(({ id }) => id);
+    const at = ids.indexOf(active.value);
+    if (at < 0 || before.current.includes(active.value)) return;
+    const left = ids.slice(0, at).findLast((id) => before.current.includes(id));
+    const row = rows.find(({ id }) => id === left) ?? rows[0];
+    if (document.activeElement === document.body) go(row);
+    else if (row) active.value = row.id;
+  }, [rows]);
 }
 
 /** @param {KeyboardEvent} event @param {Row[]} rows @param {string} current @returns {boolean} the key was one of the row's own */
@@ -109,15 +131,22 @@ function treeKey(event, rows, current, go, setOpen) {
     ArrowUp: () => go(rows[at - 1]),
     Home: () => go(rows[0]),
     End: () => go(rows.at(-1)),
-    ArrowRight: () => (row.expandable && !row.expanded ? setOpen(row.id, true) : go(rows[at + 1])),
+    ArrowRight: () =>
+      row.expandable && !row.expanded ? fold(row, true, setOpen) : go(rows[at + 1]),
     ArrowLeft: () =>
-      row.expanded && row.expandable ? setOpen(row.id, false) : go(parentRow(rows, at)),
+      row.expanded && row.expandable ? fold(row, false, setOpen) : go(parentRow(rows, at)),
     Enter: () => pick(row),
     " ": () => row.eye && (!row.eye.shared || mayEdit.value) && row.eye.set(!row.eye.on),
   };
   const move = moves[event.key];
   move?.();
   return move !== undefined;
+}
+
+/** @param {Row} row @param {boolean} open @param {(id: string, open: boolean) => void} setOpen of the tree */
+function fold(row, open, setOpen) {
+  if (row.setOpen) row.setOpen(open);
+  else setOpen(row.id, open);
 }
 
 /** @param {Row[]} rows @param {number} at @returns {Row | undefined} */
@@ -139,12 +168,12 @@ function TreeRow({ row, place, current, setOpen, onPick }) {
   const onClick = () => {
     onPick();
     if (row.link) pick(row);
-    else if (row.expandable) setOpen(row.id, !row.expanded);
+    else if (row.expandable) fold(row, !row.expanded, setOpen);
   };
   return html`<div id=${rowId(row.id)} role="treeitem" class=${rowClass(row)} style=${`--level:${row.level}`}
     tabindex=${current ? 0 : -1} aria-level=${row.level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-label=${rowLabel(row)}
     aria-expanded=${row.expandable ? row.expanded : null} aria-selected=${isChosen(row)} onClick=${onClick} onFocus=${onPick}
-    onDblClick=${() => row.link && focusLink(row.link)}
+    onDblClick=${(/** @type {MouseEvent} */ event) => onDoubleClick(event, row)}
     onContextMenu=${(/** @type {Event} */ event) => openRowMenu(event, row)}
     onPointerEnter=${() => {
       hovered.value = row.link ?? null;
@@ -155,6 +184,12 @@ function TreeRow({ row, place, current, setOpen, onPick }) {
     <${RowTail} row=${row} />
     ${row.eye && html`<${Eye} eye=${row.eye} />`}
   </div>`;
+}
+
+/** @param {MouseEvent} event @param {Row} row the name of a display is written, a link comes into view */
+function onDoubleClick({ target }, row) {
+  if (row.link) focusLink(row.link);
+  else if (target instanceof Element && target.closest(".tree-label")) row.rename?.();
 }
 
 /** @param {Event} event @param {Row} row */
@@ -199,7 +234,7 @@ function Twisty({ row, setOpen }) {
   /** @param {MouseEvent} event */
   const onClick = (event) => {
     event.stopPropagation();
-    setOpen(row.id, !row.expanded);
+    fold(row, !row.expanded, setOpen);
   };
   // Arrow keys do the same for the row, so this is not one more stop for the Tab key.
   return html`<span class="twisty" aria-hidden="true" onClick=${onClick}>

@@ -45,7 +45,7 @@ export function MeasureCard() {
       ${
         measuring.value
           ? html`<${IconButton} icon="close" label=${t("measure.end")} hint=${`${t("measure.end")} (Esc)`} onClick=${stopMeasuring} />`
-          : html`<${IconButton} icon="plus" label=${t("measure.more")} hint=${`${t("measure.more")} (M)`} onClick=${startMeasuring} />`
+          : html`<${IconButton} icon="plus" label=${t("measure.more")} hint=${`${t("measure.more")} (N)`} onClick=${startMeasuring} />`
       }
     </header>
     ${measuring.value && html`<${Making} />`}

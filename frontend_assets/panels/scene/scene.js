@@ -6,12 +6,12 @@
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { GraphicsNotice } from "../../app/graphics.js";
 import { documentAddress } from "../../lib/address.js";
-import { commandById } from "../../lib/commands.js";
 import { inFrameOrder } from "../../lib/frame-tree.js";
 import { t } from "../../lib/i18n.js";
 import { PickBox } from "../../lib/pick-box.js";
 import { remember } from "../../lib/remembered.js";
 import { Icon, IconButton, MenuButton, openMenu, ProgressBar } from "../../lib/ui.js";
+import { FIRST } from "../../lib/view-poses.js";
 import { documentId, mayEdit, mayManage, role } from "../../model/connection.js";
 import {
   displays,
@@ -21,21 +21,42 @@ import {
   robot,
   showingLastGood,
 } from "../../model/document.js";
-import { fixedFrame, framesNow, frameTrouble, setFixedFrame } from "../../model/live-displays.js";
-import { measuring } from "../../model/measuring.js";
+import {
+  fixedFrame,
+  framesNow,
+  frameTrouble,
+  paused,
+  pauseScene,
+  setFixedFrame,
+} from "../../model/live-displays.js";
 import { canMend, mend, openPath, setDisplay, undo, worstProblem } from "../../model/requests.js";
 import { heldBack } from "../../model/source.js";
 import { dialog, mouseMode, theme } from "../../model/view.js";
 import {
   attachViewport,
   keepTargetFrame,
+  shownView,
   targetFrame,
   targetTrouble,
   VIEWS,
   viewport,
 } from "../../model/viewport.js";
+import {
+  canFlatten,
+  isFlat,
+  ownViews,
+  sharedViews,
+  showsCube,
+  toggleFlat,
+  useKind,
+  useView,
+} from "../../model/views.js";
 import { PlaceLink } from "../parts.js";
 import { MeasureCard } from "./measure-card.js";
+import { NavigationGoal } from "./navigation-goal.js";
+import { ToolButtons } from "./tool-buttons.js";
+import { ToolCard } from "./tool-card.js";
+import { ViewCube } from "./view-cube.js";
 
 /** Whether the 3D view is part of the layout: index.html then has its client fetched at once. */
 const SHOWN = "scene.shown";
@@ -52,27 +73,29 @@ export function ScenePanel() {
     <iframe ref=${frame} title=${t("panel.scene")} class=${theme.value}
       src=${id ? `${documentAddress(id)}/viser/` : "about:blank"}></iframe>
     <${Tools} />
-    <${MeasureCard} />
+    <${ViewCube} />
+    <div class="scene-cards"><${ToolCard} /><${MeasureCard} /></div>
     <${Cover} />
     <${MeshProgress} />
-    <div class="scene-notices"><${LastGoodNotice} /><${FollowOffer} /><${GraphicsNotice} /></div>
+    <div class="scene-notices"><${LastGoodNotice} /><${PausedNotice} /><${NavigationGoal} /><${FollowOffer} /><${GraphicsNotice} /></div>
   </section>`;
 }
 
 function Tools() {
   const off = viewport.value === null;
   return html`<div class="scene-tools" role="toolbar" aria-label=${t("scene.tools")}>
+    <${ToolButtons} />
+    <span class="divider"></span>
     <${IconButton} icon="fit" label=${t("scene.fit")} hint=${`${t("scene.fit")} (F)`} disabled=${off}
       onClick=${() => viewport.value?.fit()} />
     <${MenuButton} label=${t("scene.views")} disabled=${off} items=${viewItems}>
       <${Icon} name="views" /><${Icon} name="chevronDown" size=${12} />
     <//>
+    <${IconButton} icon="cube" label=${t("scene.orthographic")} hint=${canFlatten.value ? `${t("scene.orthographic")} (5)` : t("scene.orthographic.always")}
+      disabled=${off || !canFlatten.value} pressed=${isFlat.value} onClick=${toggleFlat} />
     <span class="divider"></span>
     <${LayerToggle} name="frames" icon="axes" />
     <${LayerToggle} name="names" icon="frames" />
-    <span class="divider"></span>
-    <${IconButton} icon="measure" label=${t("command.measure")} hint=${`${t("command.measure")} (M)`} disabled=${off || !robot.value}
-      pressed=${measuring.value} onClick=${() => commandById("measure")?.run()} />
     <span class="divider"></span>
     <${MenuButton} label=${t("scene.mouse")} disabled=${off} items=${mouseItems}>
       <${Icon} name="mouse" /><${Icon} name="chevronDown" size=${12} />
@@ -82,8 +105,34 @@ function Tools() {
   </div>`;
 }
 
-const viewItems = () =>
-  VIEWS.map((name) => ({ label: t(`view.${name}`), run: () => viewport.value?.view(name) }));
+const KINDS = Object.keys(FIRST);
+
+const viewItems = () => [
+  ...VIEWS.map((name) => ({ label: t(`view.${name}`), run: () => viewport.value?.view(name) })),
+  ...savedItems(),
+  { label: t("scene.kinds"), heading: true },
+  ...KINDS.map((kind) => ({
+    label: kind,
+    checked: shownView.value?.kind === kind,
+    run: () => useKind(kind),
+  })),
+  { label: t("scene.settings"), heading: true },
+  {
+    label: t("scene.cube"),
+    checked: showsCube.value,
+    run: () => {
+      showsCube.value = !showsCube.value;
+    },
+  },
+];
+
+/** Those of the robot and of this browser, if there are any. */
+function savedItems() {
+  const views = [...sharedViews.value, ...ownViews.value];
+  if (views.length === 0) return [];
+  const items = views.map((view) => ({ label: view.name, run: () => useView(view) }));
+  return [{ label: t("scene.saved"), heading: true }, ...items];
+}
 
 const mouseItems = () =>
   /** @type {const} */ (["rviz", "trackpad"]).map((mode) => ({
@@ -192,6 +241,14 @@ function NoticeButtons({ problem }) {
     ${history.value.undo.length > 0 && html`<button type="button" class="button" onClick=${() => undo()}>${t("undo_edit")}</button>`}`;
 }
 
+/** Says that the view stands still, whoever paused it. */
+function PausedNotice() {
+  if (!paused.value) return null;
+  return html`<div class="scene-hint paused" role="status"><${Icon} name="pause" size=${15} />
+    <span>${t("scene.paused")}</span>
+    ${mayEdit.value && html`<button type="button" class="text-button" onClick=${() => void pauseScene(false)}>${t("scene.continue")}</button>`}</div>`;
+}
+
 /** Offers to follow the robot once the view is fixed to a frame in which it drives away. */
 function FollowOffer() {
   const declinedFor = useSignal("");
@@ -202,7 +259,7 @@ function FollowOffer() {
   if (!fixed || !root || isOfRobot || isFollowing || frameTrouble.value) return null;
   if (declinedFor.value === fixed) return null;
   const follow = () => {
-    targetFrame.value = root;
+    viewport.value?.follow(root);
   };
   const decline = () => {
     declinedFor.value = fixed;
@@ -269,7 +326,7 @@ function itemsOf(frames) {
     label,
     checked: value === now,
     run: () => {
-      targetFrame.value = value;
+      viewport.value?.follow(value);
     },
   }));
 }

@@ -1,4 +1,4 @@
-"""`studio open`: open a .xacro or .urdf file, a folder or a .zip."""
+"""`studio open`: open a .xacro or .urdf file, a folder, a .zip, or what a .rviz file shows."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from studio.cli.commands.demo import open_demo
 from studio.cli.serving import add_server_options, read_mappings, serve, server_settings
+from studio.cli.view_files import add_view_options, is_view, read_view, robot_of
 from studio.errors import UnreadableFileError
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("path", metavar="PATH", type=Path, nargs="?", help="default: the last one")
     parser.add_argument("name:=value", nargs="*", help="arguments of the xacro file")
     parser.set_defaults(run=run, takes_mappings=True)
+    add_view_options(parser)
     add_server_options(parser)
 
 
@@ -26,8 +28,16 @@ def run(options: argparse.Namespace) -> None:
 
     Raises:
         UnreadableFileError: Nothing is there.
+        RvizConfigError: The `.rviz` file is none.
     """
     arguments = read_mappings(options.mappings)
+    if is_view(options.path):
+        options.path, options.view = None, options.path
+    view = read_view(options.view) if options.view else None
+    if options.path is None and view is not None:
+        settings = server_settings(options)
+        serve(options, settings, robot_of(view, settings.data_folder), arguments)
+        return
     if options.path is None:
         _open_last(options, arguments)
         return

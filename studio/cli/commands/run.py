@@ -64,7 +64,9 @@ def _run(options: argparse.Namespace) -> int:
     if command is not None:
         from studio.cli.main import main
 
-        return main([command, *arguments])
+        # The studio's node is its own: names and remappings of RViz's concern nobody here.
+        end = arguments.index(_ROS_ARGUMENTS) if _ROS_ARGUMENTS in arguments else len(arguments)
+        return main([command, *arguments[:end]])
     wire, arguments = _part_arguments(arguments)
     module = _demo_module(options) if options.demo else _module_of(options, wire.package_path)
     settings = wire_settings(tuple(wire.connect), wire.domain)

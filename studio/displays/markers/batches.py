@@ -67,6 +67,12 @@ class MarkerBatches:
         self._drawing = self._assembled(max(0, len(store.batches) - BATCHES_MAX))
         return self._drawing
 
+    def path_of(self, key: BatchKey) -> str | None:
+        """Return the path of the group that a batch is drawn in; None if it is not drawn."""
+        if key.namespace in self._hidden:
+            return None
+        return self._paths.known((key.frame, key.stamp_ns, key.follows))
+
     def _build(self, store: MarkerStore, dirty: set[int]) -> None:
         first = islice(store.batches, BATCHES_MAX)
         wanted = [number for number in first if number in dirty or number not in self._shapes]
@@ -120,6 +126,10 @@ class _Paths:
         for place in [one for one in self._of if one not in places]:
             heapq.heappush(self._free, int(self._of.pop(place)[1:]))
 
+    def known(self, place: _Place) -> str | None:
+        """Return the path of a group that was drawn; None if it was not."""
+        return self._of.get(place)
+
     def of(self, place: _Place) -> str:
         """Return the path of a group; the lowest that is free for a new one."""
         path = self._of.get(place)
@@ -152,10 +162,19 @@ def shapes_of(markers: Rows) -> dict[str, Shape]:
 
 def _named(shapes: Mapping[str, Shape], namespace: str | None) -> dict[str, Shape]:
     """Return names that no other namespace has, without slashes whatever its own is."""
-    mark = "rest"
-    if namespace is not None:
-        mark = hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()
+    mark = _mark(namespace)
     return {f"{mark}-{name}": shape for name, shape in shapes.items()}
+
+
+def named_mesh(row: int, namespace: str | None) -> str:
+    """Return the name of the shape of one marker's mesh by its row in the table."""
+    return f"{_mark(namespace)}-mesh-{row}"
+
+
+def _mark(namespace: str | None) -> str:
+    if namespace is None:
+        return "rest"
+    return hashlib.blake2b(namespace.encode(), digest_size=6).hexdigest()
 
 
 def _placed(place: _Place, parts: list[dict[str, Shape]], before: Placed | None) -> Placed:

@@ -2,27 +2,36 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, ClassVar, Final
 
 import numpy as np
 
 from studio.displays.display import Display, Received, Status, TopicRole
 from studio.displays.drawing import NOTHING
-from studio.displays.markers.batches import MarkerBatches
+from studio.displays.markers.batches import MarkerBatches, named_mesh
 from studio.displays.markers.kinds import SENTENCES, Problem
+from studio.displays.markers.selection import box_of_marker, key_of, key_text, marker_facts
 from studio.displays.markers.store import REFUSED_MAX, MarkerStore
+from studio.displays.markers.table import NO_BATCH
 from studio.displays.properties import Property
+from studio.displays.selection import Item, index_of, wxyz_of, xyz_of
 from studio.ros.columns.markers import MarkerCodec
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Collection, Mapping, Sequence
 
     from studio.displays.drawing import Drawing
     from studio.displays.markers.kinds import Key
+    from studio.displays.markers.store import BatchKey
+    from studio.displays.markers.table import Rows
     from studio.displays.properties import Value
+    from studio.displays.selection import Fact, Picked
     from studio.ros.types.library import TypeLibrary
 
 _NAME_MAX = 60
+_SINGLE: Final = re.compile(r"-(text|mesh)-\d+$")
+"""Names of shapes of one marker each; they end in the row of it."""
 MARKER: Final = "visualization_msgs/msg/Marker"
 MARKER_ARRAY: Final = "visualization_msgs/msg/MarkerArray"
 NAMESPACES: Final = "Namespaces"
@@ -122,6 +131,45 @@ class MarkersDisplay(Display):
         if not self.values[NAMESPACES]:
             return NOTHING
         return self._batches.draw(self._store, self._hidden())
+
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return the keys of markers."""
+        table = self._store.table
+        rows = np.array([index_of(picked.shape.rpartition("-")[2])])
+        if not _SINGLE.search(picked.shape):
+            rows = np.unique(picked.rows)
+        inside = rows[(rows >= 0) & (rows < table.size)]
+        there: list[int] = inside[table.batch[inside] != NO_BATCH].tolist()
+        return [key_text(table.keys[row]) for row in there]
+
+    def item(self, key: str) -> Item | None:
+        """Return a marker that is drawn."""
+        found = self._found(key)
+        if found is None:
+            return None
+        marker, batch, path = found
+        stamp_ns, named = batch.stamp_ns, key_of(key)
+        name = marker_name(named) if named else key
+        pose = xyz_of(marker.positions[0]), wxyz_of(marker.rotations_wxyz[0])
+        box = box_of_marker(marker)
+        shape = "" if box is not None else named_mesh(int(marker.rows[0]), batch.namespace)
+        return Item("marker", name, path, batch.frame, stamp_ns, box, *pose, shape)
+
+    def facts(self, key: str) -> tuple[Fact, ...]:
+        """Return what is known of a marker."""
+        found, named = self._found(key), key_of(key)
+        return () if found is None or named is None else marker_facts(named, found[0])
+
+    def _found(self, key: str) -> tuple[Rows, BatchKey, str] | None:
+        named = key_of(key)
+        row = self._store.row_of(named) if named is not None else None
+        if row is None or (named is not None and named[0] in self._hidden()):
+            return None
+        batch = self._store.batches.get(int(self._store.table.batch[row]))
+        path = self._batches.path_of(batch) if batch is not None else None
+        if batch is None or path is None:
+            return None
+        return self._store.table.rows(np.array([row])), batch, path
 
     def statuses(self) -> tuple[Status, ...]:
         """Return the problems of markers, and why nothing is seen of those that exist."""

@@ -46,6 +46,7 @@ def points_of(markers: Rows) -> dict[str, Shape]:
         shapes[f"points-{number}"] = Points(
             positions.astype(np.float32), rgb_of(rgba[part.chosen]), part.size_m, "squares",
             part.opacity, is_seen_in_half(positions, part.size_m),
+            items=dots.rows[items.owners[part.chosen]],
         )  # fmt: skip
     return shapes
 
@@ -68,6 +69,7 @@ def lines_of(markers: Rows) -> dict[str, Shape]:
             _in_pairs(rgb_of(colors[part.chosen].reshape(-1, 4))),
             part.size_m,
             part.opacity,
+            drawn.rows[items.owners[begins[part.chosen]]],
         )
     return shapes
 
@@ -89,6 +91,7 @@ def triangles_of(markers: Rows) -> dict[str, Shape]:
             np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3),
             rgb_of(rgba.reshape(-1, 12)[part.chosen].reshape(-1, 4)),
             part.opacity,
+            drawn.rows[items.owners[::3][part.chosen]],
         )
     return shapes
 

@@ -61,6 +61,8 @@ class Bodies(NamedTuple):
     """Shape (N, 3), m."""
     rgba: NDArray[np.float32]
     """Shape (N, 4)."""
+    items: Whole
+    """Shape (N,): the row of the marker that each belongs to."""
 
 
 def solids_of(markers: Rows) -> dict[str, Shape]:
@@ -97,6 +99,7 @@ def solids(kind: SolidKind, bodies: Bodies) -> Solids | None:
         np.abs(bodies.scales[seen]).astype(np.float32),
         rgb_of(bodies.rgba[seen]),
         float(alphas[0]) / 255 if same else (alphas / 255).astype(np.float32),
+        bodies.items[seen],
     )
 
 
@@ -109,6 +112,7 @@ def joined(many: list[Bodies]) -> Bodies:
         np.concatenate([each.wxyz for each in many]),
         np.concatenate([each.scales for each in many]),
         np.concatenate([each.rgba for each in many]),
+        np.concatenate([each.items for each in many]),
     )
 
 
@@ -119,7 +123,9 @@ def is_seen_in_half(positions: Floats, size_m: float) -> bool:
 
 
 def _singles(markers: Rows) -> Bodies:
-    return Bodies(markers.positions, markers.rotations_wxyz, markers.scales, markers.rgba)
+    return Bodies(
+        markers.positions, markers.rotations_wxyz, markers.scales, markers.rgba, markers.rows
+    )
 
 
 def _listed(markers: Rows) -> Bodies:
@@ -131,6 +137,7 @@ def _listed(markers: Rows) -> Bodies:
         markers.rotations_wxyz[items.owners],
         markers.scales[items.owners],
         item_colors(markers, items),
+        markers.rows[items.owners],
     )
 
 
@@ -154,6 +161,7 @@ def _add_clouds(shapes: dict[str, Shape], name: str, lists: Rows) -> None:
         shapes[f"many-{name}-{number}"] = Points(
             positions.astype(np.float32), rgb_of(rgba[part.chosen]), part.size_m, style,
             part.opacity, is_seen_in_half(positions, part.size_m),
+            items=lists.rows[items.owners[part.chosen]],
         )  # fmt: skip
 
 
@@ -174,6 +182,8 @@ class Arrow(NamedTuple):
     """Shape (N,), at most the whole length."""
     rgba: NDArray[np.float32]
     """Shape (N, 4)."""
+    items: Whole
+    """Shape (N,): the row of the marker that each belongs to."""
 
 
 def arrows_of(markers: Rows) -> dict[str, Shape]:
@@ -207,6 +217,7 @@ def _by_pose(markers: Rows) -> Arrow:
         _HEAD_BY_SHAFT * shafts_m,
         HEAD_SHARE * np.abs(lengths_m),
         markers.rgba,
+        markers.rows,
     )
 
 
@@ -225,6 +236,7 @@ def _by_points(markers: Rows, head_share: float) -> Arrow:
         np.abs(scales[:, [1, 1]]),
         np.where(scales[:, 2] == 0, head_share * lengths_m, given),
         markers.rgba[owners],
+        markers.rows[owners],
     )
 
 
@@ -243,12 +255,15 @@ def _shapes(arrows: Arrow) -> dict[str, Shape]:
     directions = arrows.tips - arrows.tails
     directions = directions / np.where(lengths_m == 0, 1.0, lengths_m)[:, None]
     middles = arrows.tails + directions * (shaft_lengths_m / 2)[:, None]
-    shafts = Bodies(middles, arrows.wxyz, _sized(arrows.shafts_m, shaft_lengths_m), arrows.rgba)
+    shafts = Bodies(
+        middles, arrows.wxyz, _sized(arrows.shafts_m, shaft_lengths_m), arrows.rgba, arrows.items
+    )
     # A cone stands on its tip, and that of an arrow points ahead.
     backwards = products(arrows.wxyz, np.broadcast_to(_HALF_TURN, arrows.wxyz.shape))
     heads = Bodies(
-        arrows.tips, backwards, _sized(arrows.heads_m, arrows.head_lengths_m), arrows.rgba
-    )
+        arrows.tips, backwards, _sized(arrows.heads_m, arrows.head_lengths_m), arrows.rgba,
+        arrows.items,
+    )  # fmt: skip
     shapes: dict[str, Shape] = {}
     for name, kind, bodies in (("shafts", "cylinder", shafts), ("heads", "cone", heads)):
         made = solids("cylinder" if kind == "cylinder" else "cone", _solid(bodies))
@@ -264,7 +279,10 @@ def _sized(diameters_m: Floats, lengths_m: Floats) -> Floats:
 def _solid(bodies: Bodies) -> Bodies:
     """Return those with a length and thickness: an arrow may be all shaft, or all head."""
     kept = (bodies.scales[:, 2] > 0) & (bodies.scales[:, :2] > 0).any(axis=1)
-    return Bodies(bodies.positions[kept], bodies.wxyz[kept], bodies.scales[kept], bodies.rgba[kept])
+    return Bodies(
+        bodies.positions[kept], bodies.wxyz[kept], bodies.scales[kept], bodies.rgba[kept],
+        bodies.items[kept],
+    )  # fmt: skip
 
 
 def _unit_or_z(vectors: Floats, lengths_m: Floats) -> Floats:

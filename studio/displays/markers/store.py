@@ -280,6 +280,10 @@ class MarkerStore:
         dirty, self._dirty = self._dirty, set()
         return dirty
 
+    def row_of(self, key: Key) -> int | None:
+        """Return the row of a marker in the table; None if there is none."""
+        return self._rows.get(key)
+
     def namespaces(self) -> set[str]:
         """Namespaces with a marker."""
         return {namespace for namespace, _ in self._rows}

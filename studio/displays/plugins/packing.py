@@ -119,7 +119,11 @@ def _packed(shape: Shape, number: int) -> PackedShape:
     kind = type(shape).__name__
     if SHAPES.get(kind) is not type(shape):
         raise DisplayError(f"A drawing has {kind} in it: its shapes are {', '.join(SHAPES)}.")
-    made = {one.name: _plain(one.name, getattr(shape, one.name)) for one in fields(shape)}
+    made = {
+        one.name: _plain(one.name, getattr(shape, one.name))
+        for one in fields(shape)
+        if one.name != "items"  # a plug-in's shapes are not selected one by one
+    }
     return PackedShape(number, kind, made)
 
 

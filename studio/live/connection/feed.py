@@ -89,6 +89,8 @@ class RobotFeed:
         self._turn = asyncio.Lock()
         """Held while the source or the publishing is switched."""
         self._closed = False
+        self.is_held: Callable[[], bool] = lambda: False
+        """Whether the robot stands still meanwhile, as while drawing is paused."""
 
     def events(self) -> Iterable[WireFeed]:
         """Yield the events for a new page."""
@@ -230,6 +232,8 @@ class RobotFeed:
         if following is None:
             return
         following.fit(model.robot, model.kinematics)
+        if self.is_held():
+            return  # the newest positions are taken when it goes on
         if positions := following.collect():
             self._motion.follow(positions)
             self._sending.measured(following.stamp_ns)

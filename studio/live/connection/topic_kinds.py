@@ -21,9 +21,14 @@ def carried_types(
     return tuple(sorted(types))
 
 
-def kind_for(topic: str, types: Sequence[str]) -> str:
-    """Return the display that shows the first of these types that any shows; empty: none does."""
+def kinds_for(topic: str, types: Sequence[str]) -> tuple[str, ...]:
+    """Return the displays that show one of these types, each once, the best first."""
     from studio.displays.catalogue import displays_of_type  # noqa: PLC0415 - only when it is used
 
     kinds = (kind.KIND for one in types for kind in displays_of_type(one, topic))
-    return next(kinds, "")
+    return tuple(dict.fromkeys(kinds))
+
+
+def kind_for(topic: str, types: Sequence[str]) -> str:
+    """Return the display that shows the first of these types that any shows; empty: none does."""
+    return next(iter(kinds_for(topic, types)), "")

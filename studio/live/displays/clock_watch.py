@@ -37,6 +37,8 @@ class ClockWatch:
         self._jumped = jumped
         self._codec = Codec(shared_types().message(_TYPE))
         self._last_ns: dict[bytes, int] = {}
+        self.now_ns: int | None = None
+        """The time that came last; None: none came yet. Written by the thread of `take`."""
 
     def take(self, sample: RawSample) -> None:
         """Take one message; what is none is left out."""
@@ -53,4 +55,4 @@ class ClockWatch:
             self._jumped(now_ns, before_ns)
         elif now_ns < before_ns:
             now_ns = before_ns
-        self._last_ns[gid] = now_ns
+        self._last_ns[gid] = self.now_ns = now_ns

@@ -1,16 +1,18 @@
-"""Keeps the displays of a document: one small file per entry in the data folder."""
+"""Keeps the displays and tools of a document: one small file per entry in the data folder."""
 
 from __future__ import annotations
 
 import hashlib
 import logging
 import os
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
 from studio.files import write_whole
 from studio.live.displays.display_list import DISPLAYS_MAX, DisplaySpec
+from studio.rviz.tools import TOOLS_MAX, ToolSpec
+from studio.rviz.views import ViewSpec  # noqa: TC001 - msgspec reads it
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,12 +23,34 @@ _LIMIT_BYTES: Final = 4 << 20
 _log = logging.getLogger(__name__)
 
 
+class OpenedConfig(msgspec.Struct, frozen=True, omit_defaults=True):
+    """An `.rviz` file, with what of it the displays do not say."""
+
+    name: str
+    path: str = ""
+    """Empty: it came without one."""
+    groups: dict[str, dict[str, Any]] = {}
+    rest: dict[str, Any] = {}
+    """The tree without its displays."""
+    digest: str = ""
+    """Of its text as the studio writes it without a change."""
+
+
 class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
-    """The content of the file; displays in the order of the list."""
+    """The content of the file; displays and tools in the order of their lists."""
 
     displays: tuple[DisplaySpec, ...] = ()
     groups_off: tuple[str, ...] = ()
     fixed_frame: str = ""
+    tools: tuple[ToolSpec, ...] = ()
+    """None: RViz's first set."""
+    background: str = ""
+    """As `#rrggbb`; empty: that of the theme."""
+    frame_rate: int = 0
+    """Pictures of the 3D view per second at most; 0: as many as there can be."""
+    config: OpenedConfig | None = None
+    """The `.rviz` file that was opened or saved last."""
+    views: tuple[ViewSpec, ...] = ()
 
 
 _DECODER: Final = msgspec.json.Decoder(KeptDisplays)
@@ -48,7 +72,8 @@ class DisplayFile:
             kept = _DECODER.decode(self._path.read_bytes())
         except (OSError, *_BROKEN):
             return KeptDisplays()
-        return msgspec.structs.replace(kept, displays=kept.displays[:DISPLAYS_MAX])
+        displays, tools = kept.displays[:DISPLAYS_MAX], kept.tools[:TOOLS_MAX]
+        return msgspec.structs.replace(kept, displays=displays, tools=tools)
 
     def delete(self) -> None:
         """Delete the file; thread-safe."""

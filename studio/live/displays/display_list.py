@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from studio.displays.properties import Value
 from studio.errors import CommandError
+from studio.live.displays.groups import all_groups, group_path, groups_to, is_within, regrouped
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +29,8 @@ class Listening:
 class DisplaySpec:
     """Settings of one display.
 
-    `values` holds the properties that differ from their defaults.
+    `group` is a path, as `Navigation/Local`; `values` holds the properties that differ from their
+    defaults, `entry` what an `.rviz` file says of the display.
     """
 
     id: str
@@ -39,14 +41,27 @@ class DisplaySpec:
     group: str = ""
     listening: Listening = Listening()
     values: Mapping[str, Value] = field(default_factory=dict[str, Value])
+    entry: dict[str, Any] = field(default_factory=dict[str, Any])
+
+
+@dataclass(frozen=True, slots=True)
+class _Removed:
+    """A display that was taken away, and the ids of those that followed it."""
+
+    spec: DisplaySpec
+    behind: tuple[str, ...]
 
 
 class DisplayList:
-    """Displays in the order in which they are listed; ids are never given twice."""
+    """Displays in the order in which they are listed; ids are never given twice.
+
+    A group is there as long as a display is in it, or in a group that stands in it.
+    """
 
     def __init__(self) -> None:
         self._specs: dict[str, DisplaySpec] = {}
         self._groups_off: set[str] = set()
+        self._removed: dict[str, _Removed] = {}
         self._given = 0
 
     def __iter__(self) -> Iterator[DisplaySpec]:
@@ -58,8 +73,11 @@ class DisplayList:
     @property
     def groups_off(self) -> tuple[str, ...]:
         """Groups that are hidden as a whole."""
-        groups = {one.group for one in self}
-        return tuple(sorted(self._groups_off & groups))
+        return tuple(sorted(self._groups_off & self._groups))
+
+    @property
+    def _groups(self) -> frozenset[str]:
+        return all_groups(one.group for one in self)
 
     def get(self, display: str) -> DisplaySpec:
         """Return the one of an id.
@@ -72,8 +90,23 @@ class DisplayList:
         raise CommandError("This display is not there any more: choose another.")
 
     def is_shown(self, spec: DisplaySpec) -> bool:
-        """Whether it is switched on, and its group with it."""
-        return spec.enabled and spec.group not in self._groups_off
+        """Whether it is switched on, and all groups around it with it."""
+        return spec.enabled and self._groups_off.isdisjoint(groups_to(spec.group))
+
+    def hidden_by(self, spec: DisplaySpec) -> str:
+        """Return the outermost group around it that is hidden; empty: none is."""
+        return next((one for one in groups_to(spec.group) if one in self._groups_off), "")
+
+    def members(self, group: str) -> tuple[DisplaySpec, ...]:
+        """Return the displays in a group and in those that stand in it, in order.
+
+        Raises:
+            CommandError: There are none.
+        """
+        found = tuple(one for one in self if is_within(one.group, group))
+        if not found or not group:
+            raise CommandError(f'There is no group "{group}" any more.')
+        return found
 
     def add(self, kind: str, topic: str = "") -> DisplaySpec:
         """Add one at the end, named after its kind."""
@@ -86,8 +119,7 @@ class DisplayList:
         Raises:
             CommandError: There are too many.
         """
-        if len(self._specs) >= DISPLAYS_MAX:
-            raise CommandError(f"There are {DISPLAYS_MAX} displays: remove one first.")
+        self._check_room()
         self._given += 1
         added = replace(spec, id=f"d{self._given}")
         specs = list(self)
@@ -97,8 +129,28 @@ class DisplayList:
         return added
 
     def remove(self, display: str) -> None:
-        """Take one away."""
-        del self._specs[self.get(display).id]
+        """Take one away; `put_back` knows the last ones."""
+        spec = self.get(display)
+        ids = list(self._specs)
+        del self._specs[display]
+        self._removed[display] = _Removed(spec, tuple(ids[ids.index(display) + 1 :]))
+        while len(self._removed) > DISPLAYS_MAX:
+            del self._removed[next(iter(self._removed))]
+
+    def put_back(self, display: str) -> DisplaySpec:
+        """Put one back that was taken away, with its id, before those that followed it.
+
+        Raises:
+            CommandError: It was taken away too long ago, or there are too many.
+        """
+        self._check_room()
+        removed = self._removed.pop(display, None)
+        if removed is None:
+            raise CommandError("This display was removed too long ago: add it again.")
+        self._specs[display] = removed.spec
+        behind = next((one for one in removed.behind if one in self._specs), "")
+        self.move(display, behind)
+        return removed.spec
 
     def duplicate(self, display: str) -> DisplaySpec:
         """Add one with the same settings behind it."""
@@ -124,12 +176,51 @@ class DisplayList:
         Raises:
             CommandError: No display is in it.
         """
-        if group not in {one.group for one in self} or not group:
-            raise CommandError(f'There is no group "{group}" any more.')
+        self.members(group)
         if shown:
             self._groups_off.discard(group)
         else:
             self._groups_off.add(group)
+
+    def switch_all(self, *, shown: bool) -> None:
+        """Show or hide each display; to be shown, no group is hidden any more."""
+        for one in self:
+            self._specs[one.id] = replace(one, enabled=shown)
+        if shown:
+            self._groups_off.clear()
+
+    def regroup(self, group: str, to: str) -> None:
+        """Give a group another path; what is hidden with it or in it stays hidden.
+
+        With an empty path, what is in it goes where the group stands now. A group that has the
+        path already takes it in.
+
+        Raises:
+            CommandError: There is no such group, or it would stand in itself or too deep.
+        """
+        members = self.members(group)
+        to = group_path(to) or group.rpartition("/")[0]
+        if to == group:
+            return
+        if is_within(to, group):
+            raise CommandError(f'The group "{group}" cannot stand in itself.')
+        moved = [replace(one, group=regrouped(one.group, group, to)) for one in members]
+        known = self._groups
+        off = [one for one in self._groups_off & known if is_within(one, group)]
+        new = {regrouped(one, group, to) for one in off} - known - {""}
+        self._groups_off = (self._groups_off - set(off)) | new
+        self._specs |= {one.id: one for one in moved}
+
+    def move_group(self, group: str, before: str) -> None:
+        """Put all of a group before a display that is not in it; with an empty id at the end."""
+        members = self.members(group)
+        others = [one for one in self if one not in members]
+        at = others.index(self.get(before)) if before else len(others)
+        self._arrange([*others[:at], *members, *others[at:]])
+
+    def _check_room(self) -> None:
+        if len(self._specs) >= DISPLAYS_MAX:
+            raise CommandError(f"There are {DISPLAYS_MAX} displays: remove one first.")
 
     def _arrange(self, specs: list[DisplaySpec]) -> None:
         self._specs = {one.id: one for one in specs}

@@ -6,16 +6,26 @@ import asyncio
 import logging
 import time
 from dataclasses import replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
+
+from msgspec import structs
 
 from studio.errors import CommandError, StudioError
 from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
+from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
+from studio.live.displays.document_tools import DocumentTools
+from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.plugins import Plugins
+from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
+from studio.live.displays.saved_views import SavedViews
+from studio.live.displays.scene_clock import SceneClock
+from studio.live.displays.selecting import AllDrawn
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
+    ArrangeGroup,
     DisplayKinds,
     DisplayStates,
     DuplicateDisplay,
@@ -26,6 +36,7 @@ from studio.protocol.displays import (
     GetTopics,
     LiveDisplays,
     RemoveDisplay,
+    RestoreDisplays,
     SetDisplayProperty,
     SetDisplayTopic,
     SetFixedFrame,
@@ -35,6 +46,7 @@ from studio.protocol.displays import (
 )
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
+from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene, SceneTime
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -43,12 +55,15 @@ if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
+    from studio.live.displays.document_tools import ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
     from studio.live.displays.robot_reading import RobotReader
+    from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
+    from studio.protocol.tools import UseTool
 
 
 _TICK_S: Final = 1 / 30
@@ -92,6 +107,10 @@ class DocumentDisplays:
         self._plugins = Plugins()
         self._unwatch: Callable[[], None] = lambda: None
         self._list = DisplayList()
+        self._beside = KeptDisplays()
+        """What is kept beside the displays: options of the view, and an opened config."""
+        self.views = SavedViews(audience, self._views_changed)
+        self.tools = DocumentTools(audience, self._keep)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -99,6 +118,7 @@ class DocumentDisplays:
         self._keeping: asyncio.Task[None] | None = None
         self._unkept: KeptDisplays | None = None
         self._seen_s = time.monotonic()
+        self._clock = SceneClock()
         self._fault = ""
         self._checked_s = 0.0
         self._asked_until_s = 0.0
@@ -107,6 +127,8 @@ class DocumentDisplays:
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
         """Called when displays were added, removed or changed."""
+        self.on_change: Callable[[], object] = lambda: None
+        """Called after any change of what is kept."""
 
     def use(self, plugins: Plugins) -> None:
         """Have the owner's displays, too; to be called before any is made."""
@@ -115,10 +137,42 @@ class DocumentDisplays:
     @property
     def kept(self) -> KeptDisplays:
         """All that is kept of them."""
-        return KeptDisplays(tuple(self._list), self._list.groups_off, self._fixed_frame)
+        return structs.replace(
+            self._beside,
+            displays=tuple(self._list),
+            groups_off=self._list.groups_off,
+            fixed_frame=self._fixed_frame,
+            tools=self.tools.kept,
+            views=self.views.specs,
+        )
+
+    def replace_all(self, kept: KeptDisplays) -> None:
+        """Have these displays, this fixed frame and all else that is kept, instead of what is."""
+        for one in tuple(self._list):
+            self._remove(one.id)
+        self._room.frames.chosen = kept.fixed_frame
+        self._take(kept)
+        self.tools.mirror(kept.tools)
+        self.views.replace(kept.views)
+        self._room.renew()
+        self._changed()
+
+    def keep_beside(self, **changes: Any) -> None:  # noqa: ANN401 - fields of KeptDisplays
+        """Change what is kept beside the displays."""
+        self._beside = structs.replace(self._beside, **changes)
+        self._changed()
+
+    async def connect_if_needed(self) -> None:
+        """Ensure a connection where a display has a topic, or the fixed frame is no link."""
+        frame = self._fixed_frame
+        if any(one.topic for one in self._list) or (
+            frame and frame not in self._room.frames.own.links
+        ):
+            await self._connect()
 
     def mirror(self, other: KeptDisplays) -> None:
-        """Have the displays that another document has; how they look here stays as it is."""
+        """Have the displays and tools of another document; how displays look here stays."""
+        self.tools.mirror(other.tools)
         missing = {(one.kind, one.name, one.topic): one for one in other.displays}
         before = tuple(self._list)
         gone = [one for one in before if not missing.pop((one.kind, one.name, one.topic), None)]
@@ -143,14 +197,20 @@ class DocumentDisplays:
     def restore(self) -> None:
         """Take up the displays of the last time."""
         kept = self._file.read()
+        self.views.restore(kept.views)
+        self.tools.restore(kept.tools)
         if kept.fixed_frame:
             self._room.frames.chosen = kept.fixed_frame
-        for spec in kept.displays:
-            self._restore_one(spec)
-        for group in {one.group for one in self._list} & set(kept.groups_off) - {""}:
-            self._list.switch_group(group, shown=False)
+        self._take(kept)
         self._show_and_hide()
         self._go_on()
+
+    def _take(self, kept: KeptDisplays) -> None:
+        self._beside = structs.replace(kept, displays=(), groups_off=(), fixed_frame="", views=())
+        for spec in kept.displays:
+            self._restore_one(spec)
+        for group in all_groups(one.group for one in self._list):
+            self._list.switch_group(group, shown=group not in kept.groups_off)
 
     def _restore_one(self, spec: DisplaySpec) -> None:
         added = self._list.put(spec)
@@ -161,6 +221,8 @@ class DocumentDisplays:
         self._seen_s = time.monotonic()
         self._go_on()
         yield self._displays()
+        yield self.views.event()
+        yield self.tools.event()
         if self._states.event is not None:
             yield self._states.event
 
@@ -178,9 +240,28 @@ class DocumentDisplays:
             await self._connect()
 
     def remove(self, command: RemoveDisplay) -> None:
-        """Take a display away."""
-        self._remove(command.display)
+        """Take a display away, or a group with all that is in it."""
+        if command.display:
+            self._remove(command.display)
+        else:
+            for one in self._list.members(command.group):
+                self._remove(one.id)
         self._changed()
+
+    def put_back(self, command: RestoreDisplays) -> None:
+        """Put back what was taken away; what fails leaves the others there."""
+        try:
+            for display in command.displays:
+                self._open_again(self._list.put_back(display))
+        finally:
+            self._changed()
+
+    def _open_again(self, spec: DisplaySpec) -> None:
+        try:
+            self._room.open(spec)
+        except StudioError:
+            self._list.remove(spec.id)
+            raise
 
     def _remove(self, display: str) -> None:
         self._list.remove(display)
@@ -199,18 +280,36 @@ class DocumentDisplays:
         name = spec.name if command.name is None else command.name.strip()
         if not name:
             raise CommandError("A display needs a name of at least one letter.")
-        group = spec.group if command.group is None else command.group.strip()
+        group = spec.group if command.group is None else group_path(command.group)
         if command.before is not None:
             self._list.move(spec.id, command.before)
         self._change(replace(spec, name=name, group=group))
 
+    def arrange_group(self, command: ArrangeGroup) -> None:
+        """Name or move a group with all that is in it."""
+        if command.before is not None:
+            self._list.move_group(command.group, command.before)
+        if command.to is not None:
+            self._list.regroup(command.group, command.to)
+        self._respecify()
+        self._changed()
+
     def switch(self, command: SwitchDisplays) -> None:
-        """Show or hide one, or a group as a whole."""
+        """Show or hide one, a group as a whole, or each."""
         if command.display:
             self._change(replace(self._list.get(command.display), enabled=command.enabled))
-        else:
+            return
+        if command.group:
             self._list.switch_group(command.group, shown=command.enabled)
-            self._changed()
+        else:
+            self._list.switch_all(shown=command.enabled)
+        self._respecify()
+        self._changed()
+
+    def _respecify(self) -> None:
+        """Hand the settings of several displays to those that work with them."""
+        for spec in self._list:
+            self._room.get(spec.id).spec = spec
 
     async def set_topic(self, command: SetDisplayTopic) -> None:
         """Listen to another topic, or otherwise."""
@@ -247,6 +346,11 @@ class DocumentDisplays:
         """Return what a display shows, and the poses of its parts in the fixed frame."""
         return self._room.get(display).placing.shown
 
+    def drawn(self) -> AllDrawn:
+        """Return what is drawn in the scene, for those who point at it."""
+        frames = self._room.frames
+        return AllDrawn(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
+
     def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
         """Return the kinds of displays."""
         from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
@@ -269,17 +373,30 @@ class DocumentDisplays:
 
     async def tf(self, command: GetTf) -> TfFrames:
         """Return all frames, and the pose of one in another; subscribes to TF for a while."""
-        is_first = not self._is_on
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
-        frames = self._room.frames
-        if is_first and not command.pose_only:
-            await frames.wait_for_first()
-        frames.step()
+        frames = await self._frames(wait=not command.pose_only)
         if command.pose_only:
             return frames.answer(command, frames.fixed)
         # Thousands of frames as JSON take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
+
+    async def tool_use(self, command: UseTool) -> ToolUse:
+        """Return what a tool is to send; subscribes to TF for a while."""
+        return self.tools.use(command, await self._frames(wait=True))
+
+    async def _frames(self, *, wait: bool) -> SceneFrames:
+        """Return the frames of now; subscribes to TF for a while.
+
+        Args:
+            wait: Whether the first transforms are waited for, if TF was not subscribed before.
+        """
+        is_first = not self._is_on
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        frames = self._room.frames
+        if is_first and wait:
+            await frames.wait_for_first()
+        frames.step()
+        return frames
 
     def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
         """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
@@ -288,6 +405,30 @@ class DocumentDisplays:
         frame = command.frame.strip().removeprefix("/")
         trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
         return FrameFollowed(request=command.request, trouble=trouble)
+
+    def time(self, command: GetSceneTime) -> SceneTime:
+        """Return the time of the view; subscribes to /clock for a while."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
+        self._go_on()
+        return self._clock.told(command.request, self._room.frames.clock_ns, paused=self.is_paused)
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether drawing is paused."""
+        return self._made is not None and self._made.is_paused
+
+    def pause(self, command: PauseScene) -> None:
+        """Pause drawing for all who look, or go on with the newest."""
+        self._room.pause(paused=command.paused)
+        self._clock.pause(self._room.frames.clock_ns, paused=command.paused)
+        self._changed()
+
+    def reset(self, _: ResetScene) -> None:
+        """Forget all that was received, and receive again what is latched."""
+        self._room.reset()
+        self._clock.reset()
+        self._checked_s = 0.0
+        self._go_on()
 
     def let_go(self) -> None:
         """Receive nothing until it is drawn again."""
@@ -344,6 +485,11 @@ class DocumentDisplays:
         self._checked_s = 0.0
         self._go_on()
         self.on_list()
+        self.on_change()
+
+    def _views_changed(self) -> None:
+        self._keep()
+        self.on_change()
 
     def _show_and_hide(self) -> None:
         for spec in self._list:
@@ -359,6 +505,11 @@ class DocumentDisplays:
         while self._unkept is not None:
             kept, self._unkept = self._unkept, None
             await asyncio.to_thread(self._file.write, kept)
+
+    @property
+    def fixed_frame_in_use(self) -> str:
+        """The frame that all is drawn in; empty: there is no robot yet."""
+        return self._room.frames.fixed
 
     @property
     def _fixed_frame(self) -> str:
@@ -431,6 +582,9 @@ class DocumentDisplays:
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
             kinds=self._plugins.generation,
+            paused=self.is_paused,
+            background=self._beside.background,
+            frame_rate=self._beside.frame_rate,
         )
 
 
@@ -442,7 +596,14 @@ COMMANDS.controller(
 COMMANDS.controller(
     DuplicateDisplay, lambda displays, c, _: displays.duplicate(c), on_copies=OnCopies.REFUSED
 )
+COMMANDS.controller(
+    RestoreDisplays, lambda displays, c, _: displays.put_back(c), on_copies=OnCopies.REFUSED
+)
 COMMANDS.controller(ArrangeDisplay, lambda displays, c, _: displays.arrange(c))
+COMMANDS.controller(ArrangeGroup, lambda displays, c, _: displays.arrange_group(c))
+COMMANDS.controller(PauseScene, lambda displays, c, _: displays.pause(c))
+COMMANDS.controller(ResetScene, lambda displays, c, _: displays.reset(c))
+COMMANDS.viewer(GetSceneTime, lambda displays, c, _: displays.time(c))
 COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
@@ -451,6 +612,8 @@ COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
+COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
 
 
 def _full_name(topic: str) -> str:

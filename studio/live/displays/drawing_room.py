@@ -9,6 +9,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.display import Status, TopicRole
+from studio.displays.failed import FailedDisplay
 from studio.displays.posed_robot import PosedRobot
 from studio.errors import CommandError, DisplayError, SceneError
 from studio.live.displays.catalogue_views import property_view
@@ -29,15 +30,17 @@ from studio.protocol.displays import (
 from studio.ros.messages import shared_types
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
+    from collections.abc import Collection, Iterable, Mapping
 
     from studio.displays.display import Display
     from studio.displays.drawing import Pose
     from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
+    from studio.live.displays.placing import Shown
     from studio.live.displays.plugins import Plugins
     from studio.live.topics.request import Fit
     from studio.live.topics.source import TopicSource
     from studio.protocol.roles import Visitor
+    from studio.ros.types.library import TypeLibrary
     from studio.scene import DocumentScene
 
 _MORE_MAX: Final = 500
@@ -86,6 +89,8 @@ class DrawingRoom:
         self._faults: dict[str, str] = {}
         self._seen: frozenset[str] = frozenset()
         self._followed = FollowedFrames(robot.scene.live)
+        self._held: set[str] | None = None
+        """Displays whose news are not drawn yet, while drawing is paused; None: it is not."""
         self._robot_at: Pose = STILL
         self._robot_trouble = ""
 
@@ -100,13 +105,18 @@ class DrawingRoom:
             DisplayError: There is no such kind.
         """
         types = shared_types()
+        self._running[spec.id] = RunningDisplay(spec, self._made(spec, types, is_kept=is_kept))
+
+    def _made(self, spec: DisplaySpec, types: TypeLibrary, *, is_kept: bool) -> Display:
+        """Return the display of a spec; for one of an `.rviz` file that is not here, why not."""
+        if spec.entry and "/" in spec.kind:
+            return FailedDisplay(types, spec.kind)
         try:
-            display = self._plugins.of_kind(spec.kind)(types)
+            return self._plugins.of_kind(spec.kind)(types)
         except DisplayError:
             if not is_kept:
                 raise
-            display = MissingDisplay(types, partial(self._plugins.why_not, spec.kind))
-        self._running[spec.id] = RunningDisplay(spec, display)
+            return MissingDisplay(types, partial(self._plugins.why_not, spec.kind))
 
     def get(self, display: str) -> RunningDisplay:
         """Return the one of an id.
@@ -122,7 +132,14 @@ class DrawingRoom:
         """Remove a display from the scene and return it, to be closed by the caller."""
         self._scene.live.drop(display)
         self._faults.pop(display, None)
+        if self._held is not None:
+            self._held.discard(display)
         return self._running.pop(display, None)
+
+    @property
+    def running(self) -> Mapping[str, RunningDisplay]:
+        """All displays at work, by id."""
+        return self._running
 
     def displays(self) -> dict[str, Display]:
         """Return all displays by id."""
@@ -158,6 +175,32 @@ class DrawingRoom:
         for running in self._running.values():
             running.close()
 
+    @property
+    def is_paused(self) -> bool:
+        """Whether drawing is paused."""
+        return self._held is not None
+
+    def pause(self, *, paused: bool) -> None:
+        """Leave the scene as it is, or draw what came meanwhile.
+
+        As in RViz all is received and placed while it is paused, so that nothing of it is missing
+        afterwards.
+        """
+        if paused and self._held is None:
+            self._held = set()
+        elif not paused and self._held is not None:
+            held, self._held = self._held, None
+            for display in held:
+                running = self._running[display]
+                self._apply(display, running, running.placing.shown)
+
+    def reset(self) -> None:
+        """Forget all messages and transforms; all is subscribed again with the next check."""
+        self.frames.unsubscribe()
+        self._faults.clear()
+        for running in self._running.values():
+            running.begin_anew()
+
     def renew(self) -> None:
         """The fixed frame is another: everything is placed again."""
         for running in self._running.values():
@@ -180,8 +223,9 @@ class DrawingRoom:
         for display, running in shown.items():
             running.display.stand(self._robot)
             running.display.beside(names, display)
-        self._place_robot()
-        self._followed.step(self.frames.lookup, now_ns)
+        if self._held is None:
+            self._place_robot()
+            self._followed.step(self.frames.lookup, now_ns)
         for display, running in shown.items():
             self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
         self._scene.live.draw_waiting()
@@ -217,6 +261,7 @@ class DrawingRoom:
         """Return the states of all displays."""
         return DisplayStates(
             states=tuple(self._state(one, displays, now_ns) for one in displays),
+            fixed_frame=self.frames.fixed_state,
             fixed_frame_trouble=self._robot_trouble,
         )
 
@@ -225,13 +270,15 @@ class DrawingRoom:
         age_s = running.age_s(now_ns)
         more = self._of_meshes(spec.id)
         facts = running.facts(now_ns, shown=displays.is_shown(spec), more=more)
-        remarks = remarks_on(replace(facts, frame=self.frames.offered_for(facts.frame)))
+        frame, hidden_by = self.frames.offered_for(facts.frame), displays.hidden_by(spec)
+        remarks = remarks_on(replace(facts, frame=frame, hidden_by=hidden_by))
         if fault := self._faults.get(spec.id):
             remarks = (Remark(level="error", reason="too_much", sentence=fault), *remarks)
         return DisplayState(
             id=spec.id,
             rate_hz=round(running.rate_hz(now_ns), 1),
             age_s=None if age_s is None else round(age_s),
+            received=running.received,
             lost=running.lost,
             remarks=remarks,
         )
@@ -257,12 +304,17 @@ class DrawingRoom:
         return shown
 
     def _draw(self, display: str, running: RunningDisplay, now_ns: int, at_once_s: float) -> None:
-        drawn = running.drawn
         shown = running.step(self.frames.lookup, now_ns, at_once_s)
         if shown is None:
             return
+        if self._held is None:
+            self._apply(display, running, shown)
+        else:
+            self._held.add(display)
+
+    def _apply(self, display: str, running: RunningDisplay, shown: Shown) -> None:
         try:
-            if shown.drawing is drawn:
+            if shown.drawing is running.drawn:
                 self._scene.live.place(display, shown.poses)
             else:
                 self._scene.live.apply(display, shown.drawing, shown.poses)

@@ -29,7 +29,8 @@ class Facts:
     Attributes:
         spec: Its settings.
         topic: State of its subscription.
-        shown: Whether it and its group are switched on.
+        shown: Whether it and the groups around it are switched on.
+        hidden_by: The outermost of these groups that is not.
         types: Message types that it shows; empty: it subscribes to no topic.
         fitting_kind: The display that shows what is published on the topic; empty: none.
         instead: A published topic that would fit; empty: there is none.
@@ -46,6 +47,7 @@ class Facts:
     spec: DisplaySpec
     topic: SubscriptionState
     shown: bool = True
+    hidden_by: str = ""
     types: tuple[str, ...] = ()
     fitting_kind: str = ""
     instead: str = ""
@@ -110,15 +112,15 @@ def _own_remark(facts: Facts, status: Status) -> Remark:
 
 
 def _hidden(facts: Facts) -> Iterator[Remark]:
-    spec = facts.spec
-    if not spec.enabled:
+    if not facts.spec.enabled:
         return
+    group = facts.hidden_by
     yield _warn(
         "group_off",
-        f'The group "{spec.group}" is hidden as a whole.',
+        f'The group "{group}" is hidden as a whole.',
         Mend(
-            label=f"Show {spec.group}",
-            command={"type": "switch_displays", "group": spec.group, "enabled": True},
+            label=f"Show {group}",
+            command={"type": "switch_displays", "group": group, "enabled": True},
         ),
     )
 

@@ -58,6 +58,11 @@ class RunningDisplay:
         self._placed_ns = 0
 
     @property
+    def shown(self) -> Shown:
+        """What is drawn, and the poses of its groups in the fixed frame."""
+        return self.placing.shown
+
+    @property
     def topics(self) -> tuple[str, ...]:
         """The topics of all roles."""
         if not self.spec.topic:
@@ -137,6 +142,18 @@ class RunningDisplay:
         if fit is None or not fit.latched:
             self.forget()
 
+    @property
+    def received(self) -> int:
+        """Messages on the main topic since it was subscribed."""
+        main = self._subscriptions.get("")
+        return main.received if main else 0
+
+    def begin_anew(self) -> None:
+        """Forget what came and subscribe again with the next check: what is latched comes again."""
+        self.unsubscribe()
+        self.forget()
+        self._bad_message = ""
+
     def forget(self) -> None:
         """Show nothing of what came: it is of another connection."""
         self.display.reset()
@@ -179,7 +196,7 @@ class RunningDisplay:
             types=roles[0].types if roles else (),
             fitting_kind=fitting.KIND if fitting else "",
             instead=self._instead,
-            received=main.received if main else 0,
+            received=self.received,
             silent_s=age_s if age_s is not None and age_s > self._patience_s else None,
             frames=tuple(_first_of_each(self.placing.troubles.values())),
             frame=next((drawing[one].frame for one in self.placing.troubles if one in drawing), ""),

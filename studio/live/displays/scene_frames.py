@@ -11,7 +11,7 @@ from studio.errors import CdrError, FrameError
 from studio.live.displays.clock_watch import CLOCK, ClockWatch
 from studio.live.displays.own_frames import OwnFrames
 from studio.live.topics.request import Request
-from studio.protocol.displays import FrameView, GetTf, TfFrames, TfPose
+from studio.protocol.displays import FixedFrameState, FrameView, GetTf, TfFrames, TfPose
 from studio.ros.columns.transforms import TransformCodec
 from studio.tf.buffer import TransformBuffer
 from studio.tf.transforms import Notice, plain_name
@@ -55,6 +55,7 @@ class SceneFrames:
         self._forgetting = threading.Lock()
         """Both threads may be the first to see another epoch."""
         self._subscriptions: list[Subscription] = []
+        self._clock: ClockWatch | None = None
         self._closed = False
         self._jumped = False
         self._publishers: dict[bytes, str] = {}
@@ -77,9 +78,29 @@ class SceneFrames:
             request = Request(topic, (_TF_TYPE,), latched=static, depth=100, as_known_here=True)
             take = self._taker(static=static)
             self._subscriptions.append(self._source.subscribe(request, take=take))
-        clock = ClockWatch(self._clock_jumped).take
-        self._subscriptions.append(self._source.subscribe(CLOCK, take=clock))
+        self._clock = ClockWatch(self._clock_jumped)
+        self._subscriptions.append(self._source.subscribe(CLOCK, take=self._clock.take))
         return True
+
+    @property
+    def clock_ns(self) -> int | None:
+        """The newest time of /clock; None: nobody publishes it, or none came yet."""
+        if self._clock is None or not self._source.publishers(CLOCK.topic):
+            return None
+        return self._clock.now_ns
+
+    @property
+    def fixed_state(self) -> FixedFrameState:
+        """Whether there is a frame of the fixed frame's name, as RViz's global status has it."""
+        frame = self.fixed
+        names = self._newest().names
+        if frame in names or (frame and frame in self.own.links):
+            return FixedFrameState(frame=frame, level="ok", sentence="")
+        if not names:
+            sentence = "No transforms have come yet, so no frame is known."
+            return FixedFrameState(frame=frame, level="warn", sentence=sentence)
+        sentence = f'There is no frame "{frame[:80]}": choose one of those that are published.'
+        return FixedFrameState(frame=frame, level="error", sentence=sentence)
 
     async def wait_for_first(self) -> None:
         """Wait for what is published of frames, so that the first list has them; not for long."""
@@ -106,6 +127,7 @@ class SceneFrames:
     def unsubscribe(self) -> None:
         """Receive TF no more, and forget what came."""
         subscriptions, self._subscriptions = self._subscriptions, []
+        self._clock = None
         for one in subscriptions:
             one.close()
         self._forget()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.live.connection.topic_kinds import carried_types, kind_for
+from studio.live.connection.topic_kinds import carried_types, kinds_for
 from studio.protocol.displays import TopicView
 
 if TYPE_CHECKING:
@@ -22,6 +22,15 @@ def topic_views(link: WireLink, owns: Callable[[str], str]) -> tuple[TopicView, 
     for name, _ in link.graph.topics():
         if publishers := link.graph.publishers(name):
             types = carried_types(publishers, ())
-            kind = kind_for(name, types) or next((one for one in map(owns, types) if one), "")
-            found.append(TopicView(name=name, types=types, publishers=len(publishers), kind=kind))
+            own = tuple(one for one in map(owns, types) if one)
+            kinds = tuple(dict.fromkeys((*kinds_for(name, types), *own)))
+            found.append(
+                TopicView(
+                    name=name,
+                    types=types,
+                    publishers=len(publishers),
+                    kind=next(iter(kinds), ""),
+                    kinds=kinds,
+                )
+            )
     return tuple(found)

@@ -23,6 +23,7 @@ from studio.live.panels import (
     parameters,
     publishing,
     rates,
+    tool_publishing,
     topics,
 )
 from studio.live.topics.browsers import BrowserTopics
@@ -69,6 +70,7 @@ class RosSystem:
             partial(self.changes.is_followed, "goal_statuses"),
         )
         self.publishing = publishing.Publishing(wire)
+        self.tools = tool_publishing.ToolPublishing(wire, self.goals)
         self.parameters = parameters.NodeParameters(wire)
         self.driving = driving.Driving(wire)
         self.lessons = lessons.CourseDemos(wire, partial(self.changes.changed, "lessons"))
@@ -125,6 +127,7 @@ class RosSystem:
         """End what persons drive and publish who have no control; calls and goals go on."""
         self.driving.release(may_go_on)
         self.publishing.release(may_go_on)
+        self.tools.release(may_go_on)
 
     async def stop(self) -> None:
         """Stop all that pages make robots do: publish zero, cancel goals, end publications.
@@ -137,6 +140,7 @@ class RosSystem:
 
     async def _stop(self) -> None:
         published = self.publishing.stop_all()
+        self.tools.release(lambda _: False)
         stops = (self.driving.stop(published), self.goals.cancel_all())
         # A server that does not answer, or a router that is away, keeps nobody waiting.
         await asyncio.wait([asyncio.create_task(one) for one in stops], timeout=_STOP_S)
@@ -158,6 +162,7 @@ class RosSystem:
             self.goals.let_go(),
             self.publishing.let_go(),
             self.parameters.let_go(),
+            self.tools.let_go(),
         )
 
     async def close(self) -> None:

@@ -4,6 +4,7 @@ import pytest
 
 from studio.live.displays.display_file import FOLDER, DisplayFile, KeptDisplays
 from studio.live.displays.display_list import DisplaySpec, Listening
+from studio.rviz.tools import ToolSpec
 
 SCAN = DisplaySpec(
     "d3",
@@ -14,7 +15,9 @@ SCAN = DisplaySpec(
     listening=Listening(reliable=False, depth=1),
     values={"Alpha": 0.5, "Color": "#ff0000", "Style": "Boxes", "Decay Time": 3, "Axis": True},
 )
-KEPT = KeptDisplays((SCAN,), ("Sensors",), "odom")
+KEPT = KeptDisplays(
+    (SCAN,), ("Sensors",), "odom", (ToolSpec("t1", "SetGoal", "Goal", {"Topic": "/g"}),)
+)
 
 
 def test_what_was_written_is_read_again_for_the_same_entry_only(tmp_path: Path):

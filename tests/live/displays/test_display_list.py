@@ -86,3 +86,88 @@ def test_there_is_an_end_to_adding():
     assert len(displays) == DISPLAYS_MAX
     with pytest.raises(CommandError, match="remove one first"):
         displays.duplicate("d1")
+
+
+def nested() -> DisplayList:
+    """`LaserScan` in none, `Path` in `Nav/Local`, `Map` in `Nav`."""
+    displays = three()
+    for kind, group in (("Path", "Nav/Local"), ("Map", "Nav")):
+        one = next(each for each in displays if each.kind == kind)
+        displays.change(replace(one, group=group))
+    return displays
+
+
+def groups(displays: DisplayList) -> list[str]:
+    return [one.group for one in displays]
+
+
+def test_a_hidden_group_hides_the_groups_that_stand_in_it():
+    displays = nested()
+    displays.switch_group("Nav", shown=False)
+    assert [displays.is_shown(one) for one in displays] == [True, False, False]
+    assert [displays.hidden_by(one) for one in displays] == ["", "Nav", "Nav"]
+    displays.switch_group("Nav", shown=True)
+    displays.switch_group("Nav/Local", shown=False)
+    assert [displays.is_shown(one) for one in displays] == [True, False, True]
+
+
+def test_a_group_goes_into_another_with_all_that_is_in_it_and_stays_hidden():
+    displays = nested()
+    scan = next(iter(displays))
+    displays.change(replace(scan, group="Sensors"))
+    displays.switch_group("Nav/Local", shown=False)
+    displays.regroup("Nav", "Sensors/Nav")
+    assert groups(displays) == ["Sensors", "Sensors/Nav/Local", "Sensors/Nav"]
+    assert displays.groups_off == ("Sensors/Nav/Local",)
+    with pytest.raises(CommandError, match="cannot stand in itself"):
+        displays.regroup("Sensors", "Sensors/Nav/Sensors")
+    with pytest.raises(CommandError, match="7 others at most"):
+        displays.regroup("Sensors", "a/b/c/d/e/f/g")
+    assert displays.groups_off == ("Sensors/Nav/Local",)
+
+
+def test_a_group_that_is_dissolved_leaves_what_was_in_it_where_it_stood():
+    displays = nested()
+    displays.switch_group("Nav/Local", shown=False)
+    displays.regroup("Nav/Local", "")
+    assert groups(displays) == ["", "Nav", "Nav"]
+    assert all(displays.is_shown(one) for one in displays)
+    displays.regroup("Nav", "")
+    assert groups(displays) == ["", "", ""]
+
+
+def test_a_group_is_moved_as_a_whole():
+    displays = nested()
+    displays.move_group("Nav", next(iter(displays)).id)
+    assert names(displays) == ["Path", "Map", "LaserScan"]
+    displays.move_group("Nav", "")
+    assert names(displays) == ["LaserScan", "Path", "Map"]
+    with pytest.raises(CommandError, match="not there any more"):
+        displays.move_group("Nav", "d99")
+
+
+def test_what_was_removed_comes_back_where_it_stood_as_long_as_it_is_known():
+    displays = three()
+    scan, path, grid = (one.id for one in displays)
+    displays.remove(path)
+    displays.remove(grid)
+    displays.put_back(path)
+    displays.put_back(grid)
+    assert names(displays) == ["LaserScan", "Path", "Map"]
+    displays.remove(scan)
+    displays.remove(path)
+    displays.put_back(scan)
+    assert names(displays) == ["LaserScan", "Map"]
+    for _ in range(DISPLAYS_MAX):
+        displays.remove(displays.add("Range").id)
+    with pytest.raises(CommandError, match="too long ago"):
+        displays.put_back(path)
+
+
+def test_all_are_hidden_and_shown_each():
+    displays = nested()
+    displays.switch_group("Nav", shown=False)
+    displays.switch_all(shown=False)
+    assert not any(one.enabled for one in displays)
+    displays.switch_all(shown=True)
+    assert all(displays.is_shown(one) for one in displays)

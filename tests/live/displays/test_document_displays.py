@@ -15,10 +15,12 @@ from studio.protocol.connection import ConnectWire, DisconnectWire
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
+    ArrangeGroup,
     DuplicateDisplay,
     GetTf,
     GetTopics,
     RemoveDisplay,
+    RestoreDisplays,
     SetDisplayProperty,
     SetFixedFrame,
     SwitchDisplays,
@@ -355,6 +357,39 @@ def test_displays_are_set_arranged_copied_and_removed_and_are_there_the_next_tim
             assert [each["name"] for each in listed(again)] == ["Plan", "Plan 2"]
             assert listed(again)[0]["values"]["Alpha"] == 1.0
             assert again.ear.last("live_displays")["groups_off"] == ["Nav"]
+
+    asyncio.run(run())
+
+
+def test_groups_in_groups_are_moved_hidden_removed_and_put_back(tmp_path: Path):
+    async def run() -> None:
+        async with studio("tcp/127.0.0.1:1", tmp_path) as one:
+            for kind in ("Path", "Range", "TF"):
+                await one.do(AddDisplay(kind=kind))
+            await one.do(ArrangeDisplay(display="d1", group=" Nav / Local "))
+            await one.do(ArrangeDisplay(display="d2", group="Nav"))
+            await one.do(ArrangeGroup(group="Nav", before=""))
+            assert [each["id"] for each in listed(one)] == ["d3", "d1", "d2"]
+            await one.do(ArrangeGroup(group="Nav", to="All/Nav", before="d3"))
+            paths = [each["group"] for each in listed(one)]
+            assert paths == ["All/Nav/Local", "All/Nav", ""]
+            await one.do(SwitchDisplays(group="All", enabled=False))
+            await until(lambda: said(one) == ["group_off"])
+            remark = one.ear.last("display_states")["states"][0]["remarks"][0]
+            assert remark["mend"]["command"]["group"] == "All"
+            before = listed(one)
+            await one.do(RemoveDisplay(group="All/Nav"))
+            assert [each["id"] for each in listed(one)] == ["d3"]
+            await one.do(RestoreDisplays(displays=("d1", "d2")))
+            assert listed(one) == before
+            assert one.ear.last("live_displays")["groups_off"] == ["All"]
+            with pytest.raises(CommandError, match="too long ago"):
+                await one.do(RestoreDisplays(displays=("d1",)))
+            await one.do(SwitchDisplays(enabled=True))
+            assert one.ear.last("live_displays")["groups_off"] == []
+            with pytest.raises(CommandError, match="no group"):
+                await one.do(RemoveDisplay())
+            assert len(listed(one)) == 3
 
     asyncio.run(run())
 

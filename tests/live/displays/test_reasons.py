@@ -96,7 +96,11 @@ def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
         ),
         (replace(WELL, stamp_zero=True), "stamp_zero", "time 0"),
         (replace(WELL, statuses=(EMPTY,)), "transparent", "alpha is 0"),
-        (replace(WELL, spec=GROUPED, shown=False), "group_off", "hidden as a whole"),
+        (
+            replace(WELL, spec=GROUPED, shown=False, hidden_by="Sensors"),
+            "group_off",
+            "hidden as a whole",
+        ),
     ],
 )
 def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
@@ -137,7 +141,7 @@ def test_each_reason_is_one_sentence(facts: Facts, reason: str, words: str):
         (replace(WELL, statuses=(mended_by("Filter", ""),)), "Clear Filter"),
         (replace(WELL, statuses=(mended_by("Shape", "Axes"),)), "Set Shape to Axes"),
         (replace(WELL, statuses=(APART,), frame="odom"), "Draw everything in odom"),
-        (replace(WELL, spec=GROUPED, shown=False), "Show Sensors"),
+        (replace(WELL, spec=GROUPED, shown=False, hidden_by="Sensors"), "Show Sensors"),
     ],
 )
 def test_the_click_that_mends_it_is_a_command_as_the_page_sends_it(facts: Facts, label: str):

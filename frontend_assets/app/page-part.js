@@ -1,0 +1,85 @@
+/**
+ * The page's own part of a config file: how its panels stand, the layouts that this person saved,
+ * and what is plotted. Nothing of a file is believed, and no layout of this browser is lost for it.
+ */
+
+/** @import { Arrangement } from "../lib/arrangement.js" */
+
+import { readArrangement } from "../lib/arrangement.js";
+import { isSeries, SERIES_MAX, series, span_s } from "../model/plotting.js";
+import { pagePart } from "../model/rviz-configs.js";
+import { layoutControl } from "../model/view.js";
+import { addLayouts, layoutFile, layoutInUse, ownLayouts, readLayoutFile } from "./layouts.js";
+import { PANELS } from "./panels.js";
+
+const SPAN_LEAST_S = 1;
+const SPAN_MOST_S = 3600;
+
+/** Has files that are saved hold it, and those that are opened bring it. */
+export function followPagePart() {
+  pagePart.told = () => JSON.stringify(toldPart(layoutControl.value?.present() ?? null));
+  pagePart.take = (text) => takePart(text);
+}
+
+/** @param {Arrangement | null} arrangement of the panels now */
+export function toldPart(arrangement) {
+  return {
+    ...(arrangement && { Panels: arrangement }),
+    Layouts: JSON.parse(layoutFile(ownLayouts.value)).layouts,
+    "Layout in use": layoutInUse.value.trim(),
+    Plots: series.value,
+    "Plot span": span_s.value,
+  };
+}
+
+/** @param {string} id of a panel */
+const isKnown = (id) => Object.hasOwn(PANELS, id);
+
+/** @typedef {{arrangement: Arrangement | null, layouts: import("./layouts.js").OwnLayout[], plots: import("../model/plotting.js").Series[] | null, span_s: number | null}} ReadPart */
+
+/** @param {string} text @param {(id: string) => boolean} [known] whether there is such a panel @returns {ReadPart} null: it says nothing that is believed */
+export function readPart(text, known = isKnown) {
+  const told = parsed(text);
+  const arrangement = readArrangement(told.Panels, known)?.arrangement ?? null;
+  const plots = told.Plots;
+  const span = told["Plot span"];
+  return {
+    arrangement,
+    layouts: layoutsOf(told.Layouts, known),
+    plots: Array.isArray(plots) ? plots.filter(isSeries).slice(0, SERIES_MAX).map(plain) : null,
+    span_s: typeof span === "number" && span >= SPAN_LEAST_S && span <= SPAN_MOST_S ? span : null,
+  };
+}
+
+/** @param {{topic: string, path: string}} series */
+const plain = ({ topic, path }) => ({ topic, path });
+
+/** @param {string} text @returns {Record<string, unknown>} */
+function parsed(text) {
+  try {
+    const told = JSON.parse(text);
+    return typeof told === "object" && told !== null ? told : {};
+  } catch {
+    return {};
+  }
+}
+
+/** @param {unknown} layouts @param {(id: string) => boolean} known */
+function layoutsOf(layouts, known) {
+  try {
+    return readLayoutFile(JSON.stringify({ studio_layouts: 1, layouts }), known).layouts;
+  } catch {
+    return [];
+  }
+}
+
+/** @param {string} text */
+function takePart(text) {
+  const { arrangement, layouts, plots, span_s: span } = readPart(text);
+  const known = new Set(ownLayouts.value.map((one) => JSON.stringify(one)));
+  addLayouts(layouts.filter((one) => !known.has(JSON.stringify(one))));
+  if (plots) series.value = plots;
+  if (span) span_s.value = span;
+  if (!arrangement) return;
+  layoutControl.value?.arrange(arrangement);
+}

@@ -1,0 +1,112 @@
+/** Config files of the 3D view by name: open, save, download, and what was shown before. */
+
+/** @import { Command } from "../lib/commands.js" */
+/** @import { MenuItem } from "../lib/ui.js" */
+
+import { commandById } from "../lib/commands.js";
+import { t } from "../lib/i18n.js";
+import { documentId, mayEdit, mayManage } from "../model/connection.js";
+import { isCopy } from "../model/copies.js";
+import { closeDocument } from "../model/requests.js";
+import {
+  configFiles,
+  downloadConfig,
+  openConfigOf,
+  RVIZ,
+  rvizConfig,
+  STUDIO,
+  saveConfig,
+  undoConfig,
+} from "../model/rviz-configs.js";
+import { dialog, isFree, notify } from "../model/view.js";
+
+const onDocument = () => documentId.value !== "" && isFree();
+const mayOpen = () => onDocument() && mayEdit.value && !isCopy.value;
+const maySave = () => onDocument() && mayManage.value;
+
+/** @returns {Command[]} */
+export function rvizCommands() {
+  return [
+    { id: "rviz_open", icon: "open", enabled: mayOpen, run: showOpen },
+    { id: "rviz_save", icon: "disk", enabled: maySave, run: () => void save() },
+    {
+      id: "rviz_save_as",
+      icon: "disk",
+      enabled: maySave,
+      run: () => {
+        dialog.value = { kind: "rviz_save" };
+      },
+    },
+    {
+      id: "rviz_download",
+      icon: "download",
+      enabled: onDocument,
+      run: () => void downloadConfig(RVIZ),
+    },
+    {
+      id: "studio_download",
+      icon: "download",
+      enabled: onDocument,
+      run: () => void downloadConfig(STUDIO),
+    },
+    {
+      id: "rviz_undo",
+      icon: "undo",
+      enabled: () => mayOpen() && rvizConfig.value.undo,
+      run: () => void undoConfig(),
+    },
+  ];
+}
+
+/** @returns {MenuItem[]} for a menu */
+export function rvizItems() {
+  const ids = ["rviz_open", "rviz_save", "rviz_save_as", "rviz_download", "studio_download"];
+  return [...ids, ...(rvizConfig.value.undo ? ["rviz_undo"] : [])].map((id) => {
+    const command = commandById(id);
+    return {
+      label: `${t(`command.${id}`)}${id.endsWith("open") || id.endsWith("as") ? "…" : ""}`,
+      icon: command?.icon ?? "disk",
+      disabled: !command?.enabled?.(),
+      run: () => command?.run(),
+    };
+  });
+}
+
+/** What would be lost is asked about first. */
+function showOpen() {
+  ifSaved(() => {
+    dialog.value = { kind: "rviz_open" };
+  });
+}
+
+/** @param {File} file that was dropped on the page */
+export function takeConfig(file) {
+  ifSaved(() => void openConfigOf(file));
+}
+
+/** @param {() => void} run at once where nothing is unsaved; else once the person says so */
+function ifSaved(run) {
+  const { changed, name } = rvizConfig.value;
+  if (!changed) return run();
+  dialog.value = {
+    kind: "confirm",
+    title: t("rviz.unsaved.title"),
+    text: t("rviz.unsaved.text", { name }),
+    action: t("rviz.unsaved.go_on"),
+    run,
+  };
+}
+
+/** The view is kept with the document; only its file would lack what was changed. */
+export const closeAsking = () => ifSaved(() => void closeDocument());
+
+/** Without a file of this machine it is asked for. */
+async function save() {
+  if (rvizConfig.value.path === "") {
+    const files = await configFiles();
+    if (files) dialog.value = { kind: "rviz_save" };
+    return;
+  }
+  const saved = await saveConfig("");
+  if (saved) notify(t("rviz.saved", { file: saved.path }));
+}

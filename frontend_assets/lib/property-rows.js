@@ -1,0 +1,17 @@
+/** Properties as the rows of a list: the three numbers of a place share one. */
+
+/** @import { PropertyView } from "../types/wire.d.ts" */
+
+/**
+ * @param {readonly PropertyView[]} properties in their order
+ * @returns {{label: string, properties: PropertyView[]}[]}
+ */
+export function propertyRows(properties) {
+  /** @type {Map<string, PropertyView[]>} */
+  const rows = new Map();
+  for (const one of properties) {
+    const label = one.name.replace(/\/[XYZ]$/, "");
+    rows.set(label, [...(rows.get(label) ?? []), one]);
+  }
+  return [...rows].map(([label, own]) => ({ label, properties: own }));
+}

@@ -1,0 +1,149 @@
+/**
+ * Config files of the 3D view, as RViz has them: the one that is open, what can be asked of it, and
+ * the options that all views of the document have in common.
+ */
+
+/** @import { LossView, RvizConfigState, RvizFiles } from "../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { computed, signal } from "vendor/preact.js";
+import { saveAsFile } from "../lib/files.js";
+import { latestSender } from "../lib/latest.js";
+import { ask } from "./requests.js";
+import { dialog } from "./view.js";
+import { shownView, viewport } from "./viewport.js";
+import { subscribe } from "./wire.js";
+
+/** @type {RvizConfigState} */
+const NONE = { type: "rviz_config_state", name: "", path: "", changed: false, undo: false };
+/** @type {Signal<RvizConfigState>} */
+export const rvizConfig = signal(NONE);
+/** With a dot behind it when saving would change it; empty: none is open. */
+export const configName = computed(() => {
+  const { name, changed } = rvizConfig.value;
+  return name && `${name}${changed ? " •" : ""}`;
+});
+
+subscribe("rviz_config_state", (event) => {
+  rvizConfig.value = event;
+});
+
+export const RVIZ = ".rviz";
+export const STUDIO = ".studio.yaml";
+/** Bytes; the studio reads no larger one. */
+export const CONFIG_LARGEST = 900_000;
+
+/** @param {string} name @returns {boolean} whether a file of this name is a config */
+export const isConfig = (name) => name.endsWith(RVIZ) || name.endsWith(STUDIO);
+
+/** What is done with the page's own part of a file, and what tells it: the frame around the panels knows. */
+export const pagePart = {
+  /** @type {() => string} */
+  told: () => "",
+  /** @type {(text: string) => void} */
+  take: () => {},
+};
+
+/** @param {string} path @returns {Promise<boolean>} */
+export async function openConfigFile(path) {
+  return takeOpened(await ask({ type: "open_rviz_file", path }));
+}
+
+/** @param {File} file that this browser has @returns {Promise<boolean>} */
+export async function openConfigOf(file) {
+  return takeOpened(
+    await ask({ type: "open_rviz_text", name: file.name, text: await file.text() }),
+  );
+}
+
+/** @param {import("./wire.js").Answer | null} answer @returns {boolean} */
+function takeOpened(answer) {
+  if (answer?.type !== "rviz_config_opened") return false;
+  const { view, page } = answer;
+  if (view) viewport.value?.useView({ kind: view.kind, values: view.values }, true);
+  if (page) pagePart.take(page);
+  dialog.value = { kind: "rviz_opened", opened: answer };
+  return true;
+}
+
+/** @returns {import("../types/wire.d.ts").ViewValues | null} of this page */
+function viewNow() {
+  const view = viewport.value?.getView() ?? shownView.value;
+  return view && { kind: view.kind, name: "", values: view.values };
+}
+
+/** @param {string} name @returns {string} the part of the page, for files that hold it */
+const partFor = (name) => (name.endsWith(STUDIO) ? pagePart.told() : "");
+
+/**
+ * @param {string} path empty: the file that is open
+ * @param {{replace?: boolean}} [options]
+ * @returns {Promise<{path: string, isThere: boolean} | null>} null: it was refused, which is said
+ */
+export async function saveConfig(path, { replace = false } = {}) {
+  const page = partFor(path || rvizConfig.value.name);
+  const view = viewNow();
+  const answer = await ask({ type: "save_rviz_file", path, replace, page, ...(view && { view }) });
+  if (answer?.type !== "rviz_file_saved") return null;
+  return { path: answer.path, isThere: answer.is_there };
+}
+
+/** @param {".rviz" | ".studio.yaml"} ending have the browser save it */
+export async function downloadConfig(ending) {
+  const view = viewNow();
+  const page = ending === STUDIO ? pagePart.told() : "";
+  const answer = await ask({ type: "get_rviz_text", page, ...(view && { view }) });
+  if (answer?.type !== "rviz_text") return;
+  const stem = answer.name.replace(/(\.studio)?\.(rviz|yaml)$/, "");
+  saveAsFile(`${stem}${ending}`, answer.text, "application/yaml");
+}
+
+export const undoConfig = () => ask({ type: "undo_rviz_config" });
+
+/** @param {string} [forget] path that is taken out of those opened lately @returns {Promise<RvizFiles | null>} */
+export async function configFiles(forget) {
+  const answer = await ask(
+    forget ? { type: "forget_rviz_file", path: forget } : { type: "list_rviz_files" },
+  );
+  return answer?.type === "rviz_files" ? answer : null;
+}
+
+/** @type {ReturnType<typeof latestSender<{background?: string, frame_rate?: number}>>} */
+const optionSender = latestSender((options) => ask({ type: "set_view_options", ...options }));
+
+/** @param {string} background as `#rrggbb`; empty: that of the theme */
+export const setBackground = (background) => optionSender.push({ background });
+/** @param {number} frame_rate pictures per second at most; 0: as many as there can be */
+export const setFrameRate = (frame_rate) => ask({ type: "set_view_options", frame_rate });
+
+/**
+ * What of a file is only kept, by reason, so that each is one sentence.
+ *
+ * @param {readonly LossView[]} losses
+ * @returns {{reason: LossView["reason"], whats: string[]}[]} classes, with their properties where these are meant
+ */
+export function lossGroups(losses) {
+  /** @type {Map<LossView["reason"], string[]>} */
+  const groups = new Map();
+  for (const { reason, what, names } of losses) {
+    const short = what.replace(/^(rviz_default_plugins|rviz_common|rviz)\//, "");
+    const said = names.length > 0 ? `${short}: ${names.join(", ")}` : short;
+    groups.set(reason, [...(groups.get(reason) ?? []), said]);
+  }
+  return REASONS.flatMap((reason) => {
+    const whats = groups.get(reason);
+    return whats ? [{ reason, whats }] : [];
+  });
+}
+
+/** The most telling first. @type {LossView["reason"][]} */
+const REASONS = [
+  "no_display",
+  "no_value",
+  "no_tool",
+  "no_view",
+  "no_panel",
+  "no_property",
+  "no_option",
+  "window",
+];

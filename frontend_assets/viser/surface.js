@@ -1,0 +1,242 @@
+/** @import { Door } from "./door.js" */
+/** @import { RobotView } from "./robot.js" */
+/** @import { Matrix4, Object3D, Pointing, Vector3 } from "./viser.d.ts" */
+
+import { fromHalf, isSeen } from "./extent.js";
+import { pick, rayThrough } from "./picking.js";
+
+const LIVE = "/live/";
+const FOLLOWED = "/live/followed/";
+const FLOOR = "/grid";
+/** Points and lines are met so near, px. */
+const NEAR_PX = 4;
+/** Words face the eye. */
+const NO_SURFACE = new Set(["LabelMessage"]);
+
+/** @typedef {ArrayLike<number>} Numbers */
+/** @typedef {{ origin: Vector3, direction: Vector3 }} Ray the direction has the length 1 */
+/** How wide a pixel is, m: `base + slope * distance`. @typedef {{ base: number, slope: number }} PixelSize */
+/**
+ * What is seen at a place: in the scene, how far from the eye, and of what. `display` is the id of a
+ * display, `part` which of its points, segments or solids that is, if it is one of many.
+ *
+ * @typedef {object} Surface
+ * @property {Vector3} point
+ * @property {number} distance m
+ * @property {string | null} link
+ * @property {string | null} display null, and no link: the floor
+ * @property {string} node its name in the scene
+ * @property {number | null} part
+ */
+
+/**
+ * The nearest thing under the mouse, as RViz finds it by depth: links, and all that displays draw,
+ * single points and thin lines too. Between the lines of a grid there is nothing.
+ */
+export class Surfaces {
+  #door;
+  #robot;
+
+  /** @param {Door} door @param {RobotView} robot */
+  constructor(door, robot) {
+    this.#door = door;
+    this.#robot = robot;
+  }
+
+  /** @param {number} x @param {number} y @returns {Surface | null} */
+  at(x, y) {
+    const ray = rayThrough(this.#door, x, y);
+    const beside = rayThrough(this.#door, x + 1, y);
+    if (!ray || !beside) return null;
+    const pixel = {
+      base: ray.origin.distanceTo(beside.origin),
+      slope: ray.direction.distanceTo(beside.direction),
+    };
+    const nodes = new Set(Object.values(this.#door.mutable?.nodeRefFromName ?? {}));
+    /** @type {Surface | null} */
+    let nearest = this.#link(ray, x, y);
+    for (const [name, node] of Object.entries(window.__viserSceneTree?.getState() ?? {})) {
+      const object = isDrawn(name) ? this.#door.node(name) : undefined;
+      if (!node || !object || NO_SURFACE.has(node.message.type) || !isSeen(object)) continue;
+      const hit = this.#hit(node.message, object, ray, pixel, nodes);
+      if (!hit || (nearest && hit.distance >= nearest.distance)) continue;
+      const display = name.startsWith(LIVE) ? decodeURIComponent(name.split("/")[2] ?? "") : null;
+      const point = ray.origin.clone().addScaledVector(ray.direction, hit.distance);
+      nearest = { link: null, display, node: name, ...hit, point: hit.point ?? point };
+    }
+    return nearest;
+  }
+
+  /** @param {Ray} ray @param {number} x @param {number} y @returns {Surface | null} */
+  #link(ray, x, y) {
+    const found = pick(this.#door, this.#robot, x, y);
+    if (!found) return null;
+    const { link, point } = found;
+    const distance = point.distanceTo(ray.origin);
+    return { point, distance, link, display: null, node: `/robot/${link}`, part: null };
+  }
+
+  /** @param {import("./viser.d.ts").Message} message @param {Object3D} object @param {Ray} ray @param {PixelSize} pixel
+   * @param {ReadonlySet<Object3D | undefined>} nodes @returns {{ distance: number, part: number | null, point?: Vector3 } | null} */
+  #hit(message, object, ray, pixel, nodes) {
+    const props = /** @type {Record<string, any>} */ (message.props ?? {});
+    const own = inFrame(ray, object.matrixWorld);
+    if (message.type === "PointCloudMessage")
+      return placed(nearestPoint(props.points, own, pixel, (props.point_size ?? 0) / 2), object);
+    if (message.type === "LineSegmentsMessage")
+      return placed(nearestSegment(props.points, own, pixel), object);
+    if (message.type === "GridMessage") return lineOfGrid(props.cell_size, own, pixel);
+    return this.#mesh(object, ray, nodes);
+  }
+
+  /** @param {Object3D} object @param {Ray} ray @param {ReadonlySet<Object3D | undefined>} nodes
+   * @returns {{ distance: number, part: number | null } | null} */
+  #mesh(object, ray, nodes) {
+    const camera = this.#door.mutable?.camera;
+    if (!camera) return null;
+    /** @type {Pointing} */
+    const pointing = { ray, near: 0, far: Number.POSITIVE_INFINITY, camera, params: {} };
+    /** @type {import("./viser.d.ts").Hit[]} */
+    const hits = [];
+    const visit = (/** @type {Object3D} */ one) => {
+      if (one.isMesh && one.geometry) one.raycast(pointing, hits);
+      // A node below has its own turn.
+      for (const child of one.children) if (child.visible && !nodes.has(child)) visit(child);
+    };
+    visit(object);
+    const [first] = hits.sort((one, other) => one.distance - other.distance);
+    return first ? { distance: first.distance, part: first.instanceId ?? null } : null;
+  }
+}
+
+/** @param {string} name of a node */
+function isDrawn(name) {
+  return name === FLOOR || (name.startsWith(LIVE) && !name.startsWith(FOLLOWED));
+}
+
+/** A ray as a frame of the scene sees it; frames of displays are not scaled. @param {Ray} ray @param {Matrix4} matrix @returns {Ray} */
+function inFrame({ origin, direction }, matrix) {
+  const back = matrix.clone().invert();
+  return {
+    origin: origin.clone().applyMatrix4(back),
+    direction: direction.clone().transformDirection(back),
+  };
+}
+
+/** @param {{ distance: number, part: number, at: [number, number, number] } | null} hit @param {Object3D} object
+ * @returns {{ distance: number, part: number, point: Vector3 } | null} */
+function placed(hit, object) {
+  if (!hit) return null;
+  const point = object.position
+    .clone()
+    .set(...hit.at)
+    .applyMatrix4(object.matrixWorld);
+  return { distance: hit.distance, part: hit.part, point };
+}
+
+/**
+ * The point nearest to the eye of those that a ray meets.
+ *
+ * @param {Numbers | undefined} points (N, 3)
+ * @param {Ray} ray in their frame
+ * @param {PixelSize} pixel
+ * @param {number} radius m, of each point
+ * @returns {{ distance: number, part: number, at: [number, number, number] } | null}
+ */
+export function nearestPoint(points, { origin: o, direction: d }, pixel, radius) {
+  if (!points) return null;
+  const numbers = readable(points);
+  let [nearest, part] = [Number.POSITIVE_INFINITY, -1];
+  for (let at = 0; at < numbers.length; at += 3) {
+    const [x, y, z] = [
+      /** @type {number} */ (numbers[at]) - o.x,
+      /** @type {number} */ (numbers[at + 1]) - o.y,
+      /** @type {number} */ (numbers[at + 2]) - o.z,
+    ];
+    const along = x * d.x + y * d.y + z * d.z;
+    if (!(along > 0 && along < nearest)) continue;
+    const reach = Math.max(radius, NEAR_PX * (pixel.base + pixel.slope * along));
+    if (x * x + y * y + z * z - along * along > reach * reach) continue;
+    [nearest, part] = [along, at / 3];
+  }
+  return part < 0 ? null : { distance: nearest, part, at: tripleAt(numbers, part) };
+}
+
+/**
+ * The place of a line that a ray meets; of several the nearest to the eye.
+ *
+ * @param {Numbers | undefined} points (N, 2, 3)
+ * @param {Ray} ray in their frame
+ * @param {PixelSize} pixel
+ * @returns {{ distance: number, part: number, at: [number, number, number] } | null}
+ */
+export function nearestSegment(points, ray, pixel) {
+  if (!points) return null;
+  const numbers = readable(points);
+  /** @type {{ distance: number, part: number, at: [number, number, number] } | null} */
+  let nearest = null;
+  for (let part = 0; 6 * part < numbers.length; part += 1) {
+    const [begin, end] = [tripleAt(numbers, 2 * part), tripleAt(numbers, 2 * part + 1)];
+    const found = approach(begin, end, ray);
+    if (!found || (nearest && found.along >= nearest.distance)) continue;
+    if (found.apart > NEAR_PX * (pixel.base + pixel.slope * found.along)) continue;
+    nearest = { distance: found.along, part, at: found.at };
+  }
+  return nearest;
+}
+
+/** How near a ray comes to a line, where, and how far from the eye. @param {[number, number, number]} begin
+ * @param {[number, number, number]} end @param {Ray} ray */
+function approach(begin, end, { origin: o, direction: d }) {
+  const way = end.map((part, axis) => part - /** @type {number} */ (begin[axis]));
+  const from = [begin[0] - o.x, begin[1] - o.y, begin[2] - o.z];
+  const ray = [d.x, d.y, d.z];
+  const [length2, slant] = [dot(way, way), dot(way, ray)];
+  const across2 = length2 - slant * slant;
+  const [fromWay, fromRay] = [dot(from, way), dot(from, ray)];
+  // Seen end-on, its nearer end.
+  const nearEnd = slant < 0 ? 1 : 0;
+  const wanted = across2 > 1e-12 * length2 ? (slant * fromRay - fromWay) / across2 : nearEnd;
+  const share = Math.min(Math.max(wanted, 0), 1);
+  const at = /** @type {[number, number, number]} */ (
+    begin.map((part, axis) => part + share * /** @type {number} */ (way[axis]))
+  );
+  const there = from.map((part, axis) => part + share * /** @type {number} */ (way[axis]));
+  const along = dot(there, ray);
+  if (!(along > 0)) return null;
+  return { at, along, apart: Math.sqrt(Math.max(0, dot(there, there) - along * along)) };
+}
+
+/** @param {readonly number[]} one @param {readonly number[]} other */
+const dot = (one, other) =>
+  one.reduce((sum, part, axis) => sum + part * /** @type {number} */ (other[axis]), 0);
+
+/** Where a ray meets a line of a grid on the xy plane. @param {number} cell m @param {Ray} ray @param {PixelSize} pixel
+ * @returns {{ distance: number, part: null } | null} */
+export function lineOfGrid(cell, { origin: o, direction: d }, pixel) {
+  const distance = -o.z / d.z;
+  if (!(distance > 0) || !Number.isFinite(distance)) return null;
+  const off = (/** @type {number} */ part) => Math.abs(part - cell * Math.round(part / cell));
+  const reach = NEAR_PX * (pixel.base + pixel.slope * distance);
+  const isMet = Math.min(off(o.x + distance * d.x), off(o.y + distance * d.y)) <= reach;
+  return isMet ? { distance, part: null } : null;
+}
+
+/** @param {Numbers} numbers @returns {Numbers} those of half precision as others */
+function readable(numbers) {
+  if (!(numbers instanceof Uint16Array)) return numbers;
+  let whole = HALVES.get(numbers);
+  if (!whole) {
+    whole = Float32Array.from(numbers, fromHalf);
+    HALVES.set(numbers, whole);
+  }
+  return whole;
+}
+/** @type {WeakMap<Uint16Array, Float32Array>} */
+const HALVES = new WeakMap();
+
+/** @param {Numbers} numbers @param {number} row @returns {[number, number, number]} */
+function tripleAt(numbers, row) {
+  const part = (/** @type {number} */ axis) => numbers[3 * row + axis] ?? Number.NaN;
+  return [part(0), part(1), part(2)];
+}

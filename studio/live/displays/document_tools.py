@@ -1,0 +1,182 @@
+"""DocumentTools: the tools of a document's 3D view, and what is asked of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import ToolError
+from studio.protocol.commands import Commands, OnCopies, Scope
+from studio.protocol.listeners import LastSent
+from studio.protocol.tools import (
+    AddTool,
+    GetToolKinds,
+    RemoveTool,
+    RenameTool,
+    SetToolProperty,
+    ToolKinds,
+    ToolKindView,
+    Tools,
+    ToolView,
+)
+from studio.rviz.tools import FRAME, TOOL_KINDS, ToolList, kind_of
+from studio.tf.rotations import compose
+from studio.tf.transforms import plain_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.live.displays.scene_frames import SceneFrames
+    from studio.protocol.listeners import Audience
+    from studio.protocol.tools import UseTool
+    from studio.rviz.tools import ToolKind, ToolSpec
+
+FIXED_FRAME: Final = "<Fixed Frame>"
+"""What pages and RViz write for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ToolUse:
+    """What a tool is to send.
+
+    Attributes:
+        tool: The tool.
+        frame: The frame of the message.
+        wxyz: Orientation in that frame, of length 1.
+        xyz: Place in that frame, m.
+    """
+
+    tool: ToolSpec
+    frame: str
+    wxyz: tuple[float, float, float, float]
+    xyz: tuple[float, float, float]
+
+
+class DocumentTools:
+    """Changes the list of tools; everybody is sent the whole of it.
+
+    Args:
+        audience: Is sent the tools.
+        changed: Called after each change.
+    """
+
+    def __init__(self, audience: Audience, changed: Callable[[], object]) -> None:
+        self._changed = changed
+        self.list = ToolList()
+        self._sent = LastSent[Tools](audience)
+
+    @property
+    def kept(self) -> tuple[ToolSpec, ...]:
+        """All that is kept of them."""
+        return tuple(self.list)
+
+    def restore(self, tools: Iterable[ToolSpec]) -> None:
+        """Have these tools; none: RViz's first set."""
+        self.list.restore(tools)
+        self._sent.send(self.event())
+
+    def mirror(self, others: tuple[ToolSpec, ...]) -> None:
+        """Have the tools that another document has."""
+        if [_content(one) for one in others] != [_content(one) for one in self.list]:
+            self.list.restore(others)
+            self._tell()
+
+    def event(self) -> Tools:
+        """Return all tools as pages receive them."""
+        return Tools(tools=tuple(map(_view, self.list)))
+
+    def kinds(self, command: GetToolKinds) -> ToolKinds:
+        """Return the kinds of tools."""
+        return ToolKinds(request=command.request, kinds=tuple(map(_kind_view, TOOL_KINDS.values())))
+
+    def add(self, command: AddTool) -> None:
+        """Add one."""
+        self.list.add(command.kind, command.name.strip())
+        self._tell()
+
+    def remove(self, command: RemoveTool) -> None:
+        """Take one away."""
+        self.list.remove(command.tool)
+        self._tell()
+
+    def rename(self, command: RenameTool) -> None:
+        """Give one another name."""
+        self.list.rename(command.tool, command.name)
+        self._tell()
+
+    def set_property(self, command: SetToolProperty) -> None:
+        """Change a property."""
+        value = command.value
+        if command.name == FRAME and isinstance(value, str):
+            value = "" if value == FIXED_FRAME else plain_name(value.strip())
+        self.list.set(command.tool, command.name, value)
+        self._tell()
+
+    def use(self, command: UseTool, frames: SceneFrames) -> ToolUse:
+        """Return what a tool is to send when it was pointed at a place of the fixed frame.
+
+        Raises:
+            ToolError: The tool publishes nothing, or there is no fixed frame, or another one.
+            FrameError: Nothing connects the tool's frame with the fixed frame.
+        """
+        tool = self.list.get(command.tool)
+        if not kind_of(tool.kind).message_type:
+            raise ToolError(f"{tool.name} publishes nothing.")
+        if command.fixed_frame != frames.chosen:
+            raise ToolError("The fixed frame was changed meanwhile: point at the place again.")
+        fixed = frames.fixed
+        if not fixed:
+            raise ToolError("There is no fixed frame: choose one in the 3D view.")
+        half_rad = command.yaw / 2
+        pose = (math.cos(half_rad), 0.0, 0.0, math.sin(half_rad))
+        xyz = (command.x, command.y, command.z)
+        frame = str(tool.value(FRAME)) or fixed
+        if frame == fixed:
+            return ToolUse(tool, fixed, pose, xyz)
+        frame_from_fixed = frames.buffer.fixed_from(frame, fixed)
+        placed = compose((*frame_from_fixed.wxyz, *frame_from_fixed.xyz), (*pose, *xyz))
+        return ToolUse(tool, frame, placed[:4], placed[4:])
+
+    def _tell(self) -> None:
+        self._sent.send(self.event())
+        self._changed()
+
+
+def _content(tool: ToolSpec) -> tuple[str, str, dict[str, object]]:
+    return tool.kind, tool.name, dict(tool.values)
+
+
+def _view(tool: ToolSpec) -> ToolView:
+    kind = kind_of(tool.kind)
+    return ToolView(
+        id=tool.id,
+        kind=tool.kind,
+        name=tool.name,
+        icon=kind.icon,
+        key=kind.key,
+        publishes=kind.message_type,
+        values={one.name: tool.value(one.name) for one in kind.properties},
+    )
+
+
+def _kind_view(kind: ToolKind) -> ToolKindView:
+    from studio.live.displays.catalogue_views import property_view  # noqa: PLC0415 - imports all
+
+    return ToolKindView(
+        kind=kind.kind,
+        name=kind.name,
+        doc=kind.doc,
+        icon=kind.icon,
+        properties=tuple(map(property_view, kind.properties)),
+    )
+
+
+COMMANDS: Final = Commands[DocumentTools](Scope.DOCUMENT)
+COMMANDS.controller(AddTool, lambda tools, c, _: tools.add(c), on_copies=OnCopies.REFUSED)
+COMMANDS.controller(RemoveTool, lambda tools, c, _: tools.remove(c), on_copies=OnCopies.REFUSED)
+COMMANDS.controller(RenameTool, lambda tools, c, _: tools.rename(c), on_copies=OnCopies.REFUSED)
+COMMANDS.controller(
+    SetToolProperty, lambda tools, c, _: tools.set_property(c), on_copies=OnCopies.REFUSED
+)
+COMMANDS.viewer(GetToolKinds, lambda tools, c, _: tools.kinds(c))

@@ -1,0 +1,475 @@
+"""RvizConfigs: `.rviz` files of a document, to its displays and back."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import os
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Protocol
+
+from msgspec import structs
+
+from studio.debounce import Debouncer
+from studio.errors import CommandError, NotAllowedError, NotSavedError, RvizConfigError
+from studio.files import is_file, is_folder, is_there, write_whole
+from studio.live.displays.display_file import KeptDisplays, OpenedConfig
+from studio.live.displays.display_list import DisplaySpec, Listening
+from studio.packages.recent import RecentFiles
+from studio.packages.roots import package_folder_of
+from studio.protocol.commands import Commands, Limits, OnCopies, Scope
+from studio.protocol.listeners import LastSent
+from studio.protocol.roles import Role
+from studio.protocol.rviz_configs import (
+    CloseRvizConfig,
+    ForgetRvizFile,
+    GetRvizText,
+    ListRvizFiles,
+    LossView,
+    OpenRvizFile,
+    OpenRvizText,
+    RvizConfigOpened,
+    RvizConfigState,
+    RvizFileEntry,
+    RvizFiles,
+    RvizFileSaved,
+    RvizText,
+    SaveRvizFile,
+    SetViewOptions,
+    UndoRvizConfig,
+    ViewValues,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from studio.live.displays.document_displays import DocumentDisplays
+    from studio.packages.roots import ServedRoots
+    from studio.protocol import Event
+    from studio.protocol.listeners import Audience, Listener
+    from studio.rviz.config import RvizConfig
+    from studio.rviz.config_displays import ConfigDisplay, Loss
+
+ENDINGS: Final = (".rviz", ".studio.yaml")
+"""Of RViz's files, and of those that hold the studio's panels, too."""
+_RECENT: Final = "recent_rviz.json"
+_QUIET_S: Final = 0.3
+_LISTED_MAX: Final = 200
+_WALKED_MAX: Final = 2000
+"""Folders that are looked into for config files."""
+
+
+class ConfigFolders(Protocol):
+    """The folders of a document."""
+
+    @property
+    def entry(self) -> Path:
+        """The robot's file."""
+        ...
+
+    @property
+    def served(self) -> ServedRoots:
+        """The folders that may be read and written."""
+        ...
+
+    def resolve_uri(self, uri: str) -> Path:
+        """Return the file of a URI; reads the disk, thread-safe.
+
+        Raises:
+            PackageError: It names no file that may be read.
+        """
+        ...
+
+
+class RvizConfigs:
+    """Opens and saves `.rviz` files; what fails leaves all as it was.
+
+    Args:
+        displays: Those of the document.
+        folders: Where files are.
+        data_folder: Remembers which were opened.
+        audience: Is sent which file is open, and whether it is changed.
+    """
+
+    def __init__(
+        self,
+        displays: DocumentDisplays,
+        folders: ConfigFolders,
+        data_folder: Path,
+        audience: Audience,
+    ) -> None:
+        self._displays, self._folders = displays, folders
+        self._recent = RecentFiles(data_folder, _RECENT)
+        self._state = LastSent[RvizConfigState](audience)
+        self._before: KeptDisplays | None = None
+        self._after: KeptDisplays | None = None
+        self._checking = Debouncer(self._check, _QUIET_S)
+        displays.on_change = self._checking.trigger
+
+    def events(self) -> Iterable[Event]:
+        """Yield the events for a new page."""
+        none = RvizConfigState(name="", path="", changed=False, undo=False)
+        yield self._state.event or none
+        if self._state.event is None and self._displays.kept.config is not None:
+            self._checking.trigger()
+
+    async def open_path(self, path: Path) -> RvizConfigOpened:
+        """Show a file that the command line names, wherever it is.
+
+        Raises:
+            RvizConfigError: It cannot be read, or is no such file.
+        """
+
+        def text() -> str:
+            try:
+                return path.read_bytes().decode("utf-8")
+            except (OSError, UnicodeDecodeError) as error:
+                raise RvizConfigError(str(error), name=str(path)) from error
+
+        return await self._open(await asyncio.to_thread(text), path.name, str(path))
+
+    async def open_file(self, command: OpenRvizFile, who: Listener) -> RvizConfigOpened:
+        """Show a file below the folders that may be read.
+
+        Raises:
+            NotAllowedError: Only presenters read files.
+            PackageError: It leads out of these folders, or cannot be read.
+            RvizConfigError: It is no such file.
+        """
+        if not who.role.includes(Role.PRESENTER):
+            raise NotAllowedError(who.role, "open a file of this machine")
+        data, path = await asyncio.to_thread(self._read, command.path)
+        try:
+            text = data.decode("utf-8")
+        except UnicodeDecodeError as error:
+            raise RvizConfigError("it is no text in UTF-8", name=path.name) from error
+        return await self._open(text, path.name, str(path), command.request)
+
+    async def open_text(self, command: OpenRvizText) -> RvizConfigOpened:
+        """Show a file that a browser has.
+
+        Raises:
+            RvizConfigError: It is no such file.
+        """
+        return await self._open(command.text, command.name, "", command.request)
+
+    async def text(self, command: GetRvizText) -> RvizText:
+        """Return the text of a file with all that is shown."""
+        text = await self._written(command.view, command.page)
+        return RvizText(request=command.request, name=self._name, text=text)
+
+    async def save(self, command: SaveRvizFile) -> RvizFileSaved:
+        """Write a file with all that is shown.
+
+        Raises:
+            CommandError: No path is given, and no file was opened.
+            PackageError: It leads out of the folders that may be written.
+            NotSavedError: The disk refuses it.
+        """
+        path = self._target(command.path)
+        config = self._displays.kept.config
+        own = config is not None and config.path == str(path)
+        if is_there(path) and not (own or command.replace):
+            return RvizFileSaved(request=command.request, path=str(path), is_there=True)
+        text = await self._written(command.view, command.page)
+        await asyncio.to_thread(_write, path, text.encode("utf-8"))
+        await self._take_saved(text, path)
+        return RvizFileSaved(request=command.request, path=str(path), is_there=False)
+
+    async def undo(self, _: UndoRvizConfig) -> None:
+        """Show what was shown before the last file.
+
+        Raises:
+            CommandError: Something was changed since.
+        """
+        before = self._before
+        if before is None or self._displays.kept != self._after:
+            raise CommandError("What was shown before cannot be brought back any more.")
+        self._before = self._after = None
+        self._displays.replace_all(before)
+        await self._checked_now()
+        await self._displays.connect_if_needed()
+
+    async def close_config(self, _: CloseRvizConfig) -> None:
+        """Forget the file; what is shown stays."""
+        self._displays.keep_beside(config=None)
+        await self._checked_now()
+
+    def set_options(self, command: SetViewOptions) -> None:
+        """Change background or frame rate."""
+        changes: dict[str, str | int] = {}
+        if command.background is not None:
+            changes["background"] = command.background.lower()
+        if command.frame_rate is not None:
+            changes["frame_rate"] = command.frame_rate
+        self._displays.keep_beside(**changes)
+
+    async def files(self, command: ListRvizFiles | ForgetRvizFile) -> RvizFiles:
+        """Return the files opened lately, and those of the robot's packages."""
+        if isinstance(command, ForgetRvizFile):
+            self._recent.forget(command.path)
+        files, folder = await asyncio.to_thread(self._listed)
+        return RvizFiles(request=command.request, files=files, folder=folder)
+
+    async def close(self) -> None:
+        """Work no more."""
+        await self._checking.close()
+
+    async def _open(self, text: str, name: str, path: str, request: int = 0) -> RvizConfigOpened:
+        try:
+            config, losses = await asyncio.to_thread(_read_text, text)
+        except RvizConfigError as error:
+            raise RvizConfigError(error.reason, error.line, name) from error
+        before = self._displays.kept
+        kept = _kept_of(config, before, OpenedConfig(name, path))
+        self._displays.replace_all(await asyncio.to_thread(_as_clean, kept))
+        self._before, self._after = before, self._displays.kept
+        if path:
+            self._recent.note(path, name, {}, datetime.now(UTC).timestamp())
+        await self._checked_now()
+        await self._displays.connect_if_needed()
+        return _opened(config, losses, name, request)
+
+    def _read(self, path: str) -> tuple[bytes, Path]:
+        from studio.rviz.config_text import SIZE_LIMIT_BYTES  # noqa: PLC0415 - imports all
+
+        found = self._found(path)
+        return self._folders.served.read(found, SIZE_LIMIT_BYTES), found
+
+    def _found(self, path: str) -> Path:
+        if "://" in path:
+            return self._folders.resolve_uri(path)
+        return self._folders.served.resolve(self._folders.entry.parent / path)
+
+    def _target(self, wanted: str) -> Path:
+        config = self._displays.kept.config
+        wanted = wanted.strip() or (config.path if config else "")
+        if not wanted:
+            raise CommandError("No file was opened yet: name the one to write.")
+        if not wanted.endswith(ENDINGS):
+            wanted += ENDINGS[0]
+        path = self._folders.served.resolve(self._folders.entry.parent / wanted)
+        if not is_folder(path.parent):
+            raise NotSavedError(str(path), "there is no such folder; name one that is there")
+        if not self._folders.served.may_write(path):
+            raise NotSavedError(str(path), "it may only be read here; name another")
+        return path
+
+    @property
+    def _name(self) -> str:
+        config = self._displays.kept.config
+        return config.name if config else f"{self._folders.entry.name.split('.')[0]}{ENDINGS[0]}"
+
+    async def _written(self, view: ViewValues | None, page: str = "") -> str:
+        kept, root = self._displays.kept, self._displays.fixed_frame_in_use
+        return await asyncio.to_thread(_text_of, kept, root, view, page)
+
+    async def _take_saved(self, text: str, path: Path) -> None:
+        """From now on this is the file that is open."""
+        config, _ = await asyncio.to_thread(_read_text, text)
+        opened = OpenedConfig(path.name, str(path), dict(config.groups), config.rest, _digest(text))
+        self._displays.keep_beside(config=opened)
+        self._recent.note(str(path), path.name, {}, datetime.now(UTC).timestamp())
+        await self._checked_now()
+
+    async def _checked_now(self) -> None:
+        self._checking.cancel()
+        await self._check()
+
+    async def _check(self) -> None:
+        """Send which file is open, and whether saving would change it."""
+        kept = self._displays.kept
+        config = kept.config
+        changed = False
+        if config is not None:
+            text = await self._written(None)
+            changed = config.digest != _digest(text)
+        undo = self._before is not None and self._displays.kept == self._after
+        if not undo:
+            self._before = self._after = None
+        self._state.send(
+            RvizConfigState(
+                name=config.name if config else "",
+                path=config.path if config else "",
+                changed=changed,
+                undo=undo,
+            )
+        )
+
+    def _listed(self) -> tuple[tuple[RvizFileEntry, ...], str]:
+        served, entry = self._folders.served, self._folders.entry
+        recent = [
+            RvizFileEntry(
+                path=one.path, name=one.title, time_s=one.time_s, is_there=is_file(Path(one.path))
+            )
+            for one in self._recent.all()
+            if served.serves(one.path)
+        ]
+        known = {one.path for one in recent}
+        folder = package_folder_of(entry.parent) or entry.parent
+        found = sorted(_configs_in(folder)) if served.serves(folder) else []
+        others = [
+            RvizFileEntry(path=str(one), name=one.name, time_s=None, is_there=True)
+            for one in found
+            if str(one) not in known and served.serves(one) and is_file(one)
+        ]
+        places = [one for one in (folder / "rviz", folder, entry.parent) if is_folder(one)]
+        place = next((one for one in places if served.may_write(one / f"x{ENDINGS[0]}")), None)
+        return (*recent, *others), str(place) if place else ""
+
+
+COMMANDS: Final = Commands[RvizConfigs](Scope.DOCUMENT)
+COMMANDS.controller(
+    OpenRvizFile, lambda configs, c, who: configs.open_file(c, who), on_copies=OnCopies.REFUSED
+)
+COMMANDS.controller(
+    OpenRvizText, lambda configs, c, _: configs.open_text(c), on_copies=OnCopies.REFUSED
+)
+COMMANDS.viewer(GetRvizText, lambda configs, c, _: configs.text(c), limits=Limits(per_second=5))
+COMMANDS.presenter(SaveRvizFile, lambda configs, c, _: configs.save(c))
+COMMANDS.controller(
+    UndoRvizConfig, lambda configs, c, _: configs.undo(c), on_copies=OnCopies.REFUSED
+)
+COMMANDS.controller(CloseRvizConfig, lambda configs, c, _: configs.close_config(c))
+COMMANDS.controller(SetViewOptions, lambda configs, c, _: configs.set_options(c))
+COMMANDS.presenter(ListRvizFiles, lambda configs, c, _: configs.files(c))
+COMMANDS.presenter(ForgetRvizFile, lambda configs, c, _: configs.files(c))
+
+
+def _read_text(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
+    from studio.rviz.config import read_config  # noqa: PLC0415 - imports all displays
+
+    return read_config(text)
+
+
+def _text_of(kept: KeptDisplays, root: str, view: ViewValues | None, page: str) -> str:
+    from studio.rviz.config import tree_of  # noqa: PLC0415 - imports all displays
+    from studio.rviz.config_page import PAGE, page_entry  # noqa: PLC0415
+    from studio.rviz.config_text import write_tree  # noqa: PLC0415
+    from studio.rviz.config_values import entry_at  # noqa: PLC0415
+
+    tree = tree_of(replace(_config_of(kept, view), root=root))
+    if page:
+        tree |= {PAGE: page_entry(page, entry_at(tree, PAGE))}
+    return write_tree(tree)
+
+
+def _config_of(kept: KeptDisplays, view: ViewValues | None) -> RvizConfig:
+    from studio.rviz.config import RvizConfig  # noqa: PLC0415 - imports all displays
+    from studio.rviz.tools import default_tools  # noqa: PLC0415
+    from studio.rviz.views import ViewSpec  # noqa: PLC0415
+
+    config = kept.config
+    seen = None if view is None else ViewSpec(view.kind, view.name, view.values).checked()
+    return RvizConfig(
+        displays=tuple(map(_config_display, kept.displays)),
+        groups={} if config is None else config.groups,
+        groups_off=kept.groups_off,
+        fixed_frame=kept.fixed_frame,
+        background=kept.background,
+        frame_rate=kept.frame_rate,
+        tools=kept.tools or (() if config is not None else default_tools()),
+        views=kept.views,
+        view=seen,
+        rest={} if config is None else config.rest,
+    )
+
+
+def _as_clean(kept: KeptDisplays) -> KeptDisplays:
+    """Return it with its file noted as it is written without a change."""
+    assert kept.config is not None
+    digest = _digest(_text_of(kept, "", None, ""))
+    return structs.replace(kept, config=structs.replace(kept.config, digest=digest))
+
+
+def _config_display(spec: DisplaySpec) -> ConfigDisplay:
+    from studio.rviz.config_displays import ConfigDisplay  # noqa: PLC0415 - imports all displays
+
+    listening = spec.listening
+    return ConfigDisplay(
+        spec.kind,
+        spec.name,
+        spec.enabled,
+        spec.group,
+        spec.topic,
+        listening.reliable,
+        listening.latched,
+        listening.depth,
+        spec.values,
+        spec.entry,
+    )
+
+
+def _kept_of(config: RvizConfig, before: KeptDisplays, opened: OpenedConfig) -> KeptDisplays:
+    """Return what a document keeps of a file."""
+    return structs.replace(
+        before,
+        displays=tuple(map(_spec_of, config.displays)),
+        groups_off=config.groups_off,
+        fixed_frame=config.fixed_frame,
+        background=config.background,
+        frame_rate=config.frame_rate,
+        tools=config.tools,
+        views=config.views,
+        config=structs.replace(opened, groups=dict(config.groups), rest=config.rest),
+    )
+
+
+def _spec_of(one: ConfigDisplay) -> DisplaySpec:
+    return DisplaySpec(
+        "",
+        one.kind,
+        one.name,
+        one.topic,
+        one.enabled,
+        one.group,
+        Listening(one.reliable, one.latched, one.depth),
+        one.values,
+        one.entry,
+    )
+
+
+def _opened(
+    config: RvizConfig, losses: tuple[Loss, ...], name: str, request: int
+) -> RvizConfigOpened:
+    from studio.rviz.config_page import PAGE, page_text  # noqa: PLC0415 - imports all displays
+    from studio.rviz.config_values import entry_at  # noqa: PLC0415
+
+    view = config.view
+    return RvizConfigOpened(
+        request=request,
+        name=name,
+        displays=sum("/" not in one.kind for one in config.displays),
+        tools=len(config.tools),
+        views=len(config.views),
+        losses=tuple(LossView(reason=one.reason, what=one.what, names=one.names) for one in losses),
+        view=view and ViewValues(kind=view.kind, name=view.name, values=dict(view.values)),
+        page=page_text(entry_at(config.rest, PAGE)),
+    )
+
+
+def _write(path: Path, data: bytes) -> None:
+    try:
+        mode = path.stat().st_mode & 0o777 if is_there(path) else 0o644
+        write_whole(path, data, mode=mode, flush=True)
+    except OSError as error:
+        raise NotSavedError(str(path), error.strerror or "the disk refused it") from error
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()[:32]
+
+
+def _configs_in(folder: Path) -> Iterator[Path]:
+    """Yield the config files in a folder and below it, of a large one the first."""
+    left = _LISTED_MAX
+    for walked, (root, folders, files) in enumerate(os.walk(folder)):
+        folders[:] = sorted(one for one in folders if not one.startswith("."))
+        for name in files:
+            if name.endswith(ENDINGS) and left > 0:
+                left -= 1
+                yield Path(root, name)
+        if left == 0 or walked > _WALKED_MAX:
+            return

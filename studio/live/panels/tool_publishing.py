@@ -1,0 +1,193 @@
+"""ToolPublishing: what tools of the 3D view point at, published or sent as goals."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+from studio.errors import CommandError
+from studio.live.panels.operations import Begins
+from studio.protocol.goals import SendGoal
+from studio.protocol.tools import ToolUsed
+from studio.rviz.tools import (
+    ACTION,
+    COVARIANCES,
+    DEPTH,
+    DURABILITY,
+    HISTORY,
+    NAVIGATE_TO_POSE,
+    POINT,
+    POSE_WITH_COVARIANCE,
+    RELIABILITY,
+    SEND_AS,
+    TOPIC,
+    kind_of,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.live.connection.link import WireLink
+    from studio.live.connection.ros_connection import RosConnection
+    from studio.live.displays.document_tools import ToolUse
+    from studio.live.panels.goals import ActionGoals
+    from studio.live.panels.tool_work import ToolPublisher
+    from studio.protocol.tools import UseTool
+    from studio.rviz.tools import ToolSpec
+
+_PUBLISHERS_MAX: Final = 100
+_LISTENER_PATIENCE_S: Final = 1.0
+"""So long a subscription, or a server, is waited for where none is known."""
+_YAW: Final = 5
+
+
+@dataclass(frozen=True, slots=True)
+class TopicSettings:
+    """A topic, its type, and the QoS by RViz's words."""
+
+    topic: str
+    message_type: str
+    depth: int
+    history: str
+    reliability: str
+    durability: str
+
+
+class ToolPublishing:
+    """Publishes for tools; the publisher of a tool stays until its topic or QoS is another.
+
+    Used on the event loop only.
+    """
+
+    def __init__(self, wire: RosConnection, goals: ActionGoals) -> None:
+        self._wire, self._goals = wire, goals
+        self._publishers: dict[tuple[str, str], ToolPublisher] = {}
+        """By document and tool, the one used last at the end."""
+        self._begins = Begins()
+        self._turn = asyncio.Lock()
+
+    async def use(self, command: UseTool, use: ToolUse, person: str) -> ToolUsed:
+        """Publish, or send a goal; return what was sent where.
+
+        Raises:
+            StudioError: It cannot be published, or the action is not served; nothing was sent.
+        """
+        with self._begins.of(person) as begin:
+            link = await self._wire.link()
+
+            def check() -> None:
+                if not begin.may_go_on:
+                    raise CommandError(
+                        "The robot was stopped, or control went to somebody else: nothing was sent."
+                    )
+
+            if await self._goes_to_action(use.tool, link):
+                check()
+                return await self._send_goal(command, use)
+            return await self._publish(command, use, link, check)
+
+    def release(self, may_go_on: Callable[[str], bool]) -> None:
+        """Send nothing of what these persons are about to."""
+        self._begins.release(may_go_on)
+
+    async def let_go(self) -> None:
+        """Close all publishers: the connection is about to end."""
+        publishers, self._publishers = tuple(self._publishers.values()), {}
+        await asyncio.gather(*(asyncio.to_thread(one.close) for one in publishers))
+
+    async def _goes_to_action(self, tool: ToolSpec, link: WireLink) -> bool:
+        if kind_of(tool.kind).kind != "SetGoal" or (send_as := tool.value(SEND_AS)) == "Topic":
+            return False
+        from studio.live.panels.requests import came_true, not_served, wire_name  # noqa: PLC0415
+
+        name = wire_name(str(tool.value(ACTION)))
+
+        def is_served() -> bool:
+            return bool(link.graph.action_servers(name)) and NAVIGATE_TO_POSE in _types(link, name)
+
+        if send_as == "Auto":
+            return is_served()
+        if not await came_true(is_served, _LISTENER_PATIENCE_S):
+            raise not_served("action", name, NAVIGATE_TO_POSE, _types(link, name))
+        return True
+
+    async def _send_goal(self, command: UseTool, use: ToolUse) -> ToolUsed:
+        name = str(use.tool.value(ACTION))
+        goal = json.dumps({"pose": message_values(use)})
+        order = SendGoal(name=name, action_type=NAVIGATE_TO_POSE, text=goal)
+        begun = await self._goals.begin(order)
+        return _answer(command, use, name, operation=begun.operation)
+
+    async def _publish(
+        self, command: UseTool, use: ToolUse, link: WireLink, check: Callable[[], None]
+    ) -> ToolUsed:
+        from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh
+
+        publisher = await self._publisher(command, use.tool, link)
+        await came_true(lambda: publisher.subscriptions() > 0, _LISTENER_PATIENCE_S)
+        check()
+        subscriptions = publisher.subscriptions()
+        await asyncio.to_thread(publisher.send, message_values(use))
+        return _answer(command, use, publisher.name, subscriptions=subscriptions)
+
+    async def _publisher(self, command: UseTool, tool: ToolSpec, link: WireLink) -> ToolPublisher:
+        from studio.live.panels.tool_work import ToolPublisher  # noqa: PLC0415 - imports zenoh
+
+        key, settings = (command.document, tool.id), settings_of(tool)
+        async with self._turn:
+            found = self._publishers.pop(key, None)
+            if found is None or found.link is not link or found.settings != settings:
+                if found is not None:
+                    await asyncio.to_thread(found.close)
+                found = await asyncio.to_thread(ToolPublisher, link, settings)
+            self._publishers[key] = found
+            if len(self._publishers) > _PUBLISHERS_MAX:
+                await asyncio.to_thread(self._publishers.pop(next(iter(self._publishers))).close)
+        return found
+
+
+def settings_of(tool: ToolSpec) -> TopicSettings:
+    """Return where a tool publishes, and how."""
+    return TopicSettings(
+        str(tool.value(TOPIC)),
+        kind_of(tool.kind).message_type,
+        int(tool.value(DEPTH)),
+        *(str(tool.value(one)) for one in (HISTORY, RELIABILITY, DURABILITY)),
+    )
+
+
+def message_values(use: ToolUse) -> dict[str, Any]:
+    """Return the fields of the message that a tool publishes, stamped `now`."""
+    header = {"stamp": "now", "frame_id": use.frame}
+    place = dict(zip("xyz", use.xyz, strict=True))
+    message_type = kind_of(use.tool.kind).message_type
+    if message_type == POINT:
+        return {"header": header, "point": place}
+    pose = {"position": place, "orientation": dict(zip("wxyz", use.wxyz, strict=True))}
+    if message_type != POSE_WITH_COVARIANCE:
+        return {"header": header, "pose": pose}
+    covariance = [0.0] * 36
+    for axis, name in zip((0, 1, _YAW), COVARIANCES, strict=True):
+        covariance[7 * axis] = float(use.tool.value(name))
+    return {"header": header, "pose": {"pose": pose, "covariance": covariance}}
+
+
+def _types(link: WireLink, action: str) -> tuple[str, ...]:
+    return tuple(dict(link.graph.actions()).get(action, ()))
+
+
+def _answer(
+    command: UseTool, use: ToolUse, name: str, *, subscriptions: int = 0, operation: int = 0
+) -> ToolUsed:
+    return ToolUsed(
+        request=command.request,
+        sent_as="action" if operation else "topic",
+        name=name,
+        frame=use.frame,
+        xyz=use.xyz,
+        wxyz=use.wxyz,
+        subscriptions=subscriptions,
+        operation=operation,
+    )

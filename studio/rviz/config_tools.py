@@ -1,0 +1,125 @@
+"""Tools in `.rviz` files."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.rviz.config_displays import NAME_MAX, Loss
+from studio.rviz.config_text import scalar_of
+from studio.rviz.config_values import (
+    Entry,
+    entries_at,
+    leaves,
+    merged,
+    path_of,
+    put,
+    read_value,
+    scalar_at,
+    text_at,
+    write_value,
+)
+from studio.rviz.tools import ACTION, FRAME, SEND_AS, TOOL_KINDS, TOOLS_MAX, ToolKind, ToolSpec
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from studio.displays.properties import Value
+    from studio.rviz.config_text import Tree
+
+_PACKAGES: Final = frozenset({"rviz", "rviz_default_plugins"})
+_HEAD: Final = frozenset({("Class",), ("Name",)})
+_OURS: Final = frozenset({FRAME, SEND_AS, ACTION})
+"""RViz2 has no such properties."""
+_ALWAYS_HERE: Final = "Interact"
+"""The studio adds one where a file has none."""
+
+
+def read_tools(entries: Sequence[Entry]) -> tuple[tuple[ToolSpec, ...], list[Loss]]:
+    """Return the tools of a file, without ids, and what of them is only kept."""
+    tools: list[ToolSpec] = []
+    losses: list[Loss] = []
+    for entry in entries:
+        kind = _kind_of(entry)
+        if kind is None:
+            losses.append(Loss("no_tool", text_at(entry, "Class")))
+        elif len(tools) < TOOLS_MAX:
+            tool, lost = _read(entry, kind)
+            tools.append(tool)
+            losses += lost
+    return tuple(tools), losses
+
+
+def merge_tools(manager: Entry, tools: Sequence[ToolSpec]) -> Entry:
+    """Return the manager's entry with these tools; unknown ones stay where they are.
+
+    No tools: those of the file stay, for a document without a list of its own has RViz's.
+    """
+    before = entries_at(manager, "Tools")
+    if not tools:
+        return manager
+    left = list(tools)
+    written: list[Tree] = []
+    for entry in before:
+        kind = _kind_of(entry)
+        if kind is None:
+            written.append(entry)
+        elif (same := next((one for one in left if one.kind == kind.kind), None)) is not None:
+            left.remove(same)
+            written.append(_merged(entry, same))
+    new = [one for one in left if one.kind in TOOL_KINDS and not _is_added_here(one, before)]
+    written += [_merged(_fresh(TOOL_KINDS[one.kind]), one) for one in new]
+    return {**manager, "Tools": written} if written or before else manager
+
+
+def _is_added_here(tool: ToolSpec, before: Sequence[Entry]) -> bool:
+    return len(before) > 0 and tool.kind == _ALWAYS_HERE and not tool.values
+
+
+def _kind_of(entry: Entry) -> ToolKind | None:
+    package, _, name = text_at(entry, "Class").partition("/")
+    return TOOL_KINDS.get(name) if package in _PACKAGES else None
+
+
+def _name_of(entry: Entry, kind: ToolKind) -> str:
+    name = "".join(one if one.isprintable() else " " for one in text_at(entry, "Name"))
+    return name.strip()[:NAME_MAX] or kind.name
+
+
+def _read(entry: Entry, kind: ToolKind) -> tuple[ToolSpec, list[Loss]]:
+    values: dict[str, Value] = {}
+    refused: list[str] = []
+    for one in kind.properties:
+        scalar = scalar_at(entry, path_of(one.name))
+        if scalar is None:
+            continue
+        value = read_value(one, scalar)
+        if value is None:
+            refused.append(one.name)
+        elif value != one.default:
+            values[one.name] = value
+    known = {path_of(one.name) for one in kind.properties} | _HEAD
+    known |= {(*path, "Value") for path in known}
+    left = ["/".join(path) for path, _ in leaves(entry) if path not in known]
+    class_name = text_at(entry, "Class")
+    losses = [Loss("no_value", class_name, tuple(refused))] if refused else []
+    losses += [Loss("no_property", class_name, tuple(left))] if left else []
+    return ToolSpec("", kind.kind, _name_of(entry, kind), values), losses
+
+
+def _merged(entry: Entry, tool: ToolSpec) -> Entry:
+    kind = TOOL_KINDS[tool.kind]
+    if _name_of(entry, kind) != tool.name:
+        entry = put(entry, ("Name",), scalar_of(tool.name))
+    values = (
+        (path_of(one.name), one, tool.values.get(one.name, one.default)) for one in kind.properties
+    )
+    return merged(entry, values, {})
+
+
+def _fresh(kind: ToolKind) -> Entry:
+    """Return an entry with all that RViz2 writes of a tool, at its first values."""
+    entry: Entry = {"Class": f"rviz_default_plugins/{kind.kind}"}
+    for one in kind.properties:
+        if one.name not in _OURS:
+            entry = put(entry, path_of(one.name), write_value(one, one.default))
+    return entry

@@ -1,0 +1,149 @@
+"""Views in `.rviz` files: the one in use and those that were saved."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.rviz.config_displays import Loss
+from studio.rviz.config_text import scalar_of
+from studio.rviz.config_values import (
+    Entry,
+    entries_at,
+    entry_at,
+    leaves,
+    merged,
+    path_of,
+    put,
+    read_value,
+    scalar_at,
+    text_at,
+    write_value,
+)
+from studio.rviz.views import NAME_MAX, ORTHOGRAPHIC, VIEW_KINDS, ViewKind, ViewSpec
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from studio.displays.properties import Value
+    from studio.rviz.config_text import Tree
+
+VIEWS_MAX: Final = 50
+_CURRENT: Final = "Current View"
+_HEAD: Final = frozenset({("Class",), ("Name",), ("Value",)})
+_PACKAGES: Final = frozenset({"rviz", "rviz_default_plugins"})
+_STEREO: Final[Entry] = {
+    "Stereo Eye Separation": "0.05999999865889549",
+    "Stereo Focal Distance": "1",
+    "Swap Stereo Eyes": "false",
+    "Value": "false",
+}
+
+
+def read_current(entry: Entry) -> tuple[ViewSpec | None, list[Loss]]:
+    """Return the view in use, and what of it is only kept; None: there is no such view here."""
+    kind = _kind_of(entry)
+    if kind is not None:
+        return _read(entry, kind)
+    class_name = text_at(entry, "Class")
+    return None, [Loss("no_view", class_name)] if class_name else []
+
+
+def read_views(entries: Sequence[Entry]) -> tuple[tuple[ViewSpec, ...], list[Loss]]:
+    """Return the views that were saved, and what of them is only kept."""
+    views: list[ViewSpec] = []
+    losses: list[Loss] = []
+    for entry in entries:
+        view, lost = read_current(entry)
+        losses += lost
+        if view is not None and len(views) < VIEWS_MAX:
+            views.append(view)
+    return tuple(views), losses
+
+
+def merge_view(manager: Entry, view: ViewSpec) -> Entry:
+    """Return the manager's entry with this view in use."""
+    before = entry_at(manager, "Views", "Current")
+    entry = _merged(before if _kind_of(before) is not None else {}, view, _CURRENT)
+    return {**manager, "Views": {**entry_at(manager, "Views"), "Current": entry}}
+
+
+def merge_views(manager: Entry, views: Sequence[ViewSpec]) -> Entry:
+    """Return the manager's entry with these saved views; unknown ones stay where they are."""
+    before = entries_at(manager, "Views", "Saved")
+    left = list(views)
+    written: list[Tree] = []
+    for entry in before:
+        kind = _kind_of(entry)
+        if kind is None:
+            written.append(entry)
+        elif (same := _same_of(entry, kind, left)) is not None:
+            left.remove(same)
+            written.append(_merged(entry, same, same.name))
+    written += [_merged({}, one, one.name) for one in left]
+    if not before and not written:
+        return manager
+    return {**manager, "Views": {**entry_at(manager, "Views"), "Saved": written}}
+
+
+def _same_of(entry: Entry, kind: ViewKind, views: Sequence[ViewSpec]) -> ViewSpec | None:
+    """Return the view that an entry became: of its kind and name, or what is left of its kind."""
+    name = _name_of(entry)
+    of_kind = [one for one in views if one.kind == kind.kind]
+    return next((one for one in of_kind if one.name == name), None)
+
+
+def _kind_of(entry: Entry) -> ViewKind | None:
+    package, _, name = text_at(entry, "Class").partition("/")
+    return VIEW_KINDS.get(name) if package in _PACKAGES else None
+
+
+def _name_of(entry: Entry) -> str:
+    name = "".join(one if one.isprintable() else " " for one in text_at(entry, "Name"))
+    return name.strip()[:NAME_MAX]
+
+
+def _read(entry: Entry, kind: ViewKind) -> tuple[ViewSpec, list[Loss]]:
+    values: dict[str, Value] = {}
+    refused: list[str] = []
+    for one in kind.properties:
+        scalar = scalar_at(entry, path_of(one.name))
+        if scalar is None:
+            continue
+        value = read_value(one, scalar)
+        if value is None:
+            refused.append(one.name)
+        elif value != one.default:
+            values[one.name] = value
+    known = {path_of(one.name) for one in kind.properties} | _HEAD
+    left = [path for path, _ in leaves(entry) if path not in known]
+    names = dict.fromkeys(path[0] for path in left)
+    class_name = text_at(entry, "Class")
+    losses = [Loss("no_value", class_name, tuple(refused))] if refused else []
+    losses += [Loss("no_property", class_name, tuple(names))] if names else []
+    return ViewSpec(kind.kind, _name_of(entry), values), losses
+
+
+def _merged(entry: Entry, view: ViewSpec, name: str) -> Entry:
+    kind = VIEW_KINDS[view.kind]
+    if (found := _kind_of(entry)) is None or found.kind != view.kind:
+        entry = _fresh(kind)
+    if _name_of(entry) != name:
+        entry = put(entry, ("Name",), scalar_of(name))
+    values = (
+        (path_of(one.name), one, view.values.get(one.name, one.default)) for one in kind.properties
+    )
+    return merged(entry, values, {})
+
+
+def _fresh(kind: ViewKind) -> Entry:
+    """Return an entry with all that RViz2 writes of a view, at its first values."""
+    entry: Entry = {
+        "Class": f"rviz_default_plugins/{kind.kind}",
+        "Enable Stereo Rendering": _STEREO,
+        "Name": _CURRENT,
+        "Value": f"{kind.kind} (rviz_default_plugins)",
+    }
+    for one in kind.properties:
+        if one.name != ORTHOGRAPHIC:
+            entry = put(entry, path_of(one.name), write_value(one, one.default))
+    return dict(sorted(entry.items()))

@@ -1,0 +1,114 @@
+"""Config files on the page: opened with a report, seen in 3D, changed, saved and undone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+import yaml
+
+from tests.support.studio_page import wait_until
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Page
+
+    from tests.support.studio_page import StudioPage
+
+pytestmark = [pytest.mark.browser, pytest.mark.network, pytest.mark.timeout(300)]
+
+CONFIG = """Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/Axes, Name: Corner, Value: true, Length: 0.5}
+    - {Class: moveit_rviz_plugin/MotionPlanning, Name: Planning, Value: true}
+  Global Options: {Background Color: 10; 20; 30, Fixed Frame: base_link, Frame Rate: 15}
+  Views:
+    Current: {Class: rviz_default_plugins/TopDownOrtho, Name: Current View, Scale: 80}
+Studio:
+  Version: 1
+  Plots:
+    - {topic: /odom, path: .twist.twist.linear.x}
+"""
+RUN = """async (id) => {
+  const script = document.querySelector('script[type="module"]').src;
+  (await import(new URL("../lib/commands.js", script))).commandById(id).run();
+}"""
+BEHIND = """() => getComputedStyle(
+  document.querySelector("iframe").contentDocument.documentElement,
+).getPropertyValue("--view-mid").trim()"""
+PLOTS = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  return (await import(new URL("../model/plotting.js", script))).series.value.length;
+}"""
+
+
+def test_a_config_file_is_opened_changed_saved_and_undone(
+    tab: StudioPage, data: Path, tmp_path: Path
+):
+    page, file = tab.page, tmp_path / "lab.studio.yaml"
+    file.write_text(CONFIG)
+    theme = page.evaluate(BEHIND)
+    open_file(page, file)
+    wait_until("the background", lambda: page.evaluate(BEHIND) == "#0a141e")
+    assert page.evaluate(PLOTS) == 1
+    change_and_download(page)
+    save(page, data)
+    page.get_by_role("treeitem", name="Background Color").get_by_role("button").click()
+    wait_until("the theme's own", lambda: page.evaluate(BEHIND) == theme)
+    open_another_and_go_back(page)
+    assert tab.errors == []
+
+
+def open_file(page: Page, file: Path) -> None:
+    """The file of the robot's own package is offered; this one comes from the browser."""
+    page.evaluate(RUN, "rviz_open")
+    page.get_by_role("button", name="rover.rviz").wait_for()
+    page.locator(".config-dialog input[type=file]").set_input_files(file)
+    report = page.get_by_role("dialog", name="lab.studio.yaml is open")
+    report.wait_for()
+    assert "moveit_rviz_plugin/MotionPlanning" in report.inner_text()
+    report.get_by_role("button", name="Close").last.click()
+    page.get_by_role("treeitem", name="Corner").wait_for()
+    page.get_by_role("treeitem", name="Planning").first.wait_for()
+    page.get_by_text("The studio has no display moveit_rviz_plugin/MotionPlanning").wait_for()
+
+
+def change_and_download(page: Page) -> None:
+    rate = page.get_by_role("treeitem", name="Frame Rate").get_by_role("textbox")
+    assert rate.input_value() == "15"
+    rate.fill("20")
+    rate.press("Enter")
+    page.locator(".config-text", has_text="lab.studio.yaml •").wait_for()
+    with page.expect_download() as came:
+        page.evaluate(RUN, "studio_download")
+    written = yaml.safe_load(came.value.path().read_text())
+    manager = written["Visualization Manager"]
+    assert manager["Global Options"]["Frame Rate"] == 20
+    assert manager["Views"]["Current"]["Class"] == "rviz_default_plugins/TopDownOrtho"
+    assert manager["Displays"][1]["Class"] == "moveit_rviz_plugin/MotionPlanning"
+    assert written["Studio"]["Panels"]["parts"]
+    assert written["Studio"]["Plots"] == [{"topic": "/odom", "path": ".twist.twist.linear.x"}]
+
+
+def save(page: Page, data: Path) -> None:
+    """The folder of the robot's own files is proposed."""
+    page.evaluate(RUN, "rviz_save_as")
+    page.get_by_label("Name", exact=True).fill("mine")
+    page.get_by_role("dialog").get_by_role("button", name="Save", exact=True).click()
+    name = page.locator(".config-text", has_text="mine.studio.yaml")
+    name.wait_for()
+    wait_until("it is saved", lambda: "•" not in name.inner_text())
+    (saved,) = data.rglob("mine.studio.yaml")
+    assert "Frame Rate: 20" in saved.read_text()
+
+
+def open_another_and_go_back(page: Page) -> None:
+    """What is not saved is asked about first."""
+    page.locator(".config-text", has_text="•").wait_for()
+    page.evaluate(RUN, "rviz_open")
+    page.get_by_role("button", name="Go on without saving").click()
+    page.get_by_role("button", name="rover.rviz").click()
+    report = page.get_by_role("dialog", name="rover.rviz is open")
+    report.get_by_role("button", name="Back to the view before").click()
+    page.get_by_role("treeitem", name="Planning").first.wait_for()

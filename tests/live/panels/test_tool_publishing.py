@@ -1,0 +1,166 @@
+"""What tools send, as another session receives it: messages, QoS, and goals of a real server."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import time
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from studio.errors import CommandError, NotServedError, RosNameError
+from studio.live.displays.document_tools import ToolUse
+from studio.protocol.goals import CancelGoal
+from studio.protocol.tools import ToolUsed, UseTool
+from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from studio.rviz.tools import POINT, POSE, POSE_WITH_COVARIANCE, ToolSpec
+from tests.support.bridged import Bridged, bridged
+from tests.support.demos import heard
+from tests.support.navigation import navigator
+from tests.support.open_documents import until
+
+if TYPE_CHECKING:
+    from studio.ros.client import Node
+
+pytestmark = pytest.mark.network
+ASKED = (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.TRANSIENT_LOCAL, 3)
+FIRST = (ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE, 5)
+QUARTER = (math.cos(math.pi / 8), 0.0, 0.0, math.sin(math.pi / 8))
+"""pi / 4 about z."""
+
+
+@pytest.fixture(autouse=True)
+def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("studio.live.panels.tool_publishing._LISTENER_PATIENCE_S", 0.1)
+
+
+async def used(page: Bridged, kind: str, **values: Any) -> ToolUsed:  # noqa: ANN401 - of properties
+    """Point with a tool at (1, 2, 0.5) of odom, turned by 45 degrees."""
+    tool = ToolSpec(
+        kind, kind, "Tool", {name.replace("_", " "): one for name, one in values.items()}
+    )
+    command = UseTool(tool=kind, x=1.0, y=2.0, request=7)
+    return await page.ros.tools.use(command, ToolUse(tool, "odom", QUARTER, (1.0, 2.0, 0.5)), "me")
+
+
+def test_a_pose_estimate_has_the_covariances_the_frame_and_the_time_of_now(
+    endpoint: str, tester: Node
+):
+    poses = heard(tester, POSE_WITH_COVARIANCE, "/initialpose")
+
+    async def run() -> ToolUsed:
+        async with bridged(endpoint) as page:
+            answer = await used(page, "SetInitialPose", Covariance_y=2.0)
+            await until(lambda: bool(poses))
+            return answer
+
+    answer = asyncio.run(run())
+    (said,) = poses
+    assert (answer.sent_as, answer.name, answer.frame) == ("topic", "/initialpose", "odom")
+    assert (answer.request, answer.subscriptions, answer.operation) == (7, 1, 0)
+    assert said.header.frame_id == "odom"
+    stamp_s = said.header.stamp.sec + said.header.stamp.nanosec / 1e9
+    assert abs(time.time_ns() / 1e9 - stamp_s) < 60
+    place, turn = said.pose.pose.position, said.pose.pose.orientation
+    assert (place.x, place.y, place.z) == (1.0, 2.0, 0.5)
+    assert (turn.w, turn.x, turn.y, turn.z) == QUARTER
+    own = {0: 0.25, 7: 2.0, 35: (math.pi / 12) ** 2}
+    assert {at: one for at, one in enumerate(said.pose.covariance) if one} == pytest.approx(own)
+
+
+def test_a_point_and_a_goal_go_to_the_topics_of_their_tools_with_their_qos(
+    endpoint: str, tester: Node
+):
+    points = heard(tester, POINT, "/clicked_point")
+    goals = heard(tester, POSE, "/second/goal")
+    qos = {
+        "Topic": "second/goal",
+        "Topic/Depth": 3,
+        "Topic/Reliability Policy": "Best Effort",
+        "Topic/Durability Policy": "Transient Local",
+    }
+
+    ends = tester.get_publishers_info_by_topic
+
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            await used(page, "PublishPoint")
+            assert (await used(page, "SetGoal", **qos)).name == "/second/goal"
+            await until(lambda: bool(points and goals))
+            for name, wanted in (("/second/goal", ASKED), ("/clicked_point", FIRST)):
+                await until(lambda name=name: len(ends(name)) == 1)
+                found = ends(name)[0].qos_profile
+                assert (found.reliability, found.durability, found.depth) == wanted
+                assert found.history is HistoryPolicy.KEEP_LAST
+
+    asyncio.run(run())
+    assert (points[0].point.x, points[0].point.y, points[0].point.z) == (1.0, 2.0, 0.5)
+    assert goals[0].pose.orientation.w == QUARTER[0]
+
+
+def test_a_publisher_stays_for_who_comes_late_until_its_tool_has_another_topic(
+    endpoint: str, tester: Node
+):
+    kept = {"Topic/Durability Policy": "Transient Local"}
+
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            assert (await used(page, "SetGoal", **kept)).subscriptions == 0
+            late = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+            goals = heard(tester, POSE, "/goal_pose", late)
+            await until(lambda: len(goals) == 1)
+            assert (await used(page, "SetGoal", **kept)).subscriptions == 1
+            await until(lambda: len(goals) == 2)
+            await used(page, "SetGoal", Topic="/elsewhere")
+            await until(lambda: not tester.get_publishers_info_by_topic("/goal_pose"))
+            with pytest.raises(RosNameError):
+                await used(page, "SetGoal", Topic="/no place")
+
+    asyncio.run(run())
+
+
+def test_a_goal_goes_to_the_action_where_it_is_served_and_is_cancelled(endpoint: str, tester: Node):
+    poses = heard(tester, POSE, "/goal_pose")
+
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            with pytest.raises(NotServedError, match="/navigate_to_pose"):
+                await used(page, "SetGoal", Send_as="Action")
+            assert (await used(page, "SetGoal")).sent_as == "topic"
+            await until(lambda: len(poses) == 1)
+            with navigator(endpoint) as work:
+                link = await page.ros.connection.link()
+                await until(lambda: bool(link.graph.action_servers("/navigate_to_pose")))
+                answer = await used(page, "SetGoal")
+                assert (answer.sent_as, answer.name) == ("action", "/navigate_to_pose")
+                await page.operation_in("goals", answer.operation, "executing")
+                asked = await asyncio.to_thread(lambda: work.goal().request.pose)
+                assert (asked.header.frame_id, asked.pose.position.y) == ("odom", 2.0)
+                await asyncio.to_thread(work.tell, 1.5, recoveries=2)
+                goals = page.ros.goals.operations
+                await until(lambda: goals.get(answer.operation).feedback_count == 1)
+                await page.do(CancelGoal(operation=answer.operation))
+                await asyncio.to_thread(work.end, "canceled")
+                await page.operation_in("goals", answer.operation, "canceled")
+                await used(page, "SetGoal", Send_as="Topic")
+                await until(lambda: len(poses) == 2)
+
+    asyncio.run(run())
+
+
+def test_who_lost_control_meanwhile_sends_nothing(endpoint: str, tester: Node):
+    points = heard(tester, POINT, "/clicked_point")
+
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            # Nobody subscribes there: it waits for somebody until the robot is stopped.
+            sending = asyncio.create_task(used(page, "PublishPoint", Topic="/unheard"))
+            await asyncio.sleep(0)
+            page.ros.release(lambda person: person != "me")
+            with pytest.raises(CommandError, match="nothing was sent"):
+                await sending
+            await used(page, "PublishPoint")
+            await until(lambda: len(points) == 1)
+
+    asyncio.run(run())
