@@ -8,7 +8,7 @@ import { niceStep, parseNumber, shownNumber } from "../lib/numbers.js";
 import { PickBox } from "../lib/pick-box.js";
 import { TextBox } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
-import { framesNow, topicsNow } from "../model/live-displays.js";
+import { framesNow, markerServersNow, topicsNow } from "../model/live-displays.js";
 
 /** @typedef {boolean | number | string} Value */
 /** What RViz writes for it. */
@@ -43,6 +43,9 @@ export function PropertyEditor({ label, property, value, disabled, set, topics }
         choices=${() => topicsOf(property.choices)} none=${t("live.topic.nothing", { type: property.choices[0] ?? "" })} />`;
     case "fact":
       return html`<output class="fact" aria-label=${label} title=${String(value)}>${String(value)}</output>`;
+    case "marker_server":
+      return html`<${PickBox} label=${label} text=${String(value)} disabled=${disabled} onWrite=${set} none=${t("live.marker_servers.none")}
+        choices=${markerServersNow} />`;
     case "text":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${disabled} onWrite=${set} placeholder=""
         ...${property.choices.length > 0 && { choices: async () => property.choices }}

@@ -378,6 +378,12 @@ export interface CompletionsAnswer {
   completions: Completions;
 }
 
+/** Something that a finding is about. */
+export interface Concern {
+  kind: "node" | "topic" | "service" | "action" | "frame" | "parameter" | "display" | "document" | "connection";
+  name: string;
+}
+
 /**
  * Join the ROS 2 system, if that was not done yet; done when the connection stands.
  *
@@ -408,6 +414,17 @@ export interface Control {
   holder: string;
   name: string;
   document: string;
+}
+
+/** A control of an interactive marker. */
+export interface ControlView {
+  number: number;
+  mode: number;
+  facing: number;
+  wxyz: [number, number, number, number];
+  independent: boolean;
+  always_visible: boolean;
+  description: string;
 }
 
 /** All copies, to those who lead the class. */
@@ -645,6 +662,13 @@ export interface Displays {
   displays: Record<string, Record<string, boolean | number | string>>;
 }
 
+/** Answer to `get_doctor_report`. */
+export interface DoctorReport {
+  type: "doctor_report";
+  request: number;
+  html: string;
+}
+
 /** One open document in the list of them. */
 export interface DocumentEntry {
   id: string;
@@ -782,6 +806,16 @@ export interface EndView {
   type: string;
 }
 
+/** Ask what is wrong. The Doctor listens from the first question on, and some seconds longer. */
+export interface ExamineSystem {
+  request?: number;
+  document?: string;
+  id?: string;
+  renderer?: string;
+  draws_by_software?: boolean;
+  type: "examine_system";
+}
+
 /** Ask what there is at a router; nothing is joined or started. */
 export interface ExamineWire {
   request?: number;
@@ -860,6 +894,19 @@ export interface FindWireRobots {
   document?: string;
   id?: string;
   type: "find_wire_robots";
+}
+
+/** One thing that the Doctor found. */
+export interface Finding {
+  code: string;
+  level: "error" | "warn" | "note";
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  sentence: string;
+  evidence: string[];
+  mend: Mend | null;
+  line: string;
+  about: Concern[];
+  talk: Talk | null;
 }
 
 /**
@@ -1114,6 +1161,17 @@ export interface GetDisplayKinds {
   type: "get_display_kinds";
 }
 
+/** Ask for the same as one HTML file. */
+export interface GetDoctorReport {
+  request?: number;
+  document?: string;
+  id?: string;
+  renderer?: string;
+  draws_by_software?: boolean;
+  type: "get_doctor_report";
+  language?: "en" | "de";
+}
+
 /** Ask for the effects of a site on the robot of the last good run. */
 export interface GetEffects {
   request?: number;
@@ -1307,6 +1365,7 @@ export interface GetRvizText {
   type: "get_rviz_text";
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Ask for the time now; /clock is subscribed for some seconds after. */
@@ -1524,6 +1583,35 @@ export interface InputDifference {
 
 /** Kind of an input in its file. */
 export type InputKind = "property" | "arg" | "parameter" | "param_default" | "yaml";
+
+/**
+ * Do something to an interactive marker; its server gets the feedback that RViz would send.
+ *
+ * A drag is a press, moves and a release. Whoever pressed holds the marker: others are refused
+ * until the release, or until nothing came for two seconds.
+ */
+export interface InteractWithMarker {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "interact_with_marker";
+  display: string;
+  marker: number;
+  control?: number | null;
+  action: "press" | "move" | "hold" | "release" | "select";
+  position?: [number, number, number] | null;
+  orientation?: [number, number, number, number] | null;
+  turn_rad?: number;
+  mouse_point?: [number, number, number] | null;
+  entry?: number;
+  clicked?: boolean;
+}
+
+/** All interactive markers of a document; sent when what can be done with them changes. */
+export interface InteractiveMarkers {
+  type: "interactive_markers";
+  displays: MarkersOfDisplay[];
+}
 
 /** Answer to `get_interface`. */
 export interface InterfaceAnswer {
@@ -1927,6 +2015,23 @@ export interface ManagedNodes {
   more: number;
 }
 
+/** An interactive marker; where it is, the 3D view knows. */
+export interface MarkerView {
+  number: number;
+  name: string;
+  description: string;
+  scale: number;
+  controls: ControlView[];
+  menu: MenuItemView[];
+}
+
+/** The interactive markers of one display. */
+export interface MarkersOfDisplay {
+  display: string;
+  visual_aids: boolean;
+  markers: MarkerView[];
+}
+
 /** Answer to `get_masses`, true of the robot now: ask again when something was built. */
 export interface Masses {
   type: "masses";
@@ -1987,6 +2092,14 @@ export interface MendAll {
   document?: string;
   id?: string;
   type: "mend_all";
+}
+
+/** An entry of the menu of a marker; its parent is 0 in the menu itself. */
+export interface MenuItemView {
+  id: number;
+  parent: number;
+  title: string;
+  checked: boolean | null;
 }
 
 /** A message, or a part of a call. */
@@ -2478,7 +2591,7 @@ export interface Progress {
 /** A property of a kind of display. */
 export interface PropertyView {
   name: string;
-  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame" | "topic" | "fact";
+  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame" | "topic" | "fact" | "marker_server";
   default: boolean | number | string;
   doc: string;
   low: number | null;
@@ -2889,6 +3002,7 @@ export interface RvizConfigState {
   name: string;
   path: string;
   changed: boolean;
+  rviz1: boolean;
   undo: boolean;
 }
 
@@ -2985,6 +3099,7 @@ export interface SaveRvizFile {
   replace?: boolean;
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Keep the present arguments and values as a new variant. */
@@ -3396,6 +3511,14 @@ export interface StudentNodesState {
 /** Kind of the thing at a place in a text. */
 export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
 
+/** What was looked at of one subject, so that "all is well" can be trusted. */
+export interface SubjectView {
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  state: "well" | "found" | "not_examined";
+  count: number;
+  detail: string;
+}
+
 /** Show or hide displays: one, a group as a whole, or each one of them. */
 export interface SwitchDisplays {
   request?: number;
@@ -3407,12 +3530,32 @@ export interface SwitchDisplays {
   enabled: boolean;
 }
 
+/** Answer to `examine_system`. */
+export interface SystemExamined {
+  type: "system_examined";
+  request: number;
+  listened_s: number;
+  listens_s: number;
+  is_complete: boolean;
+  findings: Finding[];
+  more: number;
+  subjects: SubjectView[];
+}
+
 /** Take control: the presenter back, a helper for themselves. */
 export interface TakeControl {
   request?: number;
   document?: string;
   id?: string;
   type: "take_control";
+}
+
+/** Who talks to whom, as a small drawing. */
+export interface Talk {
+  sources: string[];
+  name: string;
+  targets: string[];
+  meets: boolean;
 }
 
 /** Answer to `get_text`: the text at a version, as `TextChange` describes texts. */
@@ -3881,6 +4024,7 @@ export type Command =
   | EditSite
   | EditText
   | EndClass
+  | ExamineSystem
   | ExamineWire
   | FindTexts
   | FindWireRobots
@@ -3902,6 +4046,7 @@ export type Command =
   | GetDemos
   | GetDiagnostics
   | GetDisplayKinds
+  | GetDoctorReport
   | GetEffects
   | GetFrames
   | GetGoalStatuses
@@ -3937,6 +4082,7 @@ export type Command =
   | GetViewKinds
   | GiveControl
   | HandIn
+  | InteractWithMarker
   | Lead
   | ListExamples
   | ListFolder
@@ -4057,6 +4203,7 @@ export type Event =
   | DisplayKinds
   | DisplayStates
   | Displays
+  | DoctorReport
   | DocumentState
   | Documents
   | Done
@@ -4073,6 +4220,7 @@ export type Event =
   | GraphAnswer
   | Hello
   | History
+  | InteractiveMarkers
   | InterfaceAnswer
   | InterfacesAnswer
   | InterfacesAdded
@@ -4128,6 +4276,7 @@ export type Event =
   | Sites
   | Stopped
   | StudentNodesState
+  | SystemExamined
   | Text
   | TextsChanged
   | TextsFound

@@ -26,7 +26,7 @@ Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
     "no_mesh", "unknown_field", "no_camera_info", "no_picture", "unsupported", "thinned",
     "not_connected_frame", "unknown_joint", "other_robot", "plugin", "distorted",
-    "not_here",
+    "not_here", "no_server",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself knows."""
 _TRANSPORTS: Final = {"compressed", "compressedDepth", "ffmpeg", "theora", "zstd"}
@@ -136,6 +136,8 @@ class Display(ABC):
     """The main one first; empty for a display without messages."""
     FIRST_TOPIC: ClassVar[str] = ""
     """The topic to subscribe to when none was chosen."""
+    OF_TYPES: ClassVar[tuple[str, ...]] = ()
+    """Messages that it shows, though others receive them for it."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     SETTINGS_MAX: ClassVar[int] = 1000
     """Limit of the properties kept; some displays get more with their messages, as links."""
@@ -162,6 +164,12 @@ class Display(ABC):
             raise DisplayPropertyError(name, reason, None)
         self.values[name] = self._property(name).checked(value)
         self.changed(name)
+
+    @classmethod
+    def settings_for(cls, topic: str) -> Mapping[str, Value]:
+        """Return the properties that name a topic, of a display that does not subscribe itself."""
+        del topic
+        return {}
 
     def roles(self) -> tuple[TopicRole, ...]:
         """Return the topics to subscribe to with the properties as they are set."""

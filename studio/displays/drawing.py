@@ -352,7 +352,8 @@ class Placed:
             the fixed frame.
         sweep: For points not all measured at the stamp: each is placed where the frame was at its
             own time.
-        offset: Pose of the shapes in the frame.
+        offset: Pose of the shapes in the frame; None: they are in its own axes. What only moves
+            in its frame is another offset of the same shapes.
     """
 
     frame: str

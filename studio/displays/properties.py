@@ -17,7 +17,16 @@ if TYPE_CHECKING:
 
 Value: TypeAlias = bool | int | float | str
 PropertyKind: TypeAlias = Literal[
-    "switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact"
+    "switch",
+    "whole",
+    "number",
+    "colour",
+    "choice",
+    "text",
+    "frame",
+    "topic",
+    "fact",
+    "marker_server",
 ]
 
 _COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
@@ -33,8 +42,9 @@ class Property:
 
     Attributes:
         name: RViz's; parts of a group are named with slashes, as `Covariance/Position/Alpha`.
-        kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf; a fact
-            is shown and cannot be set.
+        kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf, a server
+            of interactive markers by the namespace of its topics; a fact is shown and cannot be
+            set.
         default: The first value.
         doc: One sentence for the user.
         low: Least number.

@@ -13,7 +13,6 @@ from studio.displays.display import Display, Status, TopicRole, reading_fields
 from studio.displays.drawing import NOTHING, LinkParts, Placed
 from studio.displays.properties import Property, rgb_of, switch
 from studio.displays.trajectory_states import States, chain_of, motion_of, thinned
-from studio.errors import DisplayPropertyError
 from studio.robot.values import Robot
 from studio.tf.rotations import compose
 
@@ -31,6 +30,8 @@ if TYPE_CHECKING:
 
 _SPEED: Final = re.compile(r"\s*(\d{1,6}(?:\.\d{1,6})?)\s*([xs])\s*")
 _REALTIME: Final = "REALTIME"
+_TIME: Final = "State Display Time"
+_FIRST_SPEED: Final = 3.0, "x"
 GROUPS_MAX: Final = 4_000
 """Links of all ghosts of a trail together."""
 _NAMES_MAX: Final = 3
@@ -39,31 +40,17 @@ _LOOKS: Final = ("Show Robot Visual", "Show Robot Collision", "Robot Alpha", "Ro
 _TRAIL: Final = ("Show Trail", "Trail Step Size")
 
 
-class SpeedProperty(Property):
-    """How fast states follow each other: times as fast as planned, or seconds for each."""
-
-    def checked(self, value: object) -> Value:
-        """Return the text.
-
-        Raises:
-            DisplayPropertyError: It is none of `3x`, `0.5s` and the like.
-        """
-        text = str(super().checked(value))
-        speed_of(self.name, text)
-        return text
-
-
-def speed_of(name: str, text: str) -> tuple[float, str]:
+def speed_of(text: str) -> tuple[float, str] | None:
     """Return a number and its unit: x, times as fast as planned; s, seconds for each state.
 
-    Raises:
-        DisplayPropertyError: It is none.
+    Returns:
+        None when it is no speed; then MoveIt's first value holds.
     """
     if text.strip().upper() == _REALTIME:
         return 1.0, "x"
     found = _SPEED.fullmatch(text)
     if found is None or not float(found[1]):
-        raise DisplayPropertyError(name, "is as 3x, 0.5x, 0.05s or REALTIME", text)
+        return None
     return float(found[1]), found[2]
 
 
@@ -71,8 +58,8 @@ TRAJECTORY_PROPERTIES: Final = (
     switch("Show Robot Visual", "Shows the visuals of the robot that moves.", on=True),
     switch("Show Robot Collision", "Shows its collision shapes.", on=False),
     Property("Robot Alpha", "number", 0.5, "How opaque it is: 0 is not seen.", 0.0, 1.0),
-    SpeedProperty(
-        "State Display Time", "text", "3x",
+    Property(
+        _TIME, "text", "3x",
         "How fast it moves: times as fast as planned, as 3x; or seconds for each state, as 0.1s.",
         choices=("3x", "1x", "0.5x", "0.05s", "0.1s", "0.5s", _REALTIME),
     ),
@@ -184,7 +171,13 @@ class TrajectoryDisplay(Display):
             return ()
         if not self._of.links:
             return (Status("error", "empty", "There is no robot that could move: open one."),)
-        found = [self._empty(), self._unknown(), self._transparent(), self._thinned()]
+        found = [
+            self._empty(),
+            self._odd_speed(),
+            self._unknown(),
+            self._transparent(),
+            self._thinned(),
+        ]
         return tuple(one for one in found if one is not None)
 
     def _begin(self, motion: Motion) -> None:
@@ -199,6 +192,9 @@ class TrajectoryDisplay(Display):
             self._states = States(self._motion, self._robot)
         self._lay_trail()
         self._drawn_at = None
+
+    def _speed(self) -> tuple[float, str]:
+        return speed_of(str(self.values[_TIME])) or _FIRST_SPEED
 
     def _is_over(self) -> bool:
         """Whether the robot stands at the end of its way, or has none."""
@@ -231,7 +227,7 @@ class TrajectoryDisplay(Display):
         motion = self._motion
         if motion is None or motion.size == 0:
             return 0.0
-        number, unit = speed_of("", str(self.values["State Display Time"]))
+        number, unit = self._speed()
         last = motion.size - 1
         if unit == "s":
             return float(min(math.floor(elapsed_s / number + 1e-9), last))
@@ -248,7 +244,7 @@ class TrajectoryDisplay(Display):
         motion = self._motion
         if motion is None or motion.size == 0:
             return 0.0
-        number, unit = speed_of("", str(self.values["State Display Time"]))
+        number, unit = self._speed()
         if unit == "s":
             return place * number
         times_s = motion.times_s - motion.times_s[0]
@@ -319,6 +315,13 @@ class TrajectoryDisplay(Display):
         if self._motion is None or self._motion.size:
             return None
         return Status("warn", "empty", "The trajectory has no point.")
+
+    def _odd_speed(self) -> Status | None:
+        text = str(self.values[_TIME])
+        if speed_of(text) is not None:
+            return None
+        sentence = f'"{text[:60]}" is no speed, as 3x, 0.5x, 0.05s or REALTIME are: it goes at 3x.'
+        return Status("warn", None, sentence, (_TIME, "3x"))
 
     def _unknown(self) -> Status | None:
         unknown = self._states.unknown if self._states is not None else ()

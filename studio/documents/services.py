@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
+    "studio.live.displays.marker_servers",
     *("studio.displays.robot_model", "studio.scene.picked_rows"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
     "studio.live.displays.plugin_display",
@@ -29,6 +30,8 @@ USED_LATER: Final = (
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
     "studio.live.panels.tool_work",
     "studio.documents.lessons.graph_checks",
+    *("studio.live.doctor.asking", "studio.live.doctor.examination", "studio.live.doctor.report"),
+    *("studio.live.doctor.subjects.network", "studio.live.doctor.watching"),
     *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )

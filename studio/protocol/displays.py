@@ -163,7 +163,10 @@ class PropertyView(Message):
     """A property of a kind of display."""
 
     name: str
-    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact"]
+    kind: Literal[
+        "switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact",
+        "marker_server",
+    ]  # fmt: skip
     default: PropertyValue
     doc: str
     low: float | None

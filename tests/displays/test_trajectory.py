@@ -8,7 +8,7 @@ from studio.displays.display import Received
 from studio.displays.drawing import LinkParts
 from studio.displays.properties import Value
 from studio.displays.trajectory import DisplayTrajectoryDisplay, JointTrajectoryDisplay
-from studio.errors import DisplayMessageError, DisplayPropertyError
+from studio.errors import DisplayMessageError
 from studio.robot.values import Robot
 from tests.support.display_messages import TYPES, encoded, received
 from tests.support.drawn import said
@@ -75,10 +75,12 @@ def test_with_a_time_for_each_state_it_goes_from_one_to_the_next():
 
 
 @pytest.mark.parametrize("speed", ["fast", "0x", "3", "-1x", "1e9x", ""])
-def test_what_is_no_speed_is_refused(speed: str):
-    display, _ = display_with()
-    with pytest.raises(DisplayPropertyError, match="is as 3x"):
-        display.set("State Display Time", speed)
+def test_what_is_no_speed_is_said_and_the_first_one_holds(speed: str):
+    display, robot = display_with({"State Display Time": speed})
+    display.take(received(JOINTS, way(0.0, 0.6)))
+    shoulder_at(display, robot, 0.0)
+    assert shoulder_at(display, robot, 0.1) == pytest.approx(0.18)
+    assert [one.mend for one in display.statuses()] == [("State Display Time", "3x")]
 
 
 def test_a_loop_begins_again():
