@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 STAMP: Final = {"sec": 12, "nanosec": 500}
 NO_ITEMS: Final = {"Grid"}
 """Displays that draw nothing that a message or a frame is made of."""
+GHOSTS: Final = {"DisplayTrajectory", "JointTrajectory"}
+"""They draw a robot that is given to them, and is not where it is drawn yet."""
 
 
 def display_of(sample: Sample) -> Display:
@@ -92,7 +94,7 @@ def sample(name: str) -> Sample:
     return next(one for one in SAMPLES if one.name == name)
 
 
-HEADED: Final = [one for one in SAMPLES if one.kind not in NO_ITEMS]
+HEADED: Final = [one for one in SAMPLES if one.kind not in NO_ITEMS | GHOSTS]
 
 
 @pytest.mark.parametrize("one", HEADED, ids=[one.name for one in HEADED])

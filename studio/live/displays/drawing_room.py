@@ -15,6 +15,7 @@ from studio.errors import CommandError, DisplayError, SceneError
 from studio.live.displays.catalogue_views import property_view
 from studio.live.displays.followed_frames import FollowedFrames
 from studio.live.displays.plugin_display import MissingDisplay
+from studio.live.displays.plugins import PREFIX
 from studio.live.displays.reasons import remarks_on
 from studio.live.displays.running import RunningDisplay
 from studio.live.displays.scene_frames import STILL, SceneFrames
@@ -111,7 +112,7 @@ class DrawingRoom:
 
     def _made(self, spec: DisplaySpec, types: TypeLibrary, *, is_kept: bool) -> Display:
         """Return the display of a spec; for one of an `.rviz` file that is not here, why not."""
-        if spec.entry and "/" in spec.kind:
+        if spec.entry and "/" in spec.kind and not spec.kind.startswith(PREFIX):
             return FailedDisplay(types, spec.kind)
         try:
             return self._plugins.of_kind(spec.kind)(types)
