@@ -172,6 +172,8 @@ def test_what_is_beside_its_frame_goes_with_it():
     assert pose is not None
     assert pose[0] == pytest.approx(turned_about_z)
     assert pose[1] == pytest.approx((0.0, 1.0, 2.0))
+
+
 def test_what_moves_in_its_frame_stays_with_it_though_the_time_of_its_pose_is_forgotten():
     placing, frames = Placing(), Frames(scan=10)
     quarter = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
