@@ -253,7 +253,8 @@ export class CameraPictures {
       .map((name) => this.#door.node(name))
       .filter((node) => node?.visible);
     for (const node of hidden) if (node) node.visible = false;
-    const factor = focal_px / ((eye.projectionMatrix.elements[5] ?? 1) * whole.height);
+    // By its angle: a view without perspective has another matrix.
+    const factor = (focal_px * Math.tan((eye.fov * Math.PI) / 360)) / whole.height;
     /** @type {Material[]} */
     const points = [];
     this.#door.node("/live")?.traverse(({ isPoints, material }) => {

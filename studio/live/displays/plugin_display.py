@@ -67,8 +67,7 @@ class PluginFile:
             others_first=True,
         )  # fmt: skip
         self._gone: deque[int] = deque()
-        self._loading: asyncio.Lock = asyncio.Lock()
-        self._is_loaded = False
+        self._is_closed = False
 
     async def load(self) -> None:
         """Run the file, and make a kind of display of what it defines."""
@@ -78,7 +77,6 @@ class PluginFile:
             answer = await self._worker.ask(Describe(str(self.path), texts), object, PLUGIN_LOAD_S)
             if isinstance(answer, Described):
                 self.kind = _kind_of(self, answer)
-                self._is_loaded = True
             else:
                 self._switch_off(_sentence_of(answer))
         except StudioError as error:
@@ -86,13 +84,12 @@ class PluginFile:
 
     async def step(self, step: Step) -> Drawn | None:
         """Have it draw; None: it failed, and is off from now on."""
-        if self.fault:
+        if self.fault or self._is_closed:
             return None
-        generation = self._worker.generation
         try:
             answer = await self._worker.ask(step, object, PLUGIN_STEP_S, starts=False)
         except StudioError as error:
-            if generation == self._worker.generation:
+            if not (self.fault or self._is_closed):
                 self._switch_off(self._said(error))
             return None
         if isinstance(answer, Drawn):
@@ -116,7 +113,8 @@ class PluginFile:
         return gone
 
     async def close(self) -> None:
-        """End its process."""
+        """End its process; what waits for it is not said to have failed."""
+        self._is_closed = True
         await self._worker.close()
         await asyncio.to_thread(self._trace.unlink, missing_ok=True)
 
@@ -138,7 +136,7 @@ class PluginFile:
             case WorkerDiedError():
                 what = f"it ended its process (code {error.exit_code})"
             case _:
-                what = str(error).rstrip(".")
+                return f"{self.path.name}: {str(error).rstrip('.')}"
         return f"{self._place()}: {what}"
 
     def _place(self) -> str:
@@ -304,7 +302,7 @@ def _kind_of(file: PluginFile, described: Described) -> type[PluginDisplay]:
         DisplayError: What it says of itself makes no sense.
     """
     if not _NAME.fullmatch(described.kind):
-        raise DisplayError(f"{file.path.name}: its KIND is no name of 60 letters at most.")
+        raise DisplayError("its KIND is no name of 60 letters at most.")
     return type(
         "PluginDisplay",
         (PluginDisplay,),
