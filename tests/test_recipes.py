@@ -40,10 +40,12 @@ NAMES_OF_A_LIST = 3
 """Of panels: one or two words in a file may be other things, or panels that a button opens."""
 DISPLAYS_NAMED = {
     ("studio/live/displays/drawing_room.py", "TfDisplay"): "one buffer serves all of them",
+    ("studio/live/displays/marker_servers.py", "InteractiveMarkersDisplay"): "a client feeds it",
     ("studio/live/displays/robot_models.py", "RobotModelDisplay"): "its meshes are read there",
 }
 COMMANDS_PASSED_ON = {
     "GetTf": {"studio/live/displays/scene_frames.py"},
+    "InteractWithMarker": {"studio/live/displays/marker_servers.py"},
     "GetUrdf": {"studio/server/api.py"},
     "OpenFromWire": {
         "studio/live/connection/received_description.py",

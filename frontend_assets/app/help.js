@@ -120,6 +120,7 @@ const OTHERS = {
     search: "search",
     ros: "link",
     live: "radar",
+    markers: "hand",
     rviz: "list",
     keys: "keyboard",
     class: "users",

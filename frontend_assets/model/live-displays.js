@@ -188,6 +188,18 @@ export async function topicsNow() {
   }
 }
 
+/** What a server of interactive markers publishes, below its namespace. */
+const MARKER_UPDATES = { type: "visualization_msgs/msg/InteractiveMarkerUpdate", name: "/update" };
+
+/** @returns {Promise<string[]>} namespaces of servers of interactive markers */
+export async function markerServersNow() {
+  const { type, name: last } = MARKER_UPDATES;
+  const topics = (await topicsNow()) ?? [];
+  return topics
+    .filter(({ name, types }) => types.includes(type) && name.endsWith(last))
+    .map(({ name }) => name.slice(0, -last.length));
+}
+
 /** @returns {Promise<readonly FrameView[]>} */
 export async function framesNow() {
   const answer = await ask({ type: "get_tf" });

@@ -4,7 +4,7 @@
  * keeps for it in the scene. It is on the page's origin, so both call each other directly.
  */
 
-/** @import { JointView, RobotState } from "../types/wire.d.ts" */
+/** @import { JointView, MarkersOfDisplay, RobotState } from "../types/wire.d.ts" */
 /** @import { Value, Values } from "../lib/view-poses.js" */
 
 import { computed, effect, signal, untracked } from "vendor/preact.js";
@@ -12,6 +12,7 @@ import { isStroke, onKey } from "../lib/commands.js";
 import { isKind, targetOf } from "../lib/view-poses.js";
 import { connection, documentId } from "./connection.js";
 import { movable, position, robot } from "./document.js";
+import { attachMarkers } from "./interactive-markers.js";
 import { background, frameRate } from "./live-displays.js";
 import { lights } from "./origin.js";
 import { moveJoint } from "./requests.js";
@@ -103,6 +104,7 @@ function askFor(frame) {
  * @property {(view: ShownView, animate?: boolean) => void} useView
  * @property {(kind: string) => void} setViewKind another, which shows the same
  * @property {(name: string, value: Value) => void} setViewValue
+ * @property {() => void} touch a hand is on the camera: `touch` is told
  * @property {() => void} zero RViz's Zero of the view
  * @property {(direction: Triple) => void} seeFrom the same point from another side
  * @property {(dx: number, dy: number) => void} turnBy as a drag of so many px
@@ -136,6 +138,11 @@ function askFor(frame) {
  * @property {(mode: "all" | "points" | "frames" | "axes" | null) => void} setMeasuring what a click aims at
  * @property {(measures: readonly {ends: readonly Anchor[], label: string}[]) => void} setMeasures
  * @property {(centre: {at: readonly [number, number, number], label: string} | null) => void} setCentre of mass, root frame
+ * @property {(displays: readonly MarkersOfDisplay[]) => void} setMarkers interactive ones, and what can be done with them
+ * @property {(may: boolean) => void} setMayMoveMarkers
+ * @property {(display: string, marker: number) => void} dropMarker what was done to it counts no more
+ * @property {(display: string, marker: number) => void} settleMarker the studio has heard of its release
+ * @property {() => boolean} openMarkerMenu of what the mouse is over; whether there is one
  * @property {() => Graphics} graphics
  * @property {() => void} lighten draw lightly from now on
  * @property {() => void} reload make the view anew
@@ -178,7 +185,9 @@ export function attachViewport(frame) {
     if (!found || mine !== turn) return;
     viewport.value = found;
     viewportConnected.value = found.connected;
-    ends = [...tell(found), listen(found)];
+    const stop = new AbortController();
+    const markers = attachMarkers(found, stop.signal);
+    ends = [...tell(found), listen(found), ...markers, () => stop.abort()];
     showAgain(found);
   };
   frame.addEventListener("load", begin);

@@ -8,7 +8,7 @@ import { niceStep, parseNumber, shownNumber } from "../lib/numbers.js";
 import { PickBox } from "../lib/pick-box.js";
 import { TextBox } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
-import { framesNow, topicsNow } from "../model/live-displays.js";
+import { framesNow, markerServersNow, topicsNow } from "../model/live-displays.js";
 
 /** @typedef {boolean | number | string} Value */
 /** What RViz writes for it. */
@@ -38,6 +38,9 @@ export function PropertyEditor({ label, property, value, disabled, set, topics }
     case "frame":
       return html`<${PickBox} label=${label} text=${String(value) || FIXED_FRAME} disabled=${disabled} onWrite=${set} none=${t("live.frame.none")}
         choices=${async () => [FIXED_FRAME, ...(await framesNow()).map(({ name }) => name)]} />`;
+    case "marker_server":
+      return html`<${PickBox} label=${label} text=${String(value)} disabled=${disabled} onWrite=${set} none=${t("live.marker_servers.none")}
+        choices=${markerServersNow} />`;
     case "text":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${disabled} onWrite=${set} placeholder=""
         ...${topics && { choices: () => topicsOf(topics), none: t("live.topic.nothing", { type: topics }) }} />`;

@@ -416,6 +416,17 @@ export interface Control {
   document: string;
 }
 
+/** A control of an interactive marker. */
+export interface ControlView {
+  number: number;
+  mode: number;
+  facing: number;
+  wxyz: [number, number, number, number];
+  independent: boolean;
+  always_visible: boolean;
+  description: string;
+}
+
 /** All copies, to those who lead the class. */
 export interface Copies {
   type: "copies";
@@ -1352,6 +1363,7 @@ export interface GetRvizText {
   type: "get_rviz_text";
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Ask for the time now; /clock is subscribed for some seconds after. */
@@ -1569,6 +1581,35 @@ export interface InputDifference {
 
 /** Kind of an input in its file. */
 export type InputKind = "property" | "arg" | "parameter" | "param_default" | "yaml";
+
+/**
+ * Do something to an interactive marker; its server gets the feedback that RViz would send.
+ *
+ * A drag is a press, moves and a release. Whoever pressed holds the marker: others are refused
+ * until the release, or until nothing came for two seconds.
+ */
+export interface InteractWithMarker {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "interact_with_marker";
+  display: string;
+  marker: number;
+  control?: number | null;
+  action: "press" | "move" | "hold" | "release" | "select";
+  position?: [number, number, number] | null;
+  orientation?: [number, number, number, number] | null;
+  turn_rad?: number;
+  mouse_point?: [number, number, number] | null;
+  entry?: number;
+  clicked?: boolean;
+}
+
+/** All interactive markers of a document; sent when what can be done with them changes. */
+export interface InteractiveMarkers {
+  type: "interactive_markers";
+  displays: MarkersOfDisplay[];
+}
 
 /** Answer to `get_interface`. */
 export interface InterfaceAnswer {
@@ -1971,6 +2012,23 @@ export interface ManagedNodes {
   more: number;
 }
 
+/** An interactive marker; where it is, the 3D view knows. */
+export interface MarkerView {
+  number: number;
+  name: string;
+  description: string;
+  scale: number;
+  controls: ControlView[];
+  menu: MenuItemView[];
+}
+
+/** The interactive markers of one display. */
+export interface MarkersOfDisplay {
+  display: string;
+  visual_aids: boolean;
+  markers: MarkerView[];
+}
+
 /** Answer to `get_masses`, true of the robot now: ask again when something was built. */
 export interface Masses {
   type: "masses";
@@ -2031,6 +2089,14 @@ export interface MendAll {
   document?: string;
   id?: string;
   type: "mend_all";
+}
+
+/** An entry of the menu of a marker; its parent is 0 in the menu itself. */
+export interface MenuItemView {
+  id: number;
+  parent: number;
+  title: string;
+  checked: boolean | null;
 }
 
 /** A message, or a part of a call. */
@@ -2522,7 +2588,7 @@ export interface Progress {
 /** A property of a kind of display. */
 export interface PropertyView {
   name: string;
-  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame";
+  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame" | "marker_server";
   default: boolean | number | string;
   doc: string;
   low: number | null;
@@ -2933,6 +2999,7 @@ export interface RvizConfigState {
   name: string;
   path: string;
   changed: boolean;
+  rviz1: boolean;
   undo: boolean;
 }
 
@@ -3029,6 +3096,7 @@ export interface SaveRvizFile {
   replace?: boolean;
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Keep the present arguments and values as a new variant. */
@@ -4011,6 +4079,7 @@ export type Command =
   | GetViewKinds
   | GiveControl
   | HandIn
+  | InteractWithMarker
   | Lead
   | ListExamples
   | ListFolder
@@ -4148,6 +4217,7 @@ export type Event =
   | GraphAnswer
   | Hello
   | History
+  | InteractiveMarkers
   | InterfaceAnswer
   | InterfacesAnswer
   | InterfacesAdded

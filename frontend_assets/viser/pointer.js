@@ -7,12 +7,17 @@
 import { pick } from "./picking.js";
 import { far } from "./tools/tool.js";
 
+/** A notch of a wheel in browsers. */
+const WHEEL_PX = 100;
+
 /** The mouse, a finger or a pen over the picture: what it does is told to the tool in hand. */
 export class Pointer {
   /** @type {Tool} */
   #tool;
   /** A press; `own`: it is the tool's. @type {{ spot: Spot, id: number, own: boolean } | null} */
   #pressed = null;
+  /** A press that was the tool's is told to the camera. */
+  #isHandingOver = false;
   /** Where it is since the last picture. @type {Spot | null} */
   #newest = null;
   /** Where the mouse is; null: it is away. @type {Spot | null} */
@@ -79,7 +84,8 @@ export class Pointer {
     window.addEventListener("pointerup", (event) => this.#up(event), options);
     window.addEventListener("pointercancel", () => this.#lose(), options);
     window.addEventListener("blur", () => this.cancel());
-    window.addEventListener("wheel", () => this.#touch(), { capture: true, passive: true });
+    const wheel = (/** @type {WheelEvent} */ event) => this.#wheel(event);
+    window.addEventListener("wheel", wheel, { capture: true, passive: false });
     document.addEventListener("pointerleave", () => {
       this.#at = this.#newest = null;
       if (!this.#pressed) this.#tool.hover(null);
@@ -93,16 +99,17 @@ export class Pointer {
   #down(event) {
     if (event.target !== this.#door.mutable?.canvas) return;
     window.focus();
-    // A second finger moves the camera: what the first one began was not meant.
-    if (this.#pressed?.own && event.pointerId !== this.#pressed.id) this.cancel();
-    const spot = spotOf(event);
-    const modified = spot.shift || spot.ctrl;
-    if (event.button !== 0 || (modified && !this.#tool.takesModified)) {
+    if (this.#isHandingOver) return;
+    if (this.#pressed?.own && event.pointerId !== this.#pressed.id) {
+      this.#handOver(this.#pressed);
       this.#touch();
       return;
     }
-    const own = !spot.free && this.#tool.down(spot);
-    this.#pressed = { spot, id: event.pointerId, own };
+    const spot = spotOf(event);
+    const modified = spot.shift || spot.ctrl;
+    const isPlain = event.button === 0 && (this.#tool.takesModified || !modified);
+    const own = !spot.free && this.#tool.wants(spot) && this.#tool.down(spot);
+    if (own || isPlain) this.#pressed = { spot, id: event.pointerId, own };
     if (own) {
       // Neither viser nor the camera shall hear of it.
       event.stopImmediatePropagation();
@@ -112,6 +119,17 @@ export class Pointer {
     } else {
       this.#touch();
     }
+  }
+
+  /** A second finger moves the camera: what the first one began was not meant, and is the camera's, too.
+   * @param {{ spot: Spot, id: number }} pressed */
+  #handOver({ spot, id }) {
+    this.cancel();
+    const { x: clientX, y: clientY } = spot;
+    const init = { pointerId: id, pointerType: "touch", clientX, clientY, buttons: 1, bubbles: true };
+    this.#isHandingOver = true;
+    this.#door.mutable?.canvas?.dispatchEvent(new PointerEvent("pointerdown", init));
+    this.#isHandingOver = false;
   }
 
   /** A hand is on the camera. */
@@ -155,6 +173,13 @@ export class Pointer {
     if (this.#tool.doubleClick(spotOf(event))) event.stopImmediatePropagation();
   }
 
+  /** @param {WheelEvent} event */
+  #wheel(event) {
+    if (!this.#pressed?.own || !this.#tool.wheel(-event.deltaY / WHEEL_PX)) return this.#touch();
+    event.preventDefault();
+    return event.stopImmediatePropagation();
+  }
+
   /** At most once for each picture, however often the mouse reports. */
   #everyPicture() {
     requestAnimationFrame(() => this.#everyPicture());
@@ -168,7 +193,7 @@ export class Pointer {
 
 /** @param {MouseEvent} event @returns {Spot} */
 function spotOf(event) {
-  const { clientX: x, clientY: y, altKey: free, shiftKey: shift, ctrlKey, metaKey } = event;
+  const { clientX: x, clientY: y, altKey: free, shiftKey: shift, ctrlKey, metaKey, button } = event;
   const touch = "pointerType" in event && event.pointerType === "touch";
-  return { x, y, free, shift, ctrl: ctrlKey || metaKey, touch };
+  return { x, y, free, shift, ctrl: ctrlKey || metaKey, touch, button };
 }

@@ -13,18 +13,21 @@ import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
 import { Live } from "./live.js";
 import { Looks } from "./link-appearance.js";
+import { MarkerHandles } from "./tools/marker-handles.js";
+import { MarkerScene } from "./marker-scene.js";
 import { FocusCamera } from "./tools/focus.js";
 import { Interact } from "./tools/interact.js";
 import { Measure } from "./tools/measure.js";
 import { MoveCamera } from "./tools/move-camera.js";
 import { Outlines } from "./outlines.js";
-import { pick, pickAnything } from "./picking.js";
+import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
 import { PoseOnGround } from "./tools/pose.js";
 import { Select } from "./tools/select.js";
 import { RobotView } from "./robot.js";
+import { FIRST } from "../lib/view-poses.js";
 import { SurfacePoint } from "./tools/point.js";
 import { Surfaces } from "./surface.js";
 import { Units } from "./tools/units.js";
@@ -33,7 +36,7 @@ import { Units } from "./tools/units.js";
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `touch {}` (a hand is on the camera), `view {kind, values}` (it is another, or has other values),
+ * `marker`, `marker_menu`, `marker_hover`, `marker_denied` (see MarkerHandles), `touch {}` (a hand is on the camera), `view {kind, values}` (it is another, or has other values),
  * `turned {turn}` (of the camera), `focus {link}` (null: of no link), `measure {anchor}`, `pose
  * {x, y, yaw}` and `point {point, what}` (pointed at with a tool, in the fixed frame), `picked {nodes,
  * links, how, left_out}` and `select_nothing {}` (of the tool Select), `drag {joint, value, phase, x,
@@ -67,6 +70,11 @@ class Studio3d {
   #tellPage = (type, detail) => void this.#tell(type, detail);
   #detail = new CloudDetail(this.#door, (oneIn) => this.#tell("detail", { oneIn }));
   #outlines = new Outlines(this.#door);
+  #markers = new MarkerHandles(
+    this.#door,
+    new MarkerScene(this.#door, (x, y) => pick(this.#door, this.#robot, x, y)?.point ?? null),
+    this.#tellPage,
+  );
   #interact = new Interact(
     this.#door,
     this.#robot,
@@ -105,6 +113,7 @@ class Studio3d {
   constructor() {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
     this.ready = this.#door.ready.then(() => undefined);
+    this.#interact.handles.push(this.#markers);
     new Live(this.#door);
     new Removed(this.#door);
     this.#door.onConnection((connected) => this.#tell("connection", { connected }));
@@ -168,6 +177,16 @@ class Studio3d {
     this.#camera.setValue(name, value);
   }
 
+  /** What the values of a view are at first, by its kind. */
+  firstValues() {
+    return FIRST;
+  }
+
+  /** A hand is on the camera, from outside of the picture. */
+  touch() {
+    this.#tell("touch", {});
+  }
+
   /** RViz's Zero of the view. */
   zero() {
     this.#camera.zero();
@@ -201,7 +220,9 @@ class Studio3d {
 
   #pointedAnything() {
     const over = this.#hands.over;
-    return over && pickAnything(this.#door, this.#robot, over.x, over.y);
+    const found = over && this.#surfaces.at(over.x, over.y);
+    // A line of the floor is nothing to look at.
+    return found && (found.link ?? found.display) !== null ? found.point : null;
   }
 
   /** Whether this browser draws lightly, by software, and with what. */
@@ -289,7 +310,7 @@ class Studio3d {
 
   /** Give up what is under way with the tool in hand. @returns {boolean} whether anything was */
   cancelTool() {
-    return this.#pointer.cancel();
+    return this.#pointer.cancel() || this.#endsSelection();
   }
 
   /** Take a tool in hand. @param {string} kind as RViz names its class; one that is not known: Interact */
@@ -363,6 +384,31 @@ class Studio3d {
    * @param {import("./measuring.js").Centre | null} centre */
   setCentre(centre) {
     this.#measuring.setCentre(centre);
+  }
+
+  /** Interactive markers, and what can be done with them. @param {readonly import("./marker-scene.js").Markers[]} displays */
+  setMarkers(displays) {
+    this.#markers.set(displays);
+  }
+
+  /** Whether this person may move them. @param {boolean} may */
+  setMayMoveMarkers(may) {
+    this.#markers.setMay(may);
+  }
+
+  /** The studio refused what was done to a marker. @param {string} display @param {number} marker */
+  dropMarker(display, marker) {
+    this.#markers.refused(display, marker);
+  }
+
+  /** The studio has heard of the release of a marker. @param {string} display @param {number} marker */
+  settleMarker(display, marker) {
+    this.#markers.settle(display, marker);
+  }
+
+  /** Open the menu of the marker that the mouse is over; whether there is one. */
+  openMarkerMenu() {
+    return this.#markers.menuHere();
   }
 
   /** The link at a place of this window, or null. @param {number} x @param {number} y */

@@ -26,6 +26,10 @@ export interface Vector3 {
 }
 
 export interface Quaternion {
+  x: number;
+  y: number;
+  z: number;
+  w: number;
   set(x: number, y: number, z: number, w: number): this;
   clone(): Quaternion;
   copy(other: Quaternion): this;

@@ -56,6 +56,7 @@ DEMOS = (
     Demo("adder_server", (("learning_interface", "server"), ("python_pkg_name", "server"))),
     Demo("adder_client", (("learning_interface", "client"), ("python_pkg_name", "client"))),
     Demo("state_publisher", (("urdf_view", "state_publisher"),)),
+    Demo("basic_controls", (("interactive_marker_tutorials", "basic_controls"),)),
     Demo("turtlesim_node", (("turtlesim", "turtlesim_node"),)),
     Demo("turtle_teleop_key", (("turtlesim", "turtle_teleop_key"),)),
     Demo("now_playing_server", (("radio_station", "service_server"),)),
@@ -179,6 +180,7 @@ CHAPTERS: dict[str, tuple[Lesson, ...]] = {
         Lesson("state_publisher", "/state_publisher"),
         Lesson("rover", "/rover"),
         Lesson("transform_point", "/transform_point"),
+        Lesson("basic_controls", "/basic_controls"),
     ),
     "lifecycle": (Lesson("lifecycle_talker", "/lc_talker"),),
 }

@@ -10,6 +10,7 @@ from studio.displays.grid import GridDisplay
 from studio.displays.grid_cells import GridCellsDisplay
 from studio.displays.image import ImageDisplay
 from studio.displays.imu import ImuDisplay
+from studio.displays.interactive_markers import InteractiveMarkersDisplay
 from studio.displays.laser_scan import LaserScanDisplay
 from studio.displays.map import MapDisplay
 from studio.displays.markers.display import MarkerArrayDisplay, MarkerDisplay
@@ -46,6 +47,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     IlluminanceDisplay,
     ImageDisplay,
     ImuDisplay,
+    InteractiveMarkersDisplay,
     LaserScanDisplay,
     MapDisplay,
     MarkerArrayDisplay,
@@ -99,7 +101,5 @@ def displays_of_type(type_name: str, topic: str = "") -> tuple[type[Display], ..
 
 
 def _types_of(display: type[Display]) -> tuple[str, ...]:
-    """Return the types that a display draws; TF subscribes to none, since one buffer serves all."""
-    if issubclass(display, TfDisplay):
-        return display.OF_TYPES
-    return display.TOPICS[0].types if display.TOPICS else ()
+    """Return the types that a display draws, also if others receive them for it."""
+    return display.TOPICS[0].types if display.TOPICS else display.OF_TYPES

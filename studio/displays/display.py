@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
     "no_mesh", "unknown_field", "no_camera_info", "unsupported", "thinned", "not_connected_frame",
+    "no_server",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself knows."""
 _TRANSPORTS: Final = {"compressed", "compressedDepth", "ffmpeg", "theora", "zstd"}
@@ -122,6 +123,8 @@ class Display(ABC):
     """The main one first; empty for a display without messages."""
     FIRST_TOPIC: ClassVar[str] = ""
     """The topic to subscribe to when none was chosen."""
+    OF_TYPES: ClassVar[tuple[str, ...]] = ()
+    """Messages that it shows, though others receive them for it."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = ()
     SETTINGS_MAX: ClassVar[int] = 1000
     """Limit of the properties kept; some displays get more with their messages, as links."""
@@ -146,6 +149,12 @@ class Display(ABC):
             raise DisplayPropertyError(name, reason, None)
         self.values[name] = self._property(name).checked(value)
         self.changed(name)
+
+    @classmethod
+    def settings_for(cls, topic: str) -> Mapping[str, Value]:
+        """Return the properties that name a topic, of a display that does not subscribe itself."""
+        del topic
+        return {}
 
     def roles(self) -> tuple[TopicRole, ...]:
         """Return the topics to subscribe to with the properties as they are set."""

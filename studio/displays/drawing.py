@@ -321,6 +321,8 @@ class Placed:
             the fixed frame.
         sweep: For points not all measured at the stamp: each is placed where the frame was at its
             own time.
+        offset: Pose of the shapes in the frame; None: they are in its own axes. What only moves
+            in its frame is another offset of the same shapes.
     """
 
     frame: str
@@ -329,3 +331,4 @@ class Placed:
     follows: bool = False
     turns: bool = True
     sweep: Sweep | None = None
+    offset: Pose | None = None

@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Rgb
 
 Value: TypeAlias = bool | int | float | str
-PropertyKind: TypeAlias = Literal["switch", "whole", "number", "colour", "choice", "text", "frame"]
+PropertyKind: TypeAlias = Literal[
+    "switch", "whole", "number", "colour", "choice", "text", "frame", "marker_server"
+]
 
 _COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
 _TEXT_MAX: Final = 1000
@@ -31,7 +33,8 @@ class Property:
 
     Attributes:
         name: RViz's; parts of a group are named with slashes, as `Covariance/Position/Alpha`.
-        kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf.
+        kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf, a server
+            of interactive markers by the namespace of its topics.
         default: The first value.
         doc: One sentence for the user.
         low: Least number.

@@ -31,6 +31,7 @@ from studio.errors import CommandError, OutsideRootsError, StudioError, UnknownD
 from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import ConnectionCommands
+from studio.live.displays.document_tools import Pointed
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
@@ -67,7 +68,7 @@ from studio.protocol.documents import (
 from studio.protocol.listeners import Audience, send
 from studio.protocol.roles import Role, owner_of
 from studio.protocol.saving import ForgetWork
-from studio.protocol.tools import UseTool
+from studio.protocol.tools import ToolUsed, UseTool
 from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
@@ -78,7 +79,6 @@ if TYPE_CHECKING:
     from studio.packages.workspace import Progress
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
-    from studio.protocol.tools import ToolUsed
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
@@ -420,8 +420,20 @@ def _link_to(engine: Engine, command: GetLink) -> Link:
 
 
 async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
-    use = await engine.document(command.document).live.tool_use(command)
-    return await engine.ros.tools.use(command, use, asker.person)
+    xyz = (command.x, command.y, command.z)
+    pointed = Pointed(command.tool, command.fixed_frame, xyz, command.yaw)
+    use = await engine.document(command.document).live.tool_use(pointed)
+    sent = await engine.ros.tools.use(command.document, use, asker.person)
+    return ToolUsed(
+        request=command.request,
+        sent_as="action" if sent.operation else "topic",
+        name=sent.name,
+        frame=use.frame,
+        xyz=use.xyz,
+        wxyz=use.wxyz,
+        subscriptions=sent.subscriptions,
+        operation=sent.operation,
+    )
 
 
 COMMANDS: Final = Commands[Engine](Scope.STUDIO)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 USED_LATER: Final = (
     *("studio.live.displays.drawing_room", "studio.live.displays.robot_models"),
+    "studio.live.displays.marker_servers",
     *("studio.displays.robot_model", "studio.scene.picked_rows"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
     *("studio.rviz.config", "studio.live.connection.followed_joints"),

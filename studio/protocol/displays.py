@@ -159,7 +159,7 @@ class PropertyView(Message):
     """A property of a kind of display."""
 
     name: str
-    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame"]
+    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame", "marker_server"]
     default: PropertyValue
     doc: str
     low: float | None

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.ros.client import Context, Node
+from studio.ros.interactive_markers import InteractiveMarkerServer
 from studio.ros.messages import message
 from studio.ros.node.samples import BLINK_NS
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -283,6 +284,20 @@ def test_each_sees_the_ends_of_the_other_with_qos_hash_and_gid(real: RealNodes, 
     found = graph.endpoint_of_gid(bytes.fromhex(end["gid"]))
     assert found is not None
     assert found.name == "/seen_here"
+
+
+def test_real_ros_sees_a_server_of_interactive_markers_as_its_own_are(real: RealNodes, node: Node):
+    """It has no visualization_msgs here, so that it cannot read what is published."""
+    with InteractiveMarkerServer(node, "/handles"):
+        wait_until("it is seen", lambda: len(real.ask("ends", topic="/handles/update")) == 1)
+        graph = real.ask("graph")
+        topics, served = graph["topics"], graph["services"]["/handles/get_interactive_markers"]
+        assert served == ["visualization_msgs/srv/GetInteractiveMarkers"]
+        assert topics["/handles/update"] == ["visualization_msgs/msg/InteractiveMarkerUpdate"]
+        assert topics["/handles/feedback"] == ["visualization_msgs/msg/InteractiveMarkerFeedback"]
+        [end] = real.ask("ends", topic="/handles/update")
+        assert (end["depth"], end["reliability"]) == (100, "RELIABLE")
+    wait_until("it is gone", lambda: not real.ask("ends", topic="/handles/update"))
 
 
 def test_nodes_in_namespaces_and_enclaves_are_seen(real: RealNodes, node: Node, endpoint: str):

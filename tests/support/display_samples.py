@@ -252,6 +252,9 @@ SAMPLES: tuple[Sample, ...] = (
     Sample("grid", "Grid"),
     Sample("axes", "Axes", values={"Length": 0.6, "Radius": 0.03}),
     Sample("tf", "TF", values={"Marker Scale": 0.6}),
+    Sample(
+        "handles", "InteractiveMarkers", values={"Interactive Markers Namespace": "/handles/told"}
+    ),
     Sample("laser_scan", "LaserScan", "sensor_msgs/msg/LaserScan", _scan(),
            {"Size (m)": 0.03}, frame="laser"),
     Sample("cloud_rgb", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=True)),

@@ -18,11 +18,13 @@ from PIL import Image
 
 from tests.support.browser import open_browser
 from tests.support.classmates import classmate
+from tests.support.demos import running_demo
 from tests.support.managed_arm import managed_arm
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
 from tests.support.server import running_studio
 from tests.support.student_nodes import OwnNode
+from tests.support.studio_page import wait_until
 from tests.support.wire import running_router
 from tests.support.wired_tab import add_displays, connect, look_at_odometry
 
@@ -44,6 +46,12 @@ PANELS_WINDOW = (1060, 940)
 DIALOGS_WINDOW = (720, 640)
 CLASS_WINDOW = (800, 760)
 _CLASS_ADDRESS = "http://robots.example:8765/"
+_SAVE_VIEW = """async ([how, name, pitch]) => {
+  const script = document.querySelector('script[type="module"]').src;
+  const views = await import(new URL("../model/views.js", script));
+  if (how === "sharedCount") return views.sharedViews.value.length;
+  await views[how]({ kind: "Orbit", name, values: { Distance: 1.2, Pitch: pitch } });
+}"""
 _NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
 OF_CLASSES = ("people", "class", "own_nodes")
 """The panel and the windows about a class, of which the demo has none."""
@@ -76,6 +84,17 @@ _START_NODES = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   await (await import(new URL("../model/student-nodes.js", script))).startNodes();
 }"""
+_SELECT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { liveDisplays } = await import(new URL("../model/live-displays.js", script));
+  const { takePicked } = await import(new URL("../model/selected-items.js", script));
+  const { id: display } = liveDisplays.value.find(({ kind }) => kind === "LaserScan");
+  const scan = { display, path: "0", shape: "points", node: "points", place: null };
+  const take = (rows, how) =>
+    takePicked({ nodes: [{ ...scan, rows }], links: [], how, left_out: 0 });
+  await take([10], "replace");
+  await take([11, 12, 13], "add");
+}"""
 _DOCK_OF = """(id) => {
   const script = document.querySelector('script[type="module"]').src;
   return import(new URL("panels.js", script)).then(({ panelTitle }) => {
@@ -103,6 +122,22 @@ _BROKEN = """<?xml version="1.0"?>
 </robot>
 """
 """What has an error, a warning and notes."""
+
+
+_ALONE = ("problems", "markers")
+"""Pages whose pictures need a studio of their own."""
+_ADD_MARKERS = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { addDisplay } = await import(new URL("../model/live-displays.js", script));
+  await addDisplay("InteractiveMarkers", "/basic_controls/update");
+}"""
+_HAS_MARKERS = """() => {
+  const nodes = document.querySelector("iframe").contentWindow.__viserMutable.nodeRefFromName;
+  const isPart = (name) => name.startsWith("/live/") && name.includes("-body/");
+  return Object.keys(nodes).filter(isPart).length > 20;
+}"""
+_LOOK = "(pose) => document.querySelector('iframe').contentWindow.studio3d.setCamera(pose, false)"
+_AT_MARKER = {"position": [-2.6, -0.9, 1.7], "target": [-1.5, 1.5, 0.1]}
 
 
 def path_of(page: str, theme: Theme) -> Path:
@@ -151,6 +186,10 @@ def wanted(name: str) -> bool:
 
 def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
+    if wanted("views"):
+        camera.page.evaluate(_SAVE_VIEW, ["saveOwn", "From above", 1.4])
+        if camera.page.evaluate(_SAVE_VIEW, ["sharedCount", "", 0.0]) == 0:
+            camera.page.evaluate(_SAVE_VIEW, ["saveShared", "Gripper", 0.2])
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in GROUP_OF:
         if wanted(panel) and panel not in NOT_OF_THE_DEMO:
@@ -248,6 +287,33 @@ def show_lesson(page: Page) -> None:
     page.get_by_text("Publishing").first.wait_for()
 
 
+def examine(page: Page) -> None:
+    """Until the Doctor has heard enough to say all that it knows."""
+    begin = page.get_by_role("button", name="Examine", exact=True)
+    begin.click()
+    page.locator(".doctor-live").wait_for()
+
+
+def show_type(page: Page) -> None:
+    page.get_by_label("Search types").fill("laser")
+    page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
+
+
+def select_some(page: Page) -> None:
+    """Until the panel Selection has facts."""
+    page.evaluate(_SELECT)
+    page.locator(".selection-facts").first.wait_for()
+
+
+READY: dict[str, Callable[[Page], None]] = {
+    "doctor": examine,
+    "interfaces": show_type,
+    "lessons": show_lesson,
+    "selection": select_some,
+}
+"""What a panel has to show before its picture is taken."""
+
+
 def take_wired(browser: Browser, data: Path) -> None:
     """Panels about ROS 2, with the graph of the demo."""
     with (
@@ -268,12 +334,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                 for panel in filter(wanted, ON_THE_WIRE):
                     tab.page.evaluate(SHOW_PANEL, panel)
                     tab.page.evaluate(_RUN, "maximize")
-                    if panel == "interfaces":
-                        show_type(tab.page)
-                    if panel == "doctor":
-                        examine(tab.page)
-                    if panel == "lessons":
-                        show_lesson(tab.page)
+                    if ready := READY.get(panel):
+                        ready(tab.page)
                     tab.page.wait_for_timeout(_STILL_MS)
                     highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
@@ -293,16 +355,25 @@ def take_wired(browser: Browser, data: Path) -> None:
                     take_displays(camera)
 
 
-def examine(page: Page) -> None:
-    """Until the Doctor has heard enough to say all that it knows."""
-    begin = page.get_by_role("button", name="Examine", exact=True)
-    begin.click()
-    page.locator(".doctor-live").wait_for()
-
-
-def show_type(page: Page) -> None:
-    page.get_by_label("Search types").fill("laser")
-    page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
+def take_markers(browser: Browser, data: Path) -> None:
+    """A marker of the demo with its handles, in the 3D view."""
+    with (
+        running_router() as endpoint,
+        running_demo(endpoint, "basic_controls"),
+        running_studio(["demo", "--connect", endpoint, "--router", "off"], data) as studio,
+    ):
+        for theme in THEMES:
+            with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
+                connect(tab)
+                if theme == THEMES[0]:
+                    tab.page.evaluate(_ADD_MARKERS)
+                tab.page.evaluate(SHOW_PANEL, "scene")
+                tab.page.evaluate(_RUN, "maximize")
+                wait_until("the markers", lambda: tab.page.evaluate(_HAS_MARKERS), 20)
+                tab.page.evaluate(_LOOK, _AT_MARKER)
+                camera = Camera(tab, theme)
+                tab.settle()
+                camera.take("markers", tab.page.evaluate(_DOCK_OF, "scene"))
 
 
 def take_displays(camera: Camera) -> None:
@@ -372,12 +443,15 @@ def main() -> None:
     """Take them all anew."""
     wired = (*ON_THE_WIRE, "live", "displays", "ros")
     for browser in open_browser():
-        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, OF_CLASSES, ("problems",)):
+        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, OF_CLASSES, _ALONE):
             with tempfile.TemporaryDirectory() as data:
                 take_demo(browser, Path(data))
         if any(map(wanted, wired)):
             with tempfile.TemporaryDirectory() as data:
                 take_wired(browser, Path(data))
+        if wanted("markers"):
+            with tempfile.TemporaryDirectory() as data:
+                take_markers(browser, Path(data) / "data")
         if any(map(wanted, OF_CLASSES)):
             with tempfile.TemporaryDirectory() as data:
                 take_class(browser, Path(data) / "data")

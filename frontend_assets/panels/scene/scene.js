@@ -52,6 +52,7 @@ import {
   useView,
 } from "../../model/views.js";
 import { PlaceLink } from "../parts.js";
+import { MarkerHint, MarkerMenu } from "./marker-parts.js";
 import { MeasureCard } from "./measure-card.js";
 import { NavigationGoal } from "./navigation-goal.js";
 import { ToolButtons } from "./tool-buttons.js";
@@ -75,9 +76,10 @@ export function ScenePanel() {
     <${Tools} />
     <${ViewCube} />
     <div class="scene-cards"><${ToolCard} /><${MeasureCard} /></div>
+    <${MarkerMenu} />
     <${Cover} />
     <${MeshProgress} />
-    <div class="scene-notices"><${LastGoodNotice} /><${PausedNotice} /><${NavigationGoal} /><${FollowOffer} /><${GraphicsNotice} /></div>
+    <div class="scene-notices"><${LastGoodNotice} /><${PausedNotice} /><${NavigationGoal} /><${FollowOffer} /><${GraphicsNotice} /><${MarkerHint} /></div>
   </section>`;
 }
 

@@ -48,15 +48,25 @@ export class Interact extends Tool {
     this.#label.hidden = true;
   }
 
+  take() {
+    for (const one of this.handles) one.take();
+  }
+
   leave() {
     for (const one of this.handles) one.leave();
     this.#hoverLink(null);
   }
 
   /** @param {Spot} spot */
+  wants(spot) {
+    return super.wants(spot) || this.handles.some((one) => one.wants(spot));
+  }
+
+  /** @param {Spot} spot */
   down(spot) {
     this.#held = this.handles.find((one) => one.down(spot)) ?? null;
     if (this.#held) return true;
+    if (!super.wants(spot)) return false;
     const grip = pick(this.#door, this.#robot, spot.x, spot.y);
     if (!grip || !this.#movable(grip.link)) return false;
     this.#pressed = { spot, grip };
@@ -111,6 +121,11 @@ export class Interact extends Tool {
     const at = spot && !overHandle ? pick(this.#door, this.#robot, spot.x, spot.y) : null;
     this.#hoverLink(at?.link ?? null);
     return overHandle || at !== null;
+  }
+
+  /** @param {number} clicks */
+  wheel(clicks) {
+    return this.#held?.wheel(clicks) ?? false;
   }
 
   /** Give the start value back. */

@@ -10,6 +10,7 @@
  * @property {boolean} shift
  * @property {boolean} ctrl Ctrl or Cmd
  * @property {boolean} touch it is a finger
+ * @property {number} button of a press: 0 is the left one, 2 the right one
  */
 
 /** A press that moves less than this is a click, px. */
@@ -22,7 +23,7 @@ export function far(spot, from) {
 
 /**
  * The base of all tools, one of which is in hand; the pointer tells it what happens. A press of the
- * left button is the tool's if `down` says so: then neither the camera nor viser hears of it, and
+ * left button, or one that it `wants`, is the tool's if `down` says so: then neither the camera nor viser hears of it, and
  * `move` and `up`, or `cancel`, follow. Every other press is the camera's; one that ends where it
  * began is a `click`. With Alt a press is the camera's at once, and so it is with Shift or Ctrl
  * unless `takesModified`.
@@ -38,6 +39,11 @@ export class Tool {
 
   /** It is put away, after `cancel`. */
   leave() {}
+
+  /** Whether it is offered a press. @param {Spot} spot */
+  wants({ button, shift, ctrl }) {
+    return button === 0 && (this.takesModified || !(shift || ctrl));
+  }
 
   /** A press. @param {Spot} _spot @returns {boolean} whether it is the tool's own */
   down(_spot) {
@@ -61,6 +67,12 @@ export class Tool {
   /** The mouse moves, and nothing is pressed; at most once for each picture. @param {Spot | null} _spot null: it is away
    * @returns {boolean} whether something of the tool's is there */
   hover(_spot) {
+    return false;
+  }
+
+  /** The wheel turns while its own press lasts. @param {number} _clicks away from the eye is positive
+   * @returns {boolean} whether that means something to it */
+  wheel(_clicks) {
     return false;
   }
 

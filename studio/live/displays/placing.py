@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 from studio.displays.drawing import NO_TURN, NOTHING
 from studio.errors import ExtrapolationError, FrameError
 from studio.live.displays.deskewing import Deskewing
+from studio.tf.rotations import compose
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -40,8 +41,14 @@ class _Waiting:
 class _Tried:
     poses: dict[str, Pose | None] = field(default_factory=dict[str, "Pose | None"])
     troubles: dict[str, FrameError] = field(default_factory=dict[str, FrameError])
+    frames: dict[str, Pose] = field(default_factory=dict[str, "Pose"])
     ends: dict[str, Pose] = field(default_factory=dict[str, "Pose"])
     """Last pose of the frame, for a drawing of points measured one after another."""
+
+    def put(self, path: str, frame: Pose, placed: Placed) -> None:
+        """Place what is drawn at a path, whose frame has this pose."""
+        self.frames[path] = frame
+        self.poses[path] = _offset(frame, placed.offset)
 
 
 class Placing:
@@ -58,6 +65,8 @@ class Placing:
         self._source: Drawing = NOTHING
         """What is shown, as the display drew it."""
         self._placed: dict[str, Placed] = {}
+        self._frames: Mapping[str, Pose] = {}
+        """By path, the pose of its frame."""
         self._ends: Mapping[str, Pose] = {}
         self._deskewing = Deskewing()
         self.troubles: Mapping[str, FrameError] = {}
@@ -109,16 +118,16 @@ class Placing:
     def _try(self, drawing: Drawing, lookup: Lookup) -> _Tried:
         tried = _Tried()
         for path, placed in drawing.items():
-            known = self._shown.poses.get(path)
+            known = self._frames.get(path)
             is_there = known is not None and _is_same_place(self._placed.get(path), placed)
-            if is_there and not _moves(placed):
-                tried.poses[path] = known
+            if known is not None and is_there and not _moves(placed):
+                tried.put(path, known, placed)
                 if path in self._ends:
                     tried.ends[path] = self._ends[path]
                 continue
             try:
                 wxyz, xyz = lookup(placed.frame, placed.stamp_ns)
-                tried.poses[path] = (wxyz if placed.turns else NO_TURN), xyz
+                tried.put(path, (wxyz if placed.turns else NO_TURN, xyz), placed)
                 if placed.sweep is not None:
                     tried.ends[path] = lookup(placed.frame, placed.sweep.until_ns)
             except FrameError as error:
@@ -127,6 +136,7 @@ class Placing:
 
     def _show(self, drawing: Drawing, tried: _Tried) -> Shown:
         self._source, self._placed, self._ends = drawing, dict(drawing), tried.ends
+        self._frames = tried.frames
         self.troubles = tried.troubles
         deskewed = self._deskewing.deskewed(drawing, tried.poses, tried.ends)
         self._shown = Shown(deskewed, tried.poses)
@@ -156,6 +166,15 @@ def _is_same_place(before: Placed | None, now: Placed) -> bool:
         now.follows,
         now.turns,
     )
+
+
+def _offset(fixed_from_frame: Pose, frame_from_shapes: Pose | None) -> Pose:
+    if frame_from_shapes is None:
+        return fixed_from_frame
+    (w, x, y, z), (px, py, pz) = fixed_from_frame
+    (ow, ox, oy, oz), (qx, qy, qz) = frame_from_shapes
+    made = compose((w, x, y, z, px, py, pz), (ow, ox, oy, oz, qx, qy, qz))
+    return made[:4], made[4:]
 
 
 def _moves(placed: Placed) -> bool:

@@ -157,3 +157,18 @@ def test_other_shapes_at_the_same_place_and_time_stay_there_however_long_ago_it_
     shown = placing.step(lookup, MOMENT)
     assert shown is not None
     assert shown.poses == {"": (NO_TURN, (5.0, 0.0, 0.0))}
+
+
+def test_what_moves_in_its_frame_stays_with_it_though_the_time_of_its_pose_is_forgotten():
+    placing, frames = Placing(), Frames(scan=10)
+    quarter = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
+    placing.offer({"": Placed("scan", 5, {}, offset=(quarter, (0.0, 2.0, 0.0)))}, MOMENT)
+    shown = placing.step(frames.lookup, MOMENT)
+    assert shown is not None
+    assert shown.poses == {"": (quarter, (5.0, 2.0, 0.0))}
+    del frames.known_until["scan"]
+    placing.offer({"": Placed("scan", 5, {}, offset=(NO_TURN, (0.0, 3.0, 0.0)))}, MOMENT)
+    shown = placing.step(frames.lookup, MOMENT)
+    assert shown is not None
+    assert shown.poses == {"": (NO_TURN, (5.0, 3.0, 0.0))}
+    assert not placing.troubles
