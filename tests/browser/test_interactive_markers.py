@@ -36,7 +36,9 @@ ADD = """async () => {
   const { addDisplay, setFixedFrame } = await import(at("../model/live-displays.js"));
   await setFixedFrame("base_link");
   await addDisplay("InteractiveMarkers", "/basic_controls/update");
-  (await import(at("../lib/commands.js"))).commandById("maximize").run();
+  const { commandById } = await import(at("../lib/commands.js"));
+  commandById("panel.scene").run();
+  commandById("maximize").run();
 }"""
 IN_VIEW = """(script) => {
   const view = document.querySelector("iframe").contentWindow;
