@@ -151,6 +151,7 @@ ACROSS_ROOMS = {
     "models",
 }
 OF_A_WHOLE_ROOM = {
+    "test_browser_camera.py",
     "test_browser_opening.py",
     "test_browser_view.py",
     "test_comments.py",

@@ -122,6 +122,7 @@ export function SaveConfigDialog({ onClose }) {
     ),
   );
   const isThere = useSignal("");
+  const rviz2 = useSignal(true);
   const hint = useId();
   useEffect(() => {
     name.value = proposedName();
@@ -132,12 +133,13 @@ export function SaveConfigDialog({ onClose }) {
         folder.value = files?.folder ?? "";
       });
   }, []);
+  const converts = () => rvizConfig.value.rviz1 && rviz2.value;
   const path = `${folder.value.trim().replace(/[/\\]+$/, "")}/${name.value.trim()}${ending.value}`;
   /** @param {Event} event */
   const save = async (event) => {
     event.preventDefault();
     if (name.value.trim() === "") return;
-    const saved = await saveConfig(path, { replace: isThere.value === path });
+    const saved = await saveConfig(path, { replace: isThere.value === path, rviz2: converts() });
     if (!saved) return;
     isThere.value = saved.isThere ? path : "";
     if (saved.isThere) return;
@@ -146,7 +148,7 @@ export function SaveConfigDialog({ onClose }) {
   };
   const download = () => {
     onClose();
-    downloadConfig(ending.value);
+    downloadConfig(ending.value, { rviz2: converts() });
   };
   return html`<${Dialog} title=${t("rviz.save.title")} closeLabel=${t("close")} class="config-dialog" onClose=${onClose}>
     <form class="open-form" onSubmit=${save}>
@@ -157,6 +159,14 @@ export function SaveConfigDialog({ onClose }) {
               ending.value = /** @type {typeof RVIZ | typeof STUDIO} */ (one);
             }} /><span><strong>${one}</strong> ${t(one === RVIZ ? "rviz.kind.rviz" : "rviz.kind.studio")}</span></label>`,
         )}</fieldset>
+      ${
+        rvizConfig.value.rviz1 &&
+        html`<label class="form-check"><input type="checkbox" checked=${rviz2.value} onChange=${(
+          /** @type {any} */ event,
+        ) => {
+          rviz2.value = event.currentTarget.checked;
+        }} /><span>${t("rviz.to_rviz2")}</span></label>`
+      }
       <label class="form-row"><span>${t("rviz.name")}</span>
         <input type="text" class="box wide" data-first maxlength="100" spellcheck=${false} value=${name.value} onInput=${(
           /** @type {any} */ event,
@@ -198,8 +208,8 @@ export function OpenedConfigDialog({ opened, onClose }) {
       groups.length > 0 &&
       html`<p class="dialog-text">${t("rviz.opened.kept")}</p>
     <ul class="config-losses" tabindex="0" aria-label=${t("rviz.opened.kept")}>${groups.map(
-      ({ reason, whats }) => html`<li key=${reason}><strong>${t(`rviz.loss.${reason}`)}</strong>
-        <ul>${whats.map((one) => html`<li key=${one}>${one}</li>`)}</ul></li>`,
+      ({ reason, classes }) => html`<li key=${reason}><strong>${t(`rviz.loss.${reason}`)}</strong>
+        <ul>${classes.map((one) => html`<li key=${one}>${one}</li>`)}</ul></li>`,
     )}</ul>`
     }
     <footer><button type="button" class="button" disabled=${!rvizConfig.value.undo} onClick=${undo}><${Icon} name="undo" />${t("command.rviz_undo")}</button>

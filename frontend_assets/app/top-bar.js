@@ -7,6 +7,7 @@
 
 import { html } from "vendor/preact.js";
 import { address } from "../lib/address.js";
+import { tabsOf } from "../lib/arrangement.js";
 import { commandById, onMac, shortcutText } from "../lib/commands.js";
 import { LANGUAGES, language, t } from "../lib/i18n.js";
 import { allSettled } from "../lib/latest.js";
@@ -244,6 +245,7 @@ const commandItem = (id, icon, label = t(`command.${id}`)) => ({
 
 /** @returns {MenuItem[]} */
 function panelItems() {
+  const open = openPanels();
   const groups = PANEL_GROUPS.map((group) => ({
     label: t(`panels.group.${group}`),
     heading: true,
@@ -256,9 +258,18 @@ function panelItems() {
     commandItem("layouts", "disk", `${t("layouts.manage")}…`),
     ...groups.flatMap(({ items, ...heading }) => [
       heading,
-      ...items.map(([id, { icon }]) => commandItem(`panel.${id}`, icon, panelTitle(id))),
+      ...items.map(([id, { icon }]) => ({
+        ...commandItem(`panel.${id}`, icon, panelTitle(id)),
+        ...(open.has(id) && { mark: t("panels.is_open") }),
+      })),
     ]),
   ];
+}
+
+/** @returns {ReadonlySet<string>} panels that stand somewhere now */
+function openPanels() {
+  const { parts, floating = [] } = layoutControl.value?.present() ?? { parts: [] };
+  return new Set([...parts.flatMap(tabsOf), ...floating.flatMap(({ tabs }) => tabs)]);
 }
 
 /** @returns {MenuItem[]} */

@@ -7,6 +7,17 @@
 
 import { openMenu } from "./ui.js";
 
+/** A tab of the dock; a panel may have tabs of its own inside. */
+export const TAB = '.dv-tabs-container [role="tab"]';
+
+/** @param {DockviewApi} api @param {string} id @returns {HTMLElement | null} the tab of a panel */
+export function tabOfPanel(api, id) {
+  const group = api.getPanel(id)?.group;
+  const at = group?.panels.findIndex((panel) => panel.id === id) ?? -1;
+  const tabs = group?.element.querySelectorAll(TAB);
+  return /** @type {HTMLElement | null} */ (tabs?.[at] ?? null);
+}
+
 /**
  * @typedef {object} ActionOptions
  * @property {() => string} moreLabel

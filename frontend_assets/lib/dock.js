@@ -2,11 +2,20 @@
 
 /** @import { DockviewApi, IDockviewPanel } from "vendor/dockview.js" */
 /** @import { Arrangement } from "./arrangement.js" */
+/** @import { Group } from "./dock-floating.js" */
 /** @import { ActionOptions } from "./dock-tabs.js" */
 
 import { createDockview } from "vendor/dockview.js";
 import { fromDockview, toDockview } from "./arrangement.js";
-import { headerActions, keepTabsWhole } from "./dock-tabs.js";
+import {
+  aloneIn,
+  dockPanel,
+  floatPanel,
+  isFloating,
+  isInGrid,
+  moveFloatingByKey,
+} from "./dock-floating.js";
+import { headerActions, keepTabsWhole, TAB, tabOfPanel } from "./dock-tabs.js";
 
 /**
  * @typedef {object} Panel
@@ -39,8 +48,6 @@ import { headerActions, keepTabsWhole } from "./dock-tabs.js";
  * @property {() => void} relabel titles are said anew
  */
 
-/** A tab of the dock; a panel may have tabs of its own inside. */
-const TAB = '.dv-tabs-container [role="tab"]';
 const THEME = { name: "studio", className: "dockview-theme-studio", gap: 6 };
 
 /**
@@ -127,8 +134,12 @@ export function createDock(element, panels, options) {
     isFloating: (id) => isFloating(api.getPanel(id)),
     toggleFloating: (id) => {
       if (single) return;
-      if (isFloating(api.getPanel(id))) dockPanel(api, panels, id, homes.get(id));
-      else floatPanel(api, panels, id, homes, element);
+      if (isFloating(api.getPanel(id)))
+        dockPanel(api, id, homes.get(id), (group) => !keepsFrame(group, panels));
+      else if (!panels[id]?.keepsFrame) {
+        show(api, panels, id);
+        floatPanel(api, id, homes, element);
+      }
       tabOfPanel(api, id)?.focus();
     },
     showAlone: (id) => {
@@ -307,127 +318,8 @@ function toggleMaximized(api) {
   else if (!isFloating(api.activePanel)) api.activePanel?.api.maximize();
 }
 
-/** @typedef {DockviewApi["groups"][number]} Group */
-
-/** @param {Group} group */
-const isInGrid = (group) => group.api.location.type === "grid";
-
 /** @param {Group} group @param {Record<string, Panel>} panels */
 const keepsFrame = (group, panels) => group.panels.some(({ id }) => panels[id]?.keepsFrame);
-
-/** @param {IDockviewPanel | undefined} panel */
-const isFloating = (panel) => panel?.api.location.type === "floating";
-
-/** Of the room of all panels, for a window that floats first. */
-const FLOATING_SHARE = { width: 0.32, height: 0.5 };
-const FLOATING_LEAST_PX = { width: 300, height: 220 };
-/** Windows one after the other do not lie on top of each other. */
-const FLOATING_STEP_PX = 28;
-
-/** @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id @param {Map<string, string>} homes @param {HTMLElement} element */
-function floatPanel(api, panels, id, homes, element) {
-  show(api, panels, id);
-  const panel = api.getPanel(id);
-  if (!panel || panels[id]?.keepsFrame) return;
-  if (api.hasMaximizedGroup()) api.exitMaximizedGroup();
-  const neighbour = panel.group.panels.find((one) => one !== panel);
-  if (neighbour) homes.set(id, neighbour.id);
-  const room = { width: element.clientWidth, height: element.clientHeight };
-  const size = (/** @type {"width" | "height"} */ side) =>
-    Math.min(Math.max(room[side] * FLOATING_SHARE[side], FLOATING_LEAST_PX[side]), room[side]);
-  const [width, height] = [size("width"), size("height")];
-  const step = api.groups.filter((group) => !isInGrid(group)).length * FLOATING_STEP_PX;
-  const place = (/** @type {"width" | "height"} */ side, /** @type {number} */ own) =>
-    Math.max(0, Math.min((room[side] - own) / 2 + step, room[side] - own));
-  api.addFloatingGroup(panel, {
-    position: { left: place("width", width), top: place("height", height) },
-    width,
-    height,
-  });
-  api.getPanel(id)?.api.setActive();
-}
-
-/** @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id @param {string | undefined} home a panel that it stood beside */
-function dockPanel(api, panels, id, home) {
-  const panel = api.getPanel(id);
-  if (!panel) return;
-  const before = home ? api.getPanel(home)?.group : undefined;
-  const group =
-    before && isInGrid(before)
-      ? before
-      : api.groups.find((one) => isInGrid(one) && !keepsFrame(one, panels));
-  panel.api.moveTo({ group: group ?? api.addGroup({ direction: "left" }), position: "center" });
-  api.getPanel(id)?.api.setActive();
-}
-
-/** px, for one stroke of an arrow key. */
-const KEY_STEP_PX = 24;
-/** @type {Record<string, readonly [number, number]>} */
-const ARROWS = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
-
-/**
- * Alt and an arrow move a window over the others whose tab has the focus, with Shift they size it.
- *
- * @param {DockviewApi} api @param {KeyboardEvent} event @returns {boolean} they did
- */
-function moveFloatingByKey(api, event) {
-  const step = ARROWS[event.key];
-  const tab = event.target instanceof Element ? event.target.closest(TAB) : null;
-  const group = api.groups.find((one) => tab && one.element.contains(tab));
-  if (!step || !event.altKey || !group || isInGrid(group)) return false;
-  event.preventDefault();
-  const [x, y] = [step[0] * KEY_STEP_PX, step[1] * KEY_STEP_PX];
-  const frame = group.element.closest(".dv-resize-container");
-  const id = group.activePanel?.id ?? "";
-  if (frame instanceof HTMLElement)
-    placeFloating(api, group, frame, event.shiftKey ? [0, 0, x, y] : [x, y, 0, 0]);
-  tabOfPanel(api, id)?.focus();
-  return true;
-}
-
-/** @param {DockviewApi} api @param {Group} group @param {HTMLElement} frame @param {[number, number, number, number]} by px to the right, down, wider and higher */
-function placeFloating(api, group, frame, [x, y, wider, higher]) {
-  const room = frame.offsetParent?.getBoundingClientRect();
-  if (!room) return;
-  const now = frame.getBoundingClientRect();
-  const within = (
-    /** @type {number} */ at,
-    /** @type {number} */ least,
-    /** @type {number} */ most,
-  ) => Math.max(least, Math.min(at, most));
-  const left = within(now.left - room.left + x, 0, room.width - now.width);
-  const top = within(now.top - room.top + y, 0, room.height - now.height);
-  api.addFloatingGroup(group, {
-    position: { left, top },
-    width: within(now.width + wider, FLOATING_LEAST_PX.width / 2, room.width - left),
-    height: within(now.height + higher, FLOATING_LEAST_PX.height / 2, room.height - top),
-  });
-}
-
-/** @param {DockviewApi} api @param {HTMLElement} element that holds the dock */
-function aloneIn(api, element) {
-  /** @type {IDockviewPanel | undefined} */
-  let shown;
-  let wasMaximized = false;
-  return {
-    isOn: () => shown !== undefined,
-    /** @param {string | null} id */
-    show(id) {
-      const panel = id === null ? undefined : api.getPanel(id);
-      element.classList.toggle("alone", panel !== undefined);
-      if (panel && !shown) {
-        wasMaximized = api.hasMaximizedGroup();
-        panel.api.maximize();
-      } else if (!panel && shown && !wasMaximized) api.exitMaximizedGroup();
-      shown = panel;
-    },
-  };
-}
 
 /** @param {string} id @param {Record<string, Panel>} panels */
 const titleOf = (id, panels) => panels[id]?.title() ?? id;
@@ -436,14 +328,6 @@ const titleOf = (id, panels) => panels[id]?.title() ?? id;
 function described(id, panels) {
   const renderer = panels[id]?.keepsFrame ? "always" : "onlyWhenVisible";
   return { id, contentComponent: id, tabComponent: id, title: titleOf(id, panels), renderer };
-}
-
-/** @param {DockviewApi} api @param {string} id @returns {HTMLElement | null} the tab of a panel */
-function tabOfPanel(api, id) {
-  const group = api.getPanel(id)?.group;
-  const at = group?.panels.findIndex((panel) => panel.id === id) ?? -1;
-  const tabs = group?.element.querySelectorAll(TAB);
-  return /** @type {HTMLElement | null} */ (tabs?.[at] ?? null);
 }
 
 /** @param {DockviewApi} api @param {EventTarget | null} target @returns {string | null} */

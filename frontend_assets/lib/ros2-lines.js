@@ -33,7 +33,7 @@ export const ROS2_LINES = [
   { line: "ros2 run tf2_tools view_frames", panel: "frames" },
   { line: "ros2 run tf2_ros tf2_echo", panel: "frames" },
   { line: "ros2 launch", panel: "arguments" },
-  { line: "ros2 doctor", panel: "ros" },
+  { line: "ros2 doctor", panel: "doctor" },
   { line: "rqt_graph", panel: "graph" },
   { line: "rqt_plot", panel: "plot" },
   { line: "rqt_console", panel: "log" },

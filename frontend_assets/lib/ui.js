@@ -107,6 +107,7 @@ export function ProgressBar({ label, done, total }) {
  * @property {string} [icon]
  * @property {string} [hint] shown small at the right
  * @property {boolean} [checked] a tick: one of several choices
+ * @property {string} [mark] what a dot at the right says of it, as that it is open
  * @property {boolean} [box] a box of its own, with a tick or without
  * @property {boolean} [disabled]
  * @property {boolean} [heading] a line of text, no choice
@@ -194,16 +195,26 @@ function menuEntry(item, choose) {
     hint.textContent = item.hint;
     entry.append(hint);
   }
-  if (entry instanceof HTMLButtonElement) {
-    entry.type = "button";
-    entry.disabled = item.disabled ?? false;
-    const state = item.box ?? item.checked;
-    const role = item.box === undefined ? "menuitemradio" : "menuitemcheckbox";
-    entry.setAttribute("role", state === undefined ? "menuitem" : role);
-    if (state !== undefined) entry.setAttribute("aria-checked", String(state));
-    entry.addEventListener("click", () => choose(item));
+  if (item.mark) {
+    const mark = document.createElement("span");
+    mark.className = "menu-mark";
+    mark.title = item.mark;
+    entry.append(mark);
+    entry.setAttribute("aria-description", item.mark);
   }
+  if (entry instanceof HTMLButtonElement) makeChoice(entry, item, choose);
   return entry;
+}
+
+/** @param {HTMLButtonElement} entry @param {MenuItem} item @param {(item: MenuItem) => void} choose */
+function makeChoice(entry, item, choose) {
+  entry.type = "button";
+  entry.disabled = item.disabled ?? false;
+  const state = item.box ?? item.checked;
+  const role = item.box === undefined ? "menuitemradio" : "menuitemcheckbox";
+  entry.setAttribute("role", state === undefined ? "menuitem" : role);
+  if (state !== undefined) entry.setAttribute("aria-checked", String(state));
+  entry.addEventListener("click", () => choose(item));
 }
 
 /** @param {MenuItem} item @returns {HTMLElement | string} its icon, or the tick of a choice */

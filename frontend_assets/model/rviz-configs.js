@@ -11,11 +11,18 @@ import { saveAsFile } from "../lib/files.js";
 import { latestSender } from "../lib/latest.js";
 import { ask } from "./requests.js";
 import { dialog } from "./view.js";
-import { shownView, viewport } from "./viewport.js";
+import { currentView, useView } from "./views.js";
 import { subscribe } from "./wire.js";
 
 /** @type {RvizConfigState} */
-const NONE = { type: "rviz_config_state", name: "", path: "", changed: false, undo: false };
+const NONE = {
+  type: "rviz_config_state",
+  name: "",
+  path: "",
+  changed: false,
+  rviz1: false,
+  undo: false,
+};
 /** @type {Signal<RvizConfigState>} */
 export const rvizConfig = signal(NONE);
 /** With a dot behind it when saving would change it; empty: none is open. */
@@ -60,39 +67,43 @@ export async function openConfigOf(file) {
 function takeOpened(answer) {
   if (answer?.type !== "rviz_config_opened") return false;
   const { view, page } = answer;
-  if (view) viewport.value?.useView({ kind: view.kind, values: view.values }, true);
+  if (view) useView(view);
   if (page) pagePart.take(page);
   dialog.value = { kind: "rviz_opened", opened: answer };
   return true;
 }
 
 /** @returns {import("../types/wire.d.ts").ViewValues | null} of this page */
-function viewNow() {
-  const view = viewport.value?.getView() ?? shownView.value;
-  return view && { kind: view.kind, name: "", values: view.values };
-}
+const viewNow = () => currentView();
 
 /** @param {string} name @returns {string} the part of the page, for files that hold it */
 const partFor = (name) => (name.endsWith(STUDIO) ? pagePart.told() : "");
 
 /**
  * @param {string} path empty: the file that is open
- * @param {{replace?: boolean}} [options]
+ * @param {{replace?: boolean, rviz2?: boolean}} [options] `rviz2`: one of RViz 1 becomes one that RViz 2 opens
  * @returns {Promise<{path: string, isThere: boolean} | null>} null: it was refused, which is said
  */
-export async function saveConfig(path, { replace = false } = {}) {
+export async function saveConfig(path, { replace = false, rviz2 = false } = {}) {
   const page = partFor(path || rvizConfig.value.name);
   const view = viewNow();
-  const answer = await ask({ type: "save_rviz_file", path, replace, page, ...(view && { view }) });
+  const answer = await ask({
+    type: "save_rviz_file",
+    path,
+    replace,
+    page,
+    rviz2,
+    ...(view && { view }),
+  });
   if (answer?.type !== "rviz_file_saved") return null;
   return { path: answer.path, isThere: answer.is_there };
 }
 
-/** @param {".rviz" | ".studio.yaml"} ending have the browser save it */
-export async function downloadConfig(ending) {
+/** @param {".rviz" | ".studio.yaml"} ending have the browser save it @param {{rviz2?: boolean}} [options] */
+export async function downloadConfig(ending, { rviz2 = false } = {}) {
   const view = viewNow();
   const page = ending === STUDIO ? pagePart.told() : "";
-  const answer = await ask({ type: "get_rviz_text", page, ...(view && { view }) });
+  const answer = await ask({ type: "get_rviz_text", page, rviz2, ...(view && { view }) });
   if (answer?.type !== "rviz_text") return;
   const stem = answer.name.replace(/(\.studio)?\.(rviz|yaml)$/, "");
   saveAsFile(`${stem}${ending}`, answer.text, "application/yaml");
@@ -120,7 +131,7 @@ export const setFrameRate = (frame_rate) => ask({ type: "set_view_options", fram
  * What of a file is only kept, by reason, so that each is one sentence.
  *
  * @param {readonly LossView[]} losses
- * @returns {{reason: LossView["reason"], whats: string[]}[]} classes, with their properties where these are meant
+ * @returns {{reason: LossView["reason"], classes: string[]}[]} classes, with their properties where these are meant
  */
 export function lossGroups(losses) {
   /** @type {Map<LossView["reason"], string[]>} */
@@ -131,8 +142,8 @@ export function lossGroups(losses) {
     groups.set(reason, [...(groups.get(reason) ?? []), said]);
   }
   return REASONS.flatMap((reason) => {
-    const whats = groups.get(reason);
-    return whats ? [{ reason, whats }] : [];
+    const classes = groups.get(reason);
+    return classes ? [{ reason, classes }] : [];
   });
 }
 

@@ -82,8 +82,10 @@ export async function takePicked({ nodes, links, how: asked, left_out: lost }) {
   if (mine !== turn || !items) return;
   const refs = [...links.map((key) => ({ display: "", key })), ...items.refs];
   batch(() => {
-    selectedItems.value = changedBy(selectedItems.value, refs, how);
-    leftOut.value = lost + items.left_out;
+    const now = changedBy(selectedItems.value, refs, how);
+    const kept = how === "remove" ? refs : refs.filter((ref) => now.has(idOf(ref)));
+    selectedItems.value = now;
+    leftOut.value = lost + items.left_out + refs.length - kept.length;
     openItems.value = opened(openItems.value, selectedItems.value);
     if (how === "replace") selectLink(links[0] ?? null, "scene");
   });

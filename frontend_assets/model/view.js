@@ -79,6 +79,9 @@ export function dismiss(id) {
   notices.value = notices.value.filter((one) => one.id !== id);
 }
 
+/** Full name of a node that the node graph is to show; empty: none. @type {Signal<string>} */
+export const soughtNode = signal("");
+
 /** Id of the panel that was shown or clicked last. @type {Signal<string | null>} */
 export const activePanel = signal(null);
 

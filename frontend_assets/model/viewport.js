@@ -104,6 +104,7 @@ function askFor(frame) {
  * @property {(view: ShownView, animate?: boolean) => void} useView
  * @property {(kind: string) => void} setViewKind another, which shows the same
  * @property {(name: string, value: Value) => void} setViewValue
+ * @property {() => void} touch a hand is on the camera: `touch` is told
  * @property {() => void} zero RViz's Zero of the view
  * @property {(direction: Triple) => void} seeFrom the same point from another side
  * @property {(dx: number, dy: number) => void} turnBy as a drag of so many px

@@ -5,7 +5,7 @@
  */
 
 /** @import { SavedView, ViewKindView } from "../types/wire.d.ts" */
-/** @import { Value } from "../lib/view-poses.js" */
+/** @import { Triple, Value } from "../lib/view-poses.js" */
 /** @import { ShownView } from "./viewport.js" */
 
 import { computed, signal } from "vendor/preact.js";
@@ -84,7 +84,22 @@ export function useKind(kind) {
 }
 
 /** @param {string} name RViz's @param {Value} value */
-export const setViewValue = (name, value) => viewport.peek()?.setViewValue(name, value);
+export function setViewValue(name, value) {
+  viewport.peek()?.touch();
+  viewport.peek()?.setViewValue(name, value);
+}
+
+/** The same point from another side. @param {Triple} direction from it to the eye */
+export function seeFrom(direction) {
+  viewport.peek()?.touch();
+  viewport.peek()?.seeFrom(direction);
+}
+
+/** As a drag of the mouse across so many px. @param {number} dx @param {number} dy */
+export function turnBy(dx, dy) {
+  viewport.peek()?.touch();
+  viewport.peek()?.turnBy(dx, dy);
+}
 
 /** RViz's Zero. */
 export function zeroView() {
@@ -100,6 +115,7 @@ export function goBack() {
 
 /** Before another view takes over, so that there is a way back. */
 function leave() {
+  viewport.peek()?.touch();
   viewBefore.value = viewport.peek()?.getView() ?? null;
 }
 

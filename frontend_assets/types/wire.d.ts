@@ -378,6 +378,12 @@ export interface CompletionsAnswer {
   completions: Completions;
 }
 
+/** Something that a finding is about. */
+export interface Concern {
+  kind: "node" | "topic" | "service" | "action" | "frame" | "parameter" | "display" | "document" | "connection";
+  name: string;
+}
+
 /**
  * Join the ROS 2 system, if that was not done yet; done when the connection stands.
  *
@@ -654,6 +660,13 @@ export interface Displays {
   displays: Record<string, Record<string, boolean | number | string>>;
 }
 
+/** Answer to `get_doctor_report`. */
+export interface DoctorReport {
+  type: "doctor_report";
+  request: number;
+  html: string;
+}
+
 /** One open document in the list of them. */
 export interface DocumentEntry {
   id: string;
@@ -791,6 +804,16 @@ export interface EndView {
   type: string;
 }
 
+/** Ask what is wrong. The Doctor listens from the first question on, and some seconds longer. */
+export interface ExamineSystem {
+  request?: number;
+  document?: string;
+  id?: string;
+  renderer?: string;
+  draws_by_software?: boolean;
+  type: "examine_system";
+}
+
 /** Ask what there is at a router; nothing is joined or started. */
 export interface ExamineWire {
   request?: number;
@@ -869,6 +892,19 @@ export interface FindWireRobots {
   document?: string;
   id?: string;
   type: "find_wire_robots";
+}
+
+/** One thing that the Doctor found. */
+export interface Finding {
+  code: string;
+  level: "error" | "warn" | "note";
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  sentence: string;
+  evidence: string[];
+  mend: Mend | null;
+  line: string;
+  about: Concern[];
+  talk: Talk | null;
 }
 
 /**
@@ -1123,6 +1159,17 @@ export interface GetDisplayKinds {
   type: "get_display_kinds";
 }
 
+/** Ask for the same as one HTML file. */
+export interface GetDoctorReport {
+  request?: number;
+  document?: string;
+  id?: string;
+  renderer?: string;
+  draws_by_software?: boolean;
+  type: "get_doctor_report";
+  language?: "en" | "de";
+}
+
 /** Ask for the effects of a site on the robot of the last good run. */
 export interface GetEffects {
   request?: number;
@@ -1316,6 +1363,7 @@ export interface GetRvizText {
   type: "get_rviz_text";
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Ask for the time now; /clock is subscribed for some seconds after. */
@@ -2951,6 +2999,7 @@ export interface RvizConfigState {
   name: string;
   path: string;
   changed: boolean;
+  rviz1: boolean;
   undo: boolean;
 }
 
@@ -3047,6 +3096,7 @@ export interface SaveRvizFile {
   replace?: boolean;
   view?: ViewValues | null;
   page?: string;
+  rviz2?: boolean;
 }
 
 /** Keep the present arguments and values as a new variant. */
@@ -3458,6 +3508,14 @@ export interface StudentNodesState {
 /** Kind of the thing at a place in a text. */
 export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" | "namespace" | "package" | "file" | "folder" | "yaml" | "function" | "constant" | "variable" | "environment" | "command" | "link" | "joint" | "expression" | "tag" | "element" | "attribute" | "value";
 
+/** What was looked at of one subject, so that "all is well" can be trusted. */
+export interface SubjectView {
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  state: "well" | "found" | "not_examined";
+  count: number;
+  detail: string;
+}
+
 /** Show or hide displays: one, a group as a whole, or each one of them. */
 export interface SwitchDisplays {
   request?: number;
@@ -3469,12 +3527,32 @@ export interface SwitchDisplays {
   enabled: boolean;
 }
 
+/** Answer to `examine_system`. */
+export interface SystemExamined {
+  type: "system_examined";
+  request: number;
+  listened_s: number;
+  listens_s: number;
+  is_complete: boolean;
+  findings: Finding[];
+  more: number;
+  subjects: SubjectView[];
+}
+
 /** Take control: the presenter back, a helper for themselves. */
 export interface TakeControl {
   request?: number;
   document?: string;
   id?: string;
   type: "take_control";
+}
+
+/** Who talks to whom, as a small drawing. */
+export interface Talk {
+  sources: string[];
+  name: string;
+  targets: string[];
+  meets: boolean;
 }
 
 /** Answer to `get_text`: the text at a version, as `TextChange` describes texts. */
@@ -3943,6 +4021,7 @@ export type Command =
   | EditSite
   | EditText
   | EndClass
+  | ExamineSystem
   | ExamineWire
   | FindTexts
   | FindWireRobots
@@ -3964,6 +4043,7 @@ export type Command =
   | GetDemos
   | GetDiagnostics
   | GetDisplayKinds
+  | GetDoctorReport
   | GetEffects
   | GetFrames
   | GetGoalStatuses
@@ -4120,6 +4200,7 @@ export type Event =
   | DisplayKinds
   | DisplayStates
   | Displays
+  | DoctorReport
   | DocumentState
   | Documents
   | Done
@@ -4192,6 +4273,7 @@ export type Event =
   | Sites
   | Stopped
   | StudentNodesState
+  | SystemExamined
   | Text
   | TextsChanged
   | TextsFound

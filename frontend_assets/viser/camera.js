@@ -487,16 +487,22 @@ export class CameraView {
 
   /** An edit that makes a mesh anew, or a hand that hides one, leaves the camera alone. */
   #fitWhileMeshesArrive() {
-    if (!this.#control || !this.#isArriving()) return;
+    if (!this.#control || !this.#isArriving()) return this.#noteDrawn();
     this.#picturesSince += 1;
     const meshes = this.#robot.meshCount();
-    if (meshes <= this.#meshes) return;
+    if (meshes <= this.#meshes) return undefined;
     const first = this.#meshes === 0;
     this.#meshes = meshes;
     this.#lastArrival_ms = performance.now();
     this.#picturesSince = 0;
     this.#fitArrived(first ? turnFrom(DIRECTIONS.iso ?? [1, 0, 0]) : this.#goal().turn);
-    document.documentElement.dataset.drawn = "";
+    return this.#noteDrawn();
+  }
+
+  /** That the robot is drawn, for who waits for it. */
+  #noteDrawn() {
+    const { dataset } = document.documentElement;
+    if (!("drawn" in dataset) && this.#control && this.#robot.meshCount() > 0) dataset.drawn = "";
   }
 
   #isArriving() {

@@ -64,11 +64,16 @@ export class Hands {
   #move(event) {
     const now = placeOfEvent(event);
     if (event.pointerType !== "touch") this.#over = now;
-    const before = this.#held.get(event.pointerId);
+    const before = this.#held.get(event.pointerId) ?? this.#joined(event, now);
     if (!before) return;
     this.#held.set(event.pointerId, now);
     if (this.#held.size > 1) this.#spread(event.pointerId, before, now);
     else this.#drag(event, before, now);
+  }
+
+  /** A finger that a tool had, and gave up for a second one. @param {PointerEvent} event @param {Place} now */
+  #joined({ pointerType }, now) {
+    return pointerType === "touch" && this.#held.size > 0 ? now : undefined;
   }
 
   /** @param {PointerEvent} event @param {Place} before @param {Place} now */

@@ -343,7 +343,19 @@ export function rowsIn(door, detail, node, rect) {
   if (kind === "BatchedAxesMessage") return linesIn(lens, axesEnds(props), rect, 3);
   if (kind === "BatchedMeshesMessage") return solidsIn(lens, props, rect);
   if (kind === "LabelMessage") return none();
-  return surfacesIn(door, node.object, rect);
+  const rows = surfacesIn(door, node.object, rect);
+  return SURFACES.has(node.node) ? rows : firstOf(rows);
+}
+
+/** Nodes of surfaces, each of whose triangles may be of another item. */
+const SURFACES = new Set(["surface", "colored"]);
+
+/** One row for all, of what is one thing. @param {Generator<number | null>} rows @returns {Generator<number | null>} */
+function* firstOf(rows) {
+  for (const row of rows) {
+    yield row === null ? null : 0;
+    if (row !== null) return;
+  }
 }
 
 /** @returns {Generator<number | null>} */

@@ -1,9 +1,6 @@
 /** @import { Door } from "./door.js" */
 /** @import { RobotView } from "./robot.js" */
-/** @import { Hit, Object3D, Pointing, Vector3 } from "./viser.d.ts" */
-
-import { isSeen } from "./extent.js";
-import { depthOf, pixelAt } from "./orthographic.js";
+/** @import { Hit, Pointing, Vector3 } from "./viser.d.ts" */
 
 /** @typedef {{ link: string, point: Vector3 }} Pick */
 
@@ -34,41 +31,6 @@ export function pick(door, robot, x, y) {
   const found = nearestHit(door, robot, x, y);
   return found && { link: found.link, point: found.hit.point };
 }
-
-/** Points of clouds are met from so near, px. */
-const POINT_PX = 5;
-const LIVE = "/live/";
-
-/** The place in the scene under a place of the window: of the robot, or of what displays draw; null: none
- * is there. @param {Door} door @param {RobotView} robot @param {number} x @param {number} y @returns {Vector3 | null} */
-export function pickAnything(door, robot, x, y) {
-  const ray = rayThrough(door, x, y);
-  const { camera, canvas, nodeRefFromName = {} } = door.mutable ?? {};
-  if (!ray || !camera || !canvas) return null;
-  const ofRobot = nearestHit(door, robot, x, y)?.hit;
-  /** @type {Hit[]} */
-  const hits = ofRobot ? [ofRobot] : [];
-  const params = { Points: { threshold: 0 }, Line: { threshold: 0 } };
-  /** @type {Pointing} */
-  const pointing = { ray, near: 0, far: Number.POSITIVE_INFINITY, camera, params };
-  for (const [name, node] of Object.entries(nodeRefFromName)) {
-    if (!node || !name.startsWith(LIVE) || !isSeen(node)) continue;
-    node.traverseVisible((object) => {
-      if (!object.geometry || isLine(object)) return;
-      const size = pixelAt(camera, depthOf(camera, middleOf(object)), canvas.clientHeight);
-      params.Points.threshold = params.Line.threshold = POINT_PX * size;
-      object.raycast(pointing, hits);
-    });
-  }
-  hits.sort((one, other) => one.distance - other.distance);
-  return hits[0]?.point ?? null;
-}
-
-/** Lines of a width want more than a ray. @param {Object3D} object */
-const isLine = ({ material }) => [material ?? []].flat().some((one) => one.isLineMaterial);
-
-/** @param {Object3D} object */
-const middleOf = (object) => object.position.clone().setFromMatrixPosition(object.matrixWorld);
 
 /**
  * The surface under a place of the window: the point, the way it faces and the corners of the triangle

@@ -16,6 +16,8 @@ export class Pointer {
   #tool;
   /** A press; `own`: it is the tool's. @type {{ spot: Spot, id: number, own: boolean } | null} */
   #pressed = null;
+  /** A press that was the tool's is told to the camera. */
+  #isHandingOver = false;
   /** Where it is since the last picture. @type {Spot | null} */
   #newest = null;
   /** Where the mouse is; null: it is away. @type {Spot | null} */
@@ -97,8 +99,12 @@ export class Pointer {
   #down(event) {
     if (event.target !== this.#door.mutable?.canvas) return;
     window.focus();
-    // A second finger moves the camera: what the first one began was not meant.
-    if (this.#pressed?.own && event.pointerId !== this.#pressed.id) this.cancel();
+    if (this.#isHandingOver) return;
+    if (this.#pressed?.own && event.pointerId !== this.#pressed.id) {
+      this.#handOver(this.#pressed);
+      this.#touch();
+      return;
+    }
     const spot = spotOf(event);
     const modified = spot.shift || spot.ctrl;
     const isPlain = event.button === 0 && (this.#tool.takesModified || !modified);
@@ -113,6 +119,17 @@ export class Pointer {
     } else {
       this.#touch();
     }
+  }
+
+  /** A second finger moves the camera: what the first one began was not meant, and is the camera's, too.
+   * @param {{ spot: Spot, id: number }} pressed */
+  #handOver({ spot, id }) {
+    this.cancel();
+    const { x: clientX, y: clientY } = spot;
+    const init = { pointerId: id, pointerType: "touch", clientX, clientY, buttons: 1, bubbles: true };
+    this.#isHandingOver = true;
+    this.#door.mutable?.canvas?.dispatchEvent(new PointerEvent("pointerdown", init));
+    this.#isHandingOver = false;
   }
 
   /** A hand is on the camera. */

@@ -20,13 +20,14 @@ import { Interact } from "./tools/interact.js";
 import { Measure } from "./tools/measure.js";
 import { MoveCamera } from "./tools/move-camera.js";
 import { Outlines } from "./outlines.js";
-import { pick, pickAnything } from "./picking.js";
+import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
 import { Pointer } from "./pointer.js";
 import { Quality, Still } from "./quality.js";
 import { PoseOnGround } from "./tools/pose.js";
 import { Select } from "./tools/select.js";
 import { RobotView } from "./robot.js";
+import { FIRST } from "../lib/view-poses.js";
 import { SurfacePoint } from "./tools/point.js";
 import { Surfaces } from "./surface.js";
 import { Units } from "./tools/units.js";
@@ -176,6 +177,16 @@ class Studio3d {
     this.#camera.setValue(name, value);
   }
 
+  /** What the values of a view are at first, by its kind. */
+  firstValues() {
+    return FIRST;
+  }
+
+  /** A hand is on the camera, from outside of the picture. */
+  touch() {
+    this.#tell("touch", {});
+  }
+
   /** RViz's Zero of the view. */
   zero() {
     this.#camera.zero();
@@ -209,7 +220,9 @@ class Studio3d {
 
   #pointedAnything() {
     const over = this.#hands.over;
-    return over && pickAnything(this.#door, this.#robot, over.x, over.y);
+    const found = over && this.#surfaces.at(over.x, over.y);
+    // A line of the floor is nothing to look at.
+    return found && (found.link ?? found.display) !== null ? found.point : null;
   }
 
   /** Whether this browser draws lightly, by software, and with what. */
@@ -297,7 +310,7 @@ class Studio3d {
 
   /** Give up what is under way with the tool in hand. @returns {boolean} whether anything was */
   cancelTool() {
-    return this.#pointer.cancel();
+    return this.#pointer.cancel() || this.#endsSelection();
   }
 
   /** Take a tool in hand. @param {string} kind as RViz names its class; one that is not known: Interact */

@@ -82,7 +82,7 @@ export class Surfaces {
     const props = /** @type {Record<string, any>} */ (message.props ?? {});
     const own = inFrame(ray, object.matrixWorld);
     if (message.type === "PointCloudMessage")
-      return placed(nearestPoint(props.points, own, pixel, (props.point_size ?? 0) / 2), object);
+      return placed(nearestPoint(props.points, own, pixel, props.point_size ?? 0), object);
     if (message.type === "LineSegmentsMessage")
       return placed(nearestSegment(props.points, own, pixel), object);
     if (message.type === "GridMessage") return lineOfGrid(props.cell_size, own, pixel);

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.classroom.admission import Admission
 from studio.classroom.control import Control
-from studio.classroom.following import Following
+from studio.classroom.following import Following, Seen
 from studio.classroom.members import MEMBERS_MAX, Members, now_s
 from studio.classroom.nodes.nodes import COMMANDS as NODE_COMMANDS
 from studio.classroom.nodes.nodes import StudentNodes
@@ -559,7 +559,9 @@ COMMANDS.presenter(Lead, lambda room, c, _: room.following.lead(leading=c.leadin
 COMMANDS.presenter(GatherAll, lambda room, _, __: room.following.gather())
 COMMANDS.presenter(
     ShowView,
-    lambda room, c, who: room.following.show_view(who, c.document, c),
+    lambda room, c, who: room.following.show_view(
+        who, c.document, Seen(c.eye, c.target, c.pointer, c.up, c.flat, c.field)
+    ),
     limits=_VIEWS,
 )
 COMMANDS.presenter(

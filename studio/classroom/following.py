@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 from studio.protocol.classroom import Focus, Gather, Leading
 from studio.protocol.listeners import Audience, encode, send
@@ -12,14 +12,27 @@ from studio.protocol.listeners import Audience, encode, send
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from studio.protocol.classroom import ShowView
     from studio.protocol.listeners import Listener
 
+Point: TypeAlias = "tuple[float, float, float]"
 VIEW: Final = 2
 """First byte of the frame; 1 are joints."""
 _FRAME: Final = struct.Struct("<BB6x13f")
 _NOWHERE: Final = (math.nan,) * 3
 _KEY: Final = "view"
+
+
+class Seen(NamedTuple):
+    """Camera and pointer of the presenter, in m in the root frame."""
+
+    eye: Point
+    target: Point
+    pointer: Point | None
+    """What the mouse points at; None: nothing."""
+    up: Point = (0.0, 0.0, 1.0)
+    flat: bool = False
+    """Whether without perspective."""
+    field_rad: float = math.pi / 4
 
 
 class Following:
@@ -79,20 +92,20 @@ class Following:
         """Whether a page follows."""
         return listener in self._followers
 
-    def show_view(self, leader: Listener, document: str, view: ShowView) -> None:
+    def show_view(self, leader: Listener, document: str, seen: Seen) -> None:
         """Show camera and pointer to all who follow.
 
         Args:
             leader: The page that shows.
             document: What it shows.
-            view: In m in the root frame.
+            seen: Camera and pointer.
         """
         if not self.leading:
             return
         self._leader = leader
-        pointer = view.pointer or _NOWHERE
-        numbers = (*view.eye, *view.target, *pointer, *view.up, view.field)
-        self._view = _FRAME.pack(VIEW, view.flat, *numbers)
+        pointer = seen.pointer or _NOWHERE
+        numbers = (*seen.eye, *seen.target, *pointer, *seen.up, seen.field_rad)
+        self._view = _FRAME.pack(VIEW, seen.flat, *numbers)
         for page in self._others(leader, document):
             page.post(self._view, binary=True, key=_KEY)
 

@@ -18,6 +18,7 @@ from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
+from studio.documents.examined import seen_document
 from studio.documents.left_work import LeftDrafts
 from studio.documents.lessons.lesson_room import COMMANDS as LESSON_COMMANDS
 from studio.documents.lessons.lesson_room import LessonRoom
@@ -30,6 +31,7 @@ from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
 from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import ConnectionCommands
+from studio.live.displays.document_tools import Pointed
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
@@ -66,17 +68,17 @@ from studio.protocol.documents import (
 from studio.protocol.listeners import Audience, send
 from studio.protocol.roles import Role, owner_of
 from studio.protocol.saving import ForgetWork
-from studio.protocol.tools import UseTool
+from studio.protocol.tools import ToolUsed, UseTool
 from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.live.connection.link import WireLink
+    from studio.live.doctor.seen import SeenDocument
     from studio.packages.workspace import Progress
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
-    from studio.protocol.tools import ToolUsed
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
@@ -101,6 +103,7 @@ class Engine:
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
+        self.ros.doctor.document_of = self._seen_document
         self.classroom = classroom or Classroom()
         self.classroom.robot = self.ros
         self.classroom.on_control = self._lent
@@ -229,6 +232,10 @@ class Engine:
         """Return the ROS system that a person's lessons are about, and whether it is theirs."""
         own = await self.classroom.nodes.link(person)
         return (self.ros.connection.current, False) if own is None else (own, True)
+
+    def _seen_document(self, name: str) -> SeenDocument | None:
+        document = self.open_now(name)
+        return None if document is None else seen_document(document)
 
     def _lent(self, document: str) -> None:
         """A member has control of a document now."""
@@ -403,8 +410,20 @@ def _link_to(engine: Engine, command: GetLink) -> Link:
 
 
 async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
-    use = await engine.document(command.document).live.tool_use(command)
-    return await engine.ros.tools.use(command, use, asker.person)
+    xyz = (command.x, command.y, command.z)
+    pointed = Pointed(command.tool, command.fixed_frame, xyz, command.yaw)
+    use = await engine.document(command.document).live.tool_use(pointed)
+    sent = await engine.ros.tools.use(command.document, use, asker.person)
+    return ToolUsed(
+        request=command.request,
+        sent_as="action" if sent.operation else "topic",
+        name=sent.name,
+        frame=use.frame,
+        xyz=use.xyz,
+        wxyz=use.wxyz,
+        subscriptions=sent.subscriptions,
+        operation=sent.operation,
+    )
 
 
 COMMANDS: Final = Commands[Engine](Scope.STUDIO)

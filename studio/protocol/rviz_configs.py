@@ -77,6 +77,8 @@ class GetRvizText(Command):
     view: ViewValues | None = None
     """The view of this page; None: that of the file stays."""
     page: PageText = ""
+    rviz2: bool = False
+    """Whether a file of RViz 1 becomes one that RViz2 opens."""
 
 
 class RvizText(Event):
@@ -97,6 +99,8 @@ class SaveRvizFile(Command):
     """Whether a file that is there already, and is not the one opened, is written over."""
     view: ViewValues | None = None
     page: PageText = ""
+    rviz2: bool = False
+    """Whether a file of RViz 1 becomes one that RViz2 opens."""
 
 
 class RvizFileSaved(Event):
@@ -174,5 +178,7 @@ class RvizConfigState(Event):
     """Empty: it came from a browser."""
     changed: bool
     """Whether saving would write something else than the file says."""
+    rviz1: bool
+    """Whether it has RViz 1's names, which RViz2 does not read."""
     undo: bool
     """Whether `undo_rviz_config` has something to bring back."""

@@ -11,6 +11,8 @@ from studio.protocol.message import Command, Event, Message
 
 ITEMS_MAX: Final = 4000
 """Items that can be selected at once."""
+ROWS_MAX: Final = 40_000
+"""Parts of one node that can be pointed at: a marker may have thousands."""
 DETAILS_MAX: Final = 40
 """Items that are described in full at once."""
 _NODES_MAX: Final = 2000
@@ -31,7 +33,7 @@ class PickedNode(Message):
     shape: PartName
     node: PartName
     """Last part of the node's name, which tells the nodes of one shape apart."""
-    rows: Annotated[tuple[Row, ...], Field(max_length=ITEMS_MAX)] = ()
+    rows: Annotated[tuple[Row, ...], Field(max_length=ROWS_MAX)] = ()
     """Indices of its points, lines, solids or triangles."""
     place: tuple[float, float, float] | None = None
     """Where it was clicked, m in the frame of its group; None: by a rectangle."""

@@ -21,6 +21,7 @@ DOMAIN_MAX = 2**32 - 1
 _DDS = "dds_::"
 ADMIN_SPACE = "@ros2_lv"
 BACKENDS = "backends:"
+_NODE_KIND = "NN"
 _NODE_CHUNKS = 9
 _ENDPOINT_CHUNKS = 13
 _ID_MAX = 2**64 - 1
@@ -120,7 +121,7 @@ class NodeToken:
         return node_path(self.namespace, self.name)
 
     def __str__(self) -> str:
-        return _head(self, self.nid, "NN")
+        return _head(self, self.nid, _NODE_KIND)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +156,11 @@ def tokens_of_domain(domain: int) -> str:
     return f"{ADMIN_SPACE}/{domain}/**"
 
 
+def nodes_of_domain(domain: str) -> str:
+    """Return the key expression of all tokens of nodes, without endpoints; `*`: of every domain."""
+    return f"{ADMIN_SPACE}/{domain}/*/*/*/{_NODE_KIND}/**"
+
+
 def parse_token(token: str) -> NodeToken | EndpointToken:
     """Read a token.
 
@@ -182,7 +188,7 @@ def _parse_chunks(token: str, chunks: list[str]) -> NodeToken | EndpointToken:
         name=check_node_name(_plain(chunks[8])),
     )
     eid = _number(token, chunks[4])
-    if chunks[5] == "NN":
+    if chunks[5] == _NODE_KIND:
         return node
     if chunks[5] not in set(EndpointKind) or len(chunks) < _ENDPOINT_CHUNKS:
         raise TokenError(token, f"it is no endpoint of a known kind ({chunks[5][:20]})")

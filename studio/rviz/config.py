@@ -18,7 +18,7 @@ from studio.rviz.config_displays import (
     switched,
     write_display,
 )
-from studio.rviz.config_kinds import GROUPS, OURS
+from studio.rviz.config_kinds import GROUPS, OURS, RVIZ1, class_in_rviz2
 from studio.rviz.config_page import PAGE
 from studio.rviz.config_text import is_null, read_tree, scalar_of, text_of, write_tree
 from studio.rviz.config_tools import merge_tools, read_tools
@@ -133,6 +133,45 @@ def read_config(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
     return config, _united((*reader.losses, *others))
 
 
+def is_of_rviz1(config: RvizConfig) -> bool:
+    """Whether a file names classes as RViz 1 does, which RViz2 does not know."""
+    entries = [*config.groups.values(), *(one.entry for one in config.displays)]
+    return any(text_at(one, "Class").startswith(f"{RVIZ1}/") for one in entries)
+
+
+def for_rviz2(config: RvizConfig) -> RvizConfig:
+    """Return a config whose file RViz2 opens: displays of RViz 1 are written anew.
+
+    What of them has no counterpart here is not in it: RViz2 has other names for that.
+    """
+    return replace(
+        config,
+        displays=tuple(map(_display_for_rviz2, config.displays)),
+        groups={path: _renamed(entry) for path, entry in config.groups.items()},
+        rest=_renamed(config.rest),
+    )
+
+
+def _display_for_rviz2(display: ConfigDisplay) -> ConfigDisplay:
+    if not text_at(display.entry, "Class").startswith(f"{RVIZ1}/"):
+        return display
+    is_known = "/" not in display.kind
+    return replace(display, entry={} if is_known else _renamed(display.entry))
+
+
+def _renamed(entry: Entry) -> Entry:
+    """Return an entry in which all classes have RViz2's names."""
+    return {key: _renamed_value(key, value) for key, value in entry.items()}
+
+
+def _renamed_value(key: str, value: Tree) -> Tree:
+    if isinstance(value, dict):
+        return _renamed(value)
+    if isinstance(value, list):
+        return [_renamed(one) if isinstance(one, dict) else one for one in value]
+    return scalar_of(class_in_rviz2(text_of(value))) if key == "Class" and text_of(value) else value
+
+
 def write_config(config: RvizConfig) -> str:
     """Return the text of a file: what it said already stays as it was."""
     return write_tree(tree_of(config))
@@ -145,7 +184,7 @@ def tree_of(config: RvizConfig) -> Entry:
     displays = _written(config, "")
     if displays:
         manager = _changed(manager, _DISPLAYS, displays)
-    manager = merge_tools(manager, config.tools)
+    manager = merge_tools(manager, config.tools, is_new=not config.rest)
     manager = merge_views(manager, config.views)
     if config.view is not None:
         manager = merge_view(manager, config.view)

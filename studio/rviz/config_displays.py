@@ -15,6 +15,7 @@ from studio.rviz.config_kinds import (
     LINK_PARTS,
     LISTS,
     OURS,
+    PLUGINS,
     RVIZ1,
     UPDATE_TOPIC,
     UPDATES,
@@ -34,6 +35,7 @@ from studio.rviz.config_values import (
     leaves,
     merged,
     number_of,
+    path_of,
     put,
     read_value,
     scalar_at,
@@ -117,6 +119,8 @@ def read_display(entry: Entry) -> tuple[ConfigDisplay, list[Loss]]:
     class_name = text_at(entry, "Class")
     kind = kind_of(class_name)
     read = ConfigDisplay(kind, name_of(entry), is_enabled(entry), entry=entry)
+    if kind.startswith(PLUGINS):
+        return _with_topic(replace(read, values=_values_as_written(entry)), entry), []
     if "/" in kind:
         return read, [Loss("no_display", class_name)]
     display = display_of_kind(kind)(shared_types())
@@ -136,7 +140,7 @@ def write_display(display: ConfigDisplay) -> Entry:
     """Return the entry of a display: what the file already says keeps its text."""
     kind = display.kind
     if "/" in kind:
-        return _with_head(display.entry, display)
+        return _with_values_as_written(_with_head(display.entry, display), display)
     entry = display.entry or _fresh_entry(kind)
     entry = _with_head(entry, display)
     entry = _with_values(entry, display)
@@ -171,6 +175,47 @@ def switched(entry: Entry, *, on: bool) -> Entry:
     for key in ("Enabled", VALUE):
         entry = put(entry, (key,), "true" if on else "false")
     return entry
+
+
+def _values_as_written(entry: Entry) -> dict[str, Value]:
+    """Return all that an entry says, of a kind whose properties are not known."""
+    return {
+        "/".join(path): _as_written(one)
+        for path, one in leaves(entry)
+        if path not in _HEAD and path[0] != "Topic" and isinstance(one, str)
+    }
+
+
+def _as_written(scalar: str) -> Value:
+    if (on := _SWITCHES.get(scalar)) is not None:
+        return on
+    number = None if scalar.startswith('"') else number_of(scalar)
+    return text_of(scalar) if number is None else number
+
+
+_SWITCHES: Final = {"true": True, "false": False}
+
+
+def _with_values_as_written(entry: Entry, display: ConfigDisplay) -> Entry:
+    """Return the entry of a kind that is not known here; of an owner's own one with its values."""
+    if not display.kind.startswith(PLUGINS):
+        return entry
+    if not display.entry:
+        entry = {"Class": scalar_of(display.kind), **entry}
+    for name, value in display.values.items():
+        path = path_of(name)
+        said = scalar_at(entry, path)
+        if said is None or _as_written(said) != value:
+            entry = put(entry, path, _scalar_of_value(value))
+    return _with_listening(entry, display) if display.topic or "Topic" in entry else entry
+
+
+def _scalar_of_value(value: Value) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int | float):
+        return repr(value)
+    return scalar_of(value) if value else quoted("")
 
 
 def _values_of(

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.displays.properties import Value
+    from studio.rviz.config_text import Tree
     from studio.rviz.config_values import Entry, Path
 
 
@@ -27,6 +28,8 @@ _IMU: Final = "rviz_imu_plugin"
 _RVIZ2: Final = "rviz_default_plugins"
 _PACKAGES: Final = frozenset({RVIZ1, _RVIZ2, "rviz_common", _IMU, "studio"})
 _BY_KIND: Final = {one.KIND: one for one in DISPLAYS}
+_MOVEIT: Final = {"moveit_rviz_plugin/Trajectory": "DisplayTrajectory"}
+"""Displays of MoveIt that are here under the name of their message."""
 _RVIZ1_KINDS: Final = {"WrenchStamped": "Wrench"}
 _RVIZ2_KINDS: Final = _words(
     "AccelStamped Axes Camera DepthCloud Effort FluidPressure Grid GridCells Illuminance Image"
@@ -35,7 +38,11 @@ _RVIZ2_KINDS: Final = _words(
     " Temperature TF TwistStamped Wrench"
 )
 
-_TOPIC: Final = {"RobotModel": "Description Topic"}
+_TOPIC: Final = {
+    "DepthCloud": "Depth Map Topic",
+    "DisplayTrajectory": "Trajectory Topic",
+    "RobotModel": "Description Topic",
+}
 """Where kinds have their topic that have no `Topic`."""
 _RVIZ1_TOPIC: Final = {
     "Camera": "Image Topic",
@@ -45,6 +52,10 @@ _RVIZ1_TOPIC: Final = {
     "MarkerArray": "Marker Topic",
     "RobotModel": "Robot Description",
 }
+_WITHOUT_QOS: Final = frozenset({"DepthCloud", "DisplayTrajectory", "InteractiveMarkers"})
+"""Kinds whose topic has no QoS below it in RViz2."""
+PLUGINS: Final = "plugins/"
+"""Before the kinds of the owner's own displays, whose properties only their files know."""
 UPDATE_TOPIC: Final = ("Update Topic", "Value")
 """Of a Map: always its topic and this."""
 UPDATES: Final = "_updates"
@@ -56,6 +67,7 @@ _PLACES: Final[Mapping[tuple[str, str], Path]] = {
     ("MarkerArray", "Namespaces"): (OURS, "Namespaces"),
 }
 LISTS: Final = {
+    "Camera": "Visibility",
     "RobotModel": "Links",
     "TF": "Frames",
     "Marker": "Namespaces",
@@ -66,7 +78,9 @@ LINK_PARTS: Final = ("Alpha", "Show Axes")
 """What can be set of each link."""
 
 _OURS_ONLY: Final = frozenset({
-    ("Axes", "Alpha"), ("Image", "Alpha"), ("Image", "Far clip"), ("Image", "Edge color"),
+    ("Axes", "Alpha"), ("Camera", "Max Value"), ("Camera", "Median window"),
+    ("Camera", "Min Value"), ("Camera", "Normalize Range"), ("Image", "Alpha"),
+    ("Image", "Far clip"), ("Image", "Edge color"),
     ("TF", "Marker Alpha"), ("TF", "Name Height"), ("Marker", "Namespaces"),
     ("MarkerArray", "Namespaces"), ("RobotModel", "Description Node"),
     ("RobotModel", "Description Parameter"),
@@ -104,6 +118,7 @@ def topic_block(topic: str, *, filtered: bool) -> Entry:
 
 
 _MORE: Final[Mapping[str, Entry]] = {
+    "DepthCloud": {**_CLOUD, "Topic Filter": "true"},
     "Effort": {"Joints": {}, "Robot Description": "/robot_description"},
     "FluidPressure": _CLOUD,
     "Illuminance": _CLOUD,
@@ -130,7 +145,8 @@ def more_of(kind: str) -> Entry:
     if display is None or not display.TOPICS:
         return dict(_MORE.get(kind, {}))
     block = topic_block('""', filtered=kind not in _UNFILTERED)
-    return {**_MORE.get(kind, {}), topic_key(kind): block}
+    topic: Tree = '""' if kind in _WITHOUT_QOS else block
+    return {**_MORE.get(kind, {}), topic_key(kind): topic}
 
 
 def missing_of(entry: Entry, kind: str) -> Mapping[str, Value]:
@@ -147,16 +163,34 @@ _MISSING: Final[Mapping[str, Mapping[str, Value]]] = {"TF": {"Show Names": False
 
 def kind_of(class_name: str) -> str:
     """Return the kind of a class, or the whole class, with a slash in it, where there is none."""
+    if (moveit := _MOVEIT.get(class_name)) in _BY_KIND:
+        return str(moveit)
     package, slash, name = class_name.partition("/")
     name = _RVIZ1_KINDS.get(name, name)
     known = package in _PACKAGES and name in _BY_KIND
     return name if known else class_name if slash else f"unknown/{class_name}"
 
 
+def class_in_rviz2(class_name: str) -> str:
+    """Return RViz2's name of a class of RViz 1; another stays as it is."""
+    package, _, name = class_name.partition("/")
+    if package != RVIZ1:
+        return class_name
+    name = _RVIZ1_KINDS.get(name, name)
+    return f"{'rviz_common' if name in _OF_RVIZ_COMMON else _RVIZ2}/{name}"
+
+
+_OF_RVIZ_COMMON: Final = frozenset({
+    "Displays", "Group", "Help", "Selection", "Time", "Tool Properties", "Views"
+})  # fmt: skip
+
+
 def class_of(kind: str) -> str:
     """Return RViz2's class of a kind; one that RViz2 lacks is of a package of ours."""
     if kind == "Imu":
         return f"{_IMU}/Imu"
+    if moveit := next((one for one, own in _MOVEIT.items() if own == kind), None):
+        return moveit
     return f"{_RVIZ2 if kind in _RVIZ2_KINDS else 'studio'}/{kind}"
 
 

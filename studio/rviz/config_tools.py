@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from studio.errors import RvizConfigError
 from studio.rviz.config_displays import NAME_MAX, Loss
 from studio.rviz.config_text import scalar_of
 from studio.rviz.config_values import (
@@ -18,7 +19,16 @@ from studio.rviz.config_values import (
     text_at,
     write_value,
 )
-from studio.rviz.tools import ACTION, FRAME, SEND_AS, TOOL_KINDS, TOOLS_MAX, ToolKind, ToolSpec
+from studio.rviz.tools import (
+    ACTION,
+    FRAME,
+    SEND_AS,
+    TOOL_KINDS,
+    TOOLS_MAX,
+    ToolKind,
+    ToolSpec,
+    default_tools,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,27 +45,33 @@ _ALWAYS_HERE: Final = "Interact"
 
 
 def read_tools(entries: Sequence[Entry]) -> tuple[tuple[ToolSpec, ...], list[Loss]]:
-    """Return the tools of a file, without ids, and what of them is only kept."""
+    """Return the tools of a file, without ids, and what of them is only kept.
+
+    Raises:
+        RvizConfigError: There are too many.
+    """
     tools: list[ToolSpec] = []
     losses: list[Loss] = []
     for entry in entries:
         kind = _kind_of(entry)
         if kind is None:
             losses.append(Loss("no_tool", text_at(entry, "Class")))
-        elif len(tools) < TOOLS_MAX:
+        else:
             tool, lost = _read(entry, kind)
             tools.append(tool)
             losses += lost
+    if len(tools) >= TOOLS_MAX:  # one place is for Interact, which may be added
+        raise RvizConfigError(f"it has more than {TOOLS_MAX - 1} tools")
     return tuple(tools), losses
 
 
-def merge_tools(manager: Entry, tools: Sequence[ToolSpec]) -> Entry:
+def merge_tools(manager: Entry, tools: Sequence[ToolSpec], *, is_new: bool = False) -> Entry:
     """Return the manager's entry with these tools; unknown ones stay where they are.
 
-    No tools: those of the file stay, for a document without a list of its own has RViz's.
+    A file without any stays so as long as the tools are RViz's first set, unless it `is_new`.
     """
     before = entries_at(manager, "Tools")
-    if not tools:
+    if not tools or (not before and not is_new and _are_first(tools)):
         return manager
     left = list(tools)
     written: list[Tree] = []
@@ -69,6 +85,13 @@ def merge_tools(manager: Entry, tools: Sequence[ToolSpec]) -> Entry:
     new = [one for one in left if one.kind in TOOL_KINDS and not _is_added_here(one, before)]
     written += [_merged(_fresh(TOOL_KINDS[one.kind]), one) for one in new]
     return {**manager, "Tools": written} if written or before else manager
+
+
+def _are_first(tools: Sequence[ToolSpec]) -> bool:
+    """Whether these are the tools of a document that has no list of its own."""
+    return [(one.kind, one.name, dict(one.values)) for one in tools] == [
+        (one.kind, one.name, {}) for one in default_tools()
+    ]
 
 
 def _is_added_here(tool: ToolSpec, before: Sequence[Entry]) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from studio.errors import RvizConfigError
 from studio.rviz.config_displays import Loss
 from studio.rviz.config_text import scalar_of
 from studio.rviz.config_values import (
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
     from studio.displays.properties import Value
     from studio.rviz.config_text import Tree
 
-VIEWS_MAX: Final = 50
+VIEWS_MAX: Final = 100
+"""As many as a document can have."""
 _CURRENT: Final = "Current View"
 _HEAD: Final = frozenset({("Class",), ("Name",), ("Value",)})
 _PACKAGES: Final = frozenset({"rviz", "rviz_default_plugins"})
@@ -49,14 +51,20 @@ def read_current(entry: Entry) -> tuple[ViewSpec | None, list[Loss]]:
 
 
 def read_views(entries: Sequence[Entry]) -> tuple[tuple[ViewSpec, ...], list[Loss]]:
-    """Return the views that were saved, and what of them is only kept."""
+    """Return the views that were saved, and what of them is only kept.
+
+    Raises:
+        RvizConfigError: There are too many.
+    """
     views: list[ViewSpec] = []
     losses: list[Loss] = []
     for entry in entries:
         view, lost = read_current(entry)
         losses += lost
-        if view is not None and len(views) < VIEWS_MAX:
+        if view is not None:
             views.append(view)
+    if len(views) > VIEWS_MAX:
+        raise RvizConfigError(f"it has more than {VIEWS_MAX} saved views")
     return tuple(views), losses
 
 

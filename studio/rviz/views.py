@@ -19,7 +19,8 @@ from studio.errors import ViewError
 FIXED_FRAME: Final = "<Fixed Frame>"
 """Value of Target Frame: the camera goes with no frame."""
 ORTHOGRAPHIC: Final = "Orthographic"
-"""A property of ours that RViz has not: seen without perspective. TopDownOrtho is so always."""
+"""A property of ours that RViz has not: seen without perspective. TopDownOrtho is so always, and an
+FPS that is so has a `Scale` as it has. RViz passes over both."""
 NAME_MAX: Final = 80
 
 _QUARTER: Final = math.pi / 4
@@ -149,6 +150,16 @@ _ORBIT: Final = (
     *_place("Focal Point", "The point that the camera orbits.", (0.0, 0.0, 0.0)),
 )
 _WALK: Final = (
+    Property(
+        "Scale",
+        "number",
+        100.0,
+        "Pixels for one metre, without perspective.",
+        low=1e-4,
+        high=1e6,
+        unit="px",
+        when=(ORTHOGRAPHIC, (True,)),
+    ),
     _angle("Yaw", 0.0, _YAW_DOC),
     _angle("Pitch", 0.0, _PITCH_DOC, _PITCH_MAX),
     *_place("Position", "Position of the camera.", (5.0, 5.0, 10.0)),

@@ -30,7 +30,7 @@ def surface_of(shape: Triangles, stream: str) -> dict[str, Node]:
     if len(faces) == 0:
         return {}
     if shape.colors.ndim == 1:
-        return {"mesh": _plain(vertices, faces, shape, stream)}
+        return {"surface": _plain(vertices, faces, shape, stream)}
     data = np.frombuffer(glb_of(vertices, faces, shape.colors), np.uint8)
     props: dict[str, Any] = {
         "scale": 1.0,

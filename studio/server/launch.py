@@ -28,7 +28,6 @@ from studio.documents.engine import Engine
 from studio.errors import SettingsError, StudioError
 from studio.files import write_whole
 from studio.problems import whys
-from studio.protocol.displays import SetFixedFrame
 from studio.protocol.roles import Role
 from studio.robot import checks as robot_checks
 from studio.scene import CLIENT_PATH, viser_client
@@ -383,7 +382,7 @@ class _Visit:
             if kept:
                 _warn(f"{opened.name} is shown; what is not here is only kept: {kept}.")
         if opening.fixed_frame:
-            await one.live.fix(SetFixedFrame(frame=opening.fixed_frame))
+            await one.live.fix(opening.fixed_frame)
 
     async def _share(self) -> None:
         """Begin the class, or go on with it, and print how others join."""

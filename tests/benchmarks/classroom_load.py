@@ -137,7 +137,7 @@ class Crowd:
                 return
             body = bytes(held[start : start + length])
             del held[: start + length]
-            if len(body) == 44 and body[0] == 2:
+            if len(body) == 60 and body[0] == 2:
                 minute_s, ms, *_ = _VIEW.unpack_from(body, 8)
                 self.ages_ms.append((now_s - (minute_s * 60 + ms / 1000) % 86_400) % 86_400 * 1e3)
             elif body.startswith(b'{"type":"built"'):

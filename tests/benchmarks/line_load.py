@@ -47,7 +47,7 @@ _NAMED: Final = re.compile(r'(?:href|src|data-p)="([^"{}]+\.(?:js|css|zst))"')
 _IMPORTED: Final = re.compile(r'\b(?:from|import)\s*"((?:\.{1,2}|vendor)/[^"]+\.js)"')
 _BASE: Final = re.compile(r"/a/\w+/")
 _VIEW: Final = struct.Struct("<9f")
-_VIEW_BYTES: Final = 44
+_VIEW_BYTES: Final = 60
 _SLOT_S: Final = 1 / 60
 _LIVE_HZ: Final = 15
 _FRESH_S: Final = 1.0

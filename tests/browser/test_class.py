@@ -183,7 +183,7 @@ def orbit(tab: StudioPage, x_px: float) -> None:
     """Drag the ground of the 3D view."""
     box = tab.page.locator("iframe").bounding_box()
     assert box is not None
-    x, y = box["x"] + box["width"] * 0.85, box["y"] + box["height"] * 0.3
+    x, y = box["x"] + box["width"] * 0.7, box["y"] + box["height"] * 0.3
     tab.page.mouse.move(x, y)
     tab.page.mouse.down()
     tab.page.mouse.move(x + x_px, y + 30, steps=5)

@@ -88,7 +88,7 @@ def drag_by_finger(tab: StudioPage, name: str, above: str) -> None:
     """At its icon, to the upper end of another row."""
     session: Any = tab.page.context.new_cdp_session(tab.page)
     session.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
-    (x, y), (to_x, to_y) = middle(row(tab, name).locator(".icon").first), middle(row(tab, above))
+    (x, y), (to_x, to_y) = middle(row(tab, name).locator("> .icon")), middle(row(tab, above))
 
     def touch(kind: str, *points: tuple[float, float]) -> None:
         places = [{"x": at[0], "y": at[1]} for at in points]
@@ -105,6 +105,7 @@ def drag_by_finger(tab: StudioPage, name: str, above: str) -> None:
 
 def test_displays_are_grouped_dragged_renamed_and_removed_as_in_rviz(tab: StudioPage):
     page = tab.page
+    page.get_by_role("treeitem", name="Robot model").click()  # its links would stand between
     page.evaluate(ADD_AXES)
     become(tab, "1 Axes", "1 Axes 2", "1 Axes 3")
     into_a_new_group(tab, "Axes 2", "Arm")

@@ -42,11 +42,14 @@ _ADD = """async ([kind, topic]) => {
   await addDisplay(kind, topic);
   return liveDisplays.value.at(-1).id;
 }"""
-_TAKE = """async () => {
+_LOOK_DOWN = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   const { viewport } = await import(new URL("../model/viewport.js", script));
-  viewport.value.setTool("Select");
   viewport.value.setCamera({ position: [0, -0.001, 6], target: [0, 0, 0] });
+}"""
+_IN_HAND = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  return (await import(new URL("../model/tools.js", script))).toolInHand.value?.kind;
 }"""
 _DISTANCE = """() => {
   const { camera, cameraControl } = document.querySelector("iframe").contentWindow.__viserMutable;
@@ -57,7 +60,9 @@ _PLACE = """([node, place]) => {
   const frame = document.querySelector("iframe");
   const { __viserMutable: viser } = frame.contentWindow;
   const object = viser.nodeRefFromName[node];
-  if (!object?.visible) return null;
+  const hasShapes = Object.entries(viser.nodeRefFromName)
+    .some(([name, shape]) => shape && name.startsWith(`${node}/`));
+  if (!object?.visible || !hasShapes) return null;
   object.updateWorldMatrix(true, false);
   const seen = viser.camera.position.clone().set(...place).applyMatrix4(object.matrixWorld)
     .project(viser.camera);
@@ -108,8 +113,10 @@ class Selecting:
         self.page.set_viewport_size(WIDE)
         connect(tab)
         self.ids = {name: self.page.evaluate(_ADD, list(one)) for name, one in displays.items()}
-        self.page.evaluate(_TAKE)
+        self.page.evaluate(_LOOK_DOWN)
         self.page.evaluate(SHOW_PANEL, "selection")
+        self.page.keyboard.press("s")
+        wait_until("the tool is in hand", lambda: self.page.evaluate(_IN_HAND) == "Select")
         self.panel = self.page.locator("section.selection")
 
     def place(self, display: str, path: str, x: float, y: float, z: float) -> tuple[float, float]:
@@ -227,7 +234,7 @@ def select_in_a_rectangle(view: Selecting) -> None:
     far = view.page.evaluate(_DISTANCE)
     view.panel.get_by_role("button", name="Focus the camera on the selection").click()
     wait_until("the camera is near", lambda: view.page.evaluate(_DISTANCE) != far)
-    view.page.evaluate(_TAKE)
+    view.page.evaluate(_LOOK_DOWN)
     cube = view.place("cubes", "g0", -1.0, 0.0, 0.6)
     view.click(cube)
     view.expect_count("1 selected")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import pytest
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
     from pathlib import Path
 
-    from playwright.sync_api import Browser, Locator
+    from playwright.sync_api import Browser, Locator, ViewportSize
 
     from studio.ros.client import Node
     from tests.support.server import RunningStudio
@@ -35,6 +35,8 @@ ODOM_X_M = 0.25
 """Where the robot's root link is in odom."""
 BEACON = (0.2, -0.9, 0.4)
 """The one point of a cloud, in odom."""
+WIDE: Final[ViewportSize] = {"width": 1700, "height": 800}
+"""So wide that every tool has a button."""
 NEAR_M = 0.02
 """A pixel of the ground is about a centimetre wide."""
 
@@ -128,6 +130,7 @@ def tab(browser: Browser, studio: RunningStudio, node: Node) -> Iterator[StudioP
     """One tab for all tests of the file, fixed to odom."""
     del node
     with studio_page(browser, studio) as page:
+        page.page.set_viewport_size(WIDE)
         connect(page)
         page.page.evaluate(_ADD_CLOUD)
         page.page.evaluate(_SET_FIXED_FRAME, "odom")
@@ -152,9 +155,8 @@ def take(tab: StudioPage, key: str, name: str) -> None:
 
 
 def in_hand(tab: StudioPage, name: str) -> None:
-    """Wait until the menu of the tools, which has their place in a narrow view, says so."""
-    menu = bar(tab).get_by_role("button", name=f"Tools: {name}", exact=True)
-    wait_until(f"{name} in hand", lambda: menu.count() == 1)
+    button = bar(tab).get_by_role("button", name=name, exact=True)
+    wait_until(f"{name} in hand", lambda: button.get_attribute("aria-pressed") == "true")
 
 
 def draw(tab: StudioPage, begin: tuple[float, float], end: tuple[float, float]) -> None:
@@ -312,12 +314,21 @@ def test_a_navigation_goal_shows_how_far_it_is_and_is_cancelled(
     assert len(ear.goals) >= sent
 
 
+def test_where_there_is_no_room_the_tools_are_in_a_menu(tab: StudioPage):
+    tab.page.set_viewport_size({"width": 1000, "height": 700})
+    bar(tab).get_by_role("button", name="Tools: Interact").click()
+    tab.page.get_by_role("menuitemradio", name="Measure").click()
+    tab.page.get_by_role("complementary", name="Measure").wait_for()
+    tab.page.keyboard.press("Escape")
+    bar(tab).get_by_role("button", name="Tools: Interact").wait_for()
+
+
 def test_who_only_looks_can_take_no_tool_that_publishes_and_is_refused(
     browser: Browser, studio: RunningStudio, ear: Heard
 ):
     before = len(ear.goals)
     with studio_page(browser, studio, viewer=True, view=False) as viewer:
-        in_hand(viewer, "Interact")
+        bar(viewer).get_by_role("button", name="Tools: Interact").wait_for()
         assert viewer.page.evaluate(_MAY_TAKE) == [
             True,
             True,

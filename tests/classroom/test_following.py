@@ -3,14 +3,14 @@ from __future__ import annotations
 import math
 import struct
 
-from studio.classroom.following import Following
-from studio.protocol.classroom import Focus, ShowView
+from studio.classroom.following import Following, Seen
+from studio.protocol.classroom import Focus
 from studio.protocol.roles import Role
 from tests.support.open_documents import Ear
 
 
-def view(pointer: tuple[float, float, float] | None = (7, 8, 9), *, flat: bool = False) -> ShowView:
-    return ShowView(eye=(1, 2, 3), target=(4, 5, 6), pointer=pointer, flat=flat, field=0.5)
+def view(pointer: tuple[float, float, float] | None = (7, 8, 9), *, flat: bool = False) -> Seen:
+    return Seen((1, 2, 3), (4, 5, 6), pointer, flat=flat, field_rad=0.5)
 
 
 def floats(frame: bytes) -> tuple[float, ...]:

@@ -6,17 +6,19 @@ from __future__ import annotations
 import asyncio
 import dataclasses
 import inspect
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 import viser
 import viser.infra
+import zstandard
 from viser import _messages
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
-from studio.scene import SUBPROTOCOL
+from studio.scene import SUBPROTOCOL, viser_client
 from studio.scene.graph import PROPS_OF
 from studio.scene.host import make_server
 from studio.scene.node import PointCloudProps
@@ -105,7 +107,9 @@ def test_every_kind_of_node_that_we_draw_is_one_of_visers(kind: type[_messages.M
             ["viewerMutable.firstMessageBatch = true", "document.hasFocus()"],
         ),
         ("messageQueue.ts", ["queue.push(message)"]),
-        ("ThreeAssets.tsx", ["gl_FragColor = vec4(col, 1.0);"]),
+        ("ThreeAssets.tsx", ["gl_FragColor = vec4(col, 1.0);", "(scale / -world_pos.z)"]),
+        ("CameraControls.tsx", ["cameraControls.rotate(", "camera_control.getTarget(lookAt)"]),
+        ("label/LabelRenderer.tsx", ["-(viewMatrix * vec4(labelPos, 1.0)).z"]),
         ("patchLineMaterial.ts", ["VISER_LINE_FRINGE", "alpha = opacity *"]),
         (
             "label/LabelRenderer.tsx",
@@ -119,3 +123,24 @@ def test_every_kind_of_node_that_we_draw_is_one_of_visers(kind: type[_messages.M
 def test_the_page_has_the_hooks_that_our_script_hangs_on(file: str, texts: list[str]):
     source = (CLIENT / file).read_text()
     assert [text for text in texts if text not in source] == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "cross( start.xyz, worldDir )",
+        "cross( end.xyz, worldDir )",
+        "vec3 rayEnd = normalize( worldPos.xyz ) * 1e5;",
+        "vec3( 0.0, 0.0, 0.0 ), rayEnd",
+        "vec3 p2 = rayEnd * params.y;",
+        "get reversedDepth()",
+        "uniform bool isOrthographic;",
+    ],
+)
+def test_the_client_draws_as_our_camera_without_perspective_knows_it(text: str):
+    assert text.encode() in client()
+
+
+@cache
+def client() -> bytes:
+    return zstandard.ZstdDecompressor().decompressobj().decompress(viser_client())

@@ -91,7 +91,7 @@ test("points of a size in metres are three pixels wide at least, on a fine scree
   const points = material({
     uniforms: {},
     fragmentShader: "gl_FragColor = vec4(col, 1.0);",
-    vertexShader: "gl_PointSize = (scale / gl_Position.w);",
+    vertexShader: "gl_PointSize = (scale / -world_pos.z);",
   });
   const { door, hooks } = doorOf({
     "/live/1/scan/a.points": nodeOf({ isPoints: true, material: points }),

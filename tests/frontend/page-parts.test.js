@@ -7,7 +7,7 @@ import { matches, shortcutText } from "../../frontend_assets/lib/commands.js";
 import { createGesture } from "../../frontend_assets/lib/gesture.js";
 import { movableJoints, rangeOf, unitsOf } from "../../frontend_assets/lib/joints.js";
 import { placeText, shortPath } from "../../frontend_assets/lib/paths.js";
-import { readJointFrame } from "../../frontend_assets/model/wire.js";
+import { readJointFrame, readView } from "../../frontend_assets/model/wire.js";
 import { sourcesIn } from "./support/sources.js";
 import { filesOfWords, LANGUAGES, wordsOf } from "./support/words.js";
 
@@ -55,6 +55,22 @@ test("a frame of another kind or cut short is not taken for joints", () => {
   const cut = new ArrayBuffer(13);
   new DataView(cut).setUint8(0, 1);
   assert.equal(readJointFrame(cut), null);
+});
+
+test("a view frame gives the presenter's camera, and the pointer where there is one", () => {
+  const bytes = new ArrayBuffer(60);
+  const view = new DataView(bytes);
+  view.setUint8(0, 2);
+  view.setUint8(1, 1);
+  for (let at = 0; at < 13; at += 1) view.setFloat32(8 + 4 * at, at, true);
+  assert.deepEqual(readView(bytes), {
+    ...{ eye: [0, 1, 2], target: [3, 4, 5], pointer: [6, 7, 8] },
+    ...{ up: [9, 10, 11], field: 12, flat: true },
+  });
+  view.setUint8(1, 0);
+  view.setFloat32(8 + 4 * 6, Number.NaN, true);
+  assert.deepEqual([readView(bytes)?.pointer, readView(bytes)?.flat], [null, false]);
+  assert.equal(readView(new ArrayBuffer(44)), null);
 });
 
 test("joints of frames are those that turn or slide, followers too", () => {

@@ -20,9 +20,9 @@ test("what is only kept is said by reason, the most telling first, without RViz'
       { reason: "no_property", what: "rviz/Map", names: ["Y"] },
     ]),
     [
-      { reason: "no_display", whats: ["moveit_rviz_plugin/MotionPlanning"] },
-      { reason: "no_property", whats: ["LaserScan: Selectable, X", "Map: Y"] },
-      { reason: "window", whats: ["Window Geometry"] },
+      { reason: "no_display", classes: ["moveit_rviz_plugin/MotionPlanning"] },
+      { reason: "no_property", classes: ["LaserScan: Selectable, X", "Map: Y"] },
+      { reason: "window", classes: ["Window Geometry"] },
     ],
   );
 });

@@ -375,16 +375,3 @@ def test_a_double_click_brings_a_link_to_the_middle(view: ScenePage):
     assert view.heard("focus") == [{"link": "camera"}]
     view.pictures(2)
     assert view.place_of("camera/visual/0") == pytest.approx((WIDTH / 2, HEIGHT / 2), abs=25)
-
-
-def test_the_mouse_is_rviz_s_unless_a_trackpad_is_chosen(view: ScenePage):
-    buttons = "(({ right, middle, left }) => [left, middle, right])"
-    rotate, truck, dolly = view.run(
-        "(({ ROTATE, TRUCK, DOLLY }) => [ROTATE, TRUCK, DOLLY])"
-        "(__viserMutable.cameraControl.constructor.ACTION)"
-    )
-    now = f"{buttons}(__viserMutable.cameraControl.mouseButtons)"
-    assert view.run(now) == [rotate, truck, dolly]
-    view.run("studio3d.setMouse('trackpad')")
-    assert view.run(now) == [rotate, truck, truck]
-    view.run("studio3d.setMouse('rviz')")

@@ -49,7 +49,7 @@ def test_solids_of_one_opacity_are_counted_apart():
 def test_triangles_without_a_corner_are_not_counted():
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [NAN, 0, 0]], np.float32)
     faces = np.array([[0, 1, 3], [0, 1, 9], [0, 1, 2]], np.uint32)
-    assert of(Triangles(vertices, faces, GREY), "mesh", 0) == [2]
+    assert of(Triangles(vertices, faces, GREY), "surface", 0) == [2]
 
 
 def test_a_shape_with_items_answers_with_those_and_each_once():

@@ -40,6 +40,7 @@ VIEWER_COMMANDS = {
     ),
     *("list_topics", "get_topic_ends"),
     *("set_name", "follow"),
+    "get_rviz_text",
 }
 """What everybody may who sees the page."""
 STUDENT_COMMANDS = {
@@ -58,6 +59,7 @@ PRESENTER_COMMANDS = {
     *("open_example", "new_robot", "new_untitled", "save_as", "save_copy", "choose_package"),
     *("discard_restored", "add_interfaces", "start_demo", "stop_demo"),
     *("connect_wire", "examine_wire", "disconnect_wire", "find_wire_robots", "open_from_wire"),
+    *("save_rviz_file", "list_rviz_files", "forget_rviz_file"),
 }
 """What reaches beyond the robot that is shared: files, processes, connections, people."""
 ROLES = (Role.GUEST, Role.STUDENT, Role.HELPER, Role.PRESENTER)

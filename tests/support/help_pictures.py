@@ -46,6 +46,12 @@ PANELS_WINDOW = (1060, 940)
 DIALOGS_WINDOW = (720, 640)
 CLASS_WINDOW = (800, 760)
 _CLASS_ADDRESS = "http://robots.example:8765/"
+_SAVE_VIEW = """async ([how, name, pitch]) => {
+  const script = document.querySelector('script[type="module"]').src;
+  const views = await import(new URL("../model/views.js", script));
+  if (how === "sharedCount") return views.sharedViews.value.length;
+  await views[how]({ kind: "Orbit", name, values: { Distance: 1.2, Pitch: pitch } });
+}"""
 _NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
 OF_CLASSES = ("people", "class", "own_nodes")
 """The panel and the windows about a class, of which the demo has none."""
@@ -77,6 +83,17 @@ _SHOW_DIALOG = """async (kind) => {
 _START_NODES = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   await (await import(new URL("../model/student-nodes.js", script))).startNodes();
+}"""
+_SELECT = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { liveDisplays } = await import(new URL("../model/live-displays.js", script));
+  const { takePicked } = await import(new URL("../model/selected-items.js", script));
+  const { id: display } = liveDisplays.value.find(({ kind }) => kind === "LaserScan");
+  const scan = { display, path: "0", shape: "points", node: "points", place: null };
+  const take = (rows, how) =>
+    takePicked({ nodes: [{ ...scan, rows }], links: [], how, left_out: 0 });
+  await take([10], "replace");
+  await take([11, 12, 13], "add");
 }"""
 _DOCK_OF = """(id) => {
   const script = document.querySelector('script[type="module"]').src;
@@ -169,6 +186,10 @@ def wanted(name: str) -> bool:
 
 def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
+    if wanted("views"):
+        camera.page.evaluate(_SAVE_VIEW, ["saveOwn", "From above", 1.4])
+        if camera.page.evaluate(_SAVE_VIEW, ["sharedCount", "", 0.0]) == 0:
+            camera.page.evaluate(_SAVE_VIEW, ["saveShared", "Gripper", 0.2])
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in GROUP_OF:
         if wanted(panel) and panel not in NOT_OF_THE_DEMO:
@@ -266,6 +287,33 @@ def show_lesson(page: Page) -> None:
     page.get_by_text("Publishing").first.wait_for()
 
 
+def examine(page: Page) -> None:
+    """Until the Doctor has heard enough to say all that it knows."""
+    begin = page.get_by_role("button", name="Examine", exact=True)
+    begin.click()
+    page.locator(".doctor-live").wait_for()
+
+
+def show_type(page: Page) -> None:
+    page.get_by_label("Search types").fill("laser")
+    page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
+
+
+def select_some(page: Page) -> None:
+    """Until the panel Selection has facts."""
+    page.evaluate(_SELECT)
+    page.locator(".selection-facts").first.wait_for()
+
+
+READY: dict[str, Callable[[Page], None]] = {
+    "doctor": examine,
+    "interfaces": show_type,
+    "lessons": show_lesson,
+    "selection": select_some,
+}
+"""What a panel has to show before its picture is taken."""
+
+
 def take_wired(browser: Browser, data: Path) -> None:
     """Panels about ROS 2, with the graph of the demo."""
     with (
@@ -286,10 +334,8 @@ def take_wired(browser: Browser, data: Path) -> None:
                 for panel in filter(wanted, ON_THE_WIRE):
                     tab.page.evaluate(SHOW_PANEL, panel)
                     tab.page.evaluate(_RUN, "maximize")
-                    if panel == "interfaces":
-                        show_type(tab.page)
-                    if panel == "lessons":
-                        show_lesson(tab.page)
+                    if ready := READY.get(panel):
+                        ready(tab.page)
                     tab.page.wait_for_timeout(_STILL_MS)
                     highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
                     camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
@@ -328,11 +374,6 @@ def take_markers(browser: Browser, data: Path) -> None:
                 camera = Camera(tab, theme)
                 tab.settle()
                 camera.take("markers", tab.page.evaluate(_DOCK_OF, "scene"))
-
-
-def show_type(page: Page) -> None:
-    page.get_by_label("Search types").fill("laser")
-    page.get_by_role("button", name="sensor_msgs/msg/LaserScan").click()
 
 
 def take_displays(camera: Camera) -> None:

@@ -39,7 +39,7 @@ export function globalRows(filter, closed) {
     icon: "settings",
     expandable: true,
     expanded: open,
-    meta: open ? "" : fixedFrameState.value.frame,
+    meta: open ? "" : fixedFrame.value || (robot.value?.root ?? ""),
   };
   return isMeant ? [head, ...(open ? options : []), ...statusRows(closed)] : [];
 }

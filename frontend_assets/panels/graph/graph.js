@@ -26,7 +26,7 @@ import { isOwnCopy } from "../../model/copies.js";
 import { showInterface } from "../../model/interfaces.js";
 import { mayJoin } from "../../model/student-nodes.js";
 import { useTopicRates } from "../../model/topics.js";
-import { notify } from "../../model/view.js";
+import { notify, soughtNode } from "../../model/view.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../parts.js";
 import { GraphDrawing } from "./drawing.js";
 import { drawnGraph, isNamespace, namesWithin, READABLE_NODES, USUAL } from "./nodes.js";
@@ -216,6 +216,10 @@ function Content({ looking }) {
   const opened = useSignal(NONE);
   const rates = useSignal(/** @type {ReadonlyMap<string, TopicRate>} */ (new Map()));
   const whole = graph.value;
+  useEffect(() => {
+    if (soughtNode.value) chosen.value = `node:${soughtNode.value}`;
+    soughtNode.value = "";
+  }, [soughtNode.value]);
   const asked = {
     ...options.value,
     opened: opened.value,

@@ -6,7 +6,7 @@ import { html, useEffect, useRef } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { cellsOf, cubeTransform, FACES, nearestSide, stepped } from "../../lib/view-cube.js";
 import { viewport } from "../../model/viewport.js";
-import { showsCube } from "../../model/views.js";
+import { seeFrom, showsCube, turnBy } from "../../model/views.js";
 
 /** A press that moves less is a click, px. */
 const STILL_PX = 3;
@@ -17,20 +17,18 @@ export function ViewCube() {
   const view = viewport.value;
   const group = useRef(/** @type {HTMLElement | null} */ (null));
   const box = useRef(/** @type {HTMLElement | null} */ (null));
-  /** From where we look. */
-  const turn = useRef(/** @type {Turn} */ ([0, 0, 0, 1]));
-  useEffect(() => (view ? keepTurned(view, box, group, turn) : undefined), [view, showsCube.value]);
+  useEffect(() => (view ? keepTurned(view, box, group) : undefined), [view, showsCube.value]);
   if (!view || !showsCube.value) return null;
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
-    const to = stepped(turn.current, event.key);
+    const to = stepped(view.getTurn(), event.key);
     if (!to) return;
     event.preventDefault();
     event.stopPropagation();
-    view.seeFrom(to);
+    seeFrom(to);
   };
   return html`<div class="view-cube" ref=${group} role="group" tabindex="0" aria-label=${t("cube")} title=${t("cube.hint")}
-    onKeyDown=${onKeyDown} onPointerDown=${(/** @type {PointerEvent} */ event) => startDrag(event, view)}>
+    onKeyDown=${onKeyDown} onPointerDown=${startDrag}>
     <div class="view-cube-box" ref=${box}>${FACES.map((face) => html`<${Face} key=${face.name} face=${face} />`)}</div>
   </div>`;
 }
@@ -49,10 +47,9 @@ function Face({ face }) {
 }
 
 /** @param {import("../../model/viewport.js").Studio3d} view @param {{current: HTMLElement | null}} box
- * @param {{current: HTMLElement | null}} group @param {{current: Turn}} turn @returns {() => void} */
-function keepTurned(view, box, group, turn) {
+ * @param {{current: HTMLElement | null}} group @returns {() => void} */
+function keepTurned(view, box, group) {
   const show = (/** @type {Turn} */ now) => {
-    turn.current = now;
     if (box.current) box.current.style.transform = cubeTransform(now);
     const side = nearestSide(now);
     const words = t("cube.from", { side: t(`view.${side}`) });
@@ -79,11 +76,11 @@ const unmark = (event) => mark(event, false);
 /** @param {MouseEvent} event */
 function go({ currentTarget }) {
   const to = /** @type {HTMLElement} */ (currentTarget).dataset.to?.split(",").map(Number);
-  if (to) viewport.value?.seeFrom(/** @type {Triple} */ (/** @type {unknown} */ (to)));
+  if (to) seeFrom(/** @type {Triple} */ (/** @type {unknown} */ (to)));
 }
 
-/** A drag turns the view; what was a drag is no click. @param {PointerEvent} event @param {import("../../model/viewport.js").Studio3d} view */
-function startDrag(event, view) {
+/** A drag turns the view; what was a drag is no click. @param {PointerEvent} event */
+function startDrag(event) {
   if (event.button !== 0) return;
   const cube = /** @type {HTMLElement} */ (event.currentTarget);
   const stop = new AbortController();
@@ -94,7 +91,7 @@ function startDrag(event, view) {
     if (!isDrag && Math.hypot(now.clientX - x, now.clientY - y) < STILL_PX) return;
     isDrag = true;
     cube.setPointerCapture(now.pointerId);
-    view.turnBy(GAIN * (now.clientX - x), GAIN * (now.clientY - y));
+    turnBy(GAIN * (now.clientX - x), GAIN * (now.clientY - y));
     [x, y] = [now.clientX, now.clientY];
   };
   const end = () => {

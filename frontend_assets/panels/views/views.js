@@ -89,7 +89,7 @@ function Values() {
   const found = viewKinds.value.find((one) => one.kind === kind);
   if (!found) return null;
   const valueNow = (/** @type {PropertyView} */ one) => values[one.name] ?? one.default;
-  return html`<dl class="views-values">${propertyRows(found.properties).map(
+  return html`<dl class="views-values">${propertyRows(found.properties, (name) => values[name]).map(
     ({ label, properties }) => html`<div key=${label} title=${properties[0]?.doc}>
       <dt>${label}</dt>
       <dd>${properties.map((one) => html`<${Editor} key=${`${kind} ${one.name}`} property=${one} value=${valueNow(one)} short=${properties.length > 1} />`)}</dd>

@@ -6,8 +6,7 @@
 import { rayThrough } from "../picking.js";
 import { setCursor, Tool } from "./tool.js";
 
-/** A click brings what is there to the middle, from the same side and as far away; where nothing is, the
- * camera looks that way. */
+/** A click turns the camera to what is there, as RViz does; where nothing is, it looks that way. */
 export class FocusCamera extends Tool {
   #door;
   #surfaces;
@@ -36,11 +35,18 @@ export class FocusCamera extends Tool {
   click({ x, y }) {
     const surface = this.#surfaces.at(x, y);
     const ray = rayThrough(this.#door, x, y);
-    const ahead = ray?.origin.addScaledVector(ray.direction, this.#camera.distance());
-    const point = surface?.point ?? ahead;
+    const point = surface?.point ?? (ray && this.#ahead(ray));
     if (!point) return;
     this.#camera.lookAt(point);
     this.#tell("focus", { link: surface?.link ?? null });
+  }
+
+  /** As far away as what is looked at; without perspective a ray begins behind the eye.
+   * @param {import("../surface.js").Ray} ray */
+  #ahead({ origin, direction }) {
+    const eye = this.#door.mutable?.camera?.position.clone() ?? origin.clone();
+    const toEye = eye.sub(origin).dot(direction);
+    return origin.addScaledVector(direction, toEye + this.#camera.distance());
   }
 
   doubleClick() {

@@ -22,8 +22,9 @@ import { far, setCursor, Tool } from "./tool.js";
  * @typedef {{ nodes: PickedNode[], links: string[], how: "replace" | "add" | "remove", left_out: number }} PickedParts
  */
 
-/** Parts that can be selected at once; the studio takes no more. */
-export const PARTS_MAX = 4000;
+/** Parts that are told at once, and nodes that they are of; the studio takes no more. */
+const PARTS_MAX = 40_000;
+const NODES_MAX = 2000;
 /** How far from what is thin a click may be, px. */
 const REACH_PX = 6;
 const REACH_OF_FINGER_PX = 16;
@@ -68,9 +69,8 @@ export class Select extends Tool {
     setCursor("");
   }
 
-  /** A finger moves the camera; a tap is a click. @param {Spot} spot */
+  /** @param {Spot} spot */
   down(spot) {
-    if (spot.touch) return false;
     this.#from = spot;
     return true;
   }
@@ -138,7 +138,7 @@ export class Select extends Tool {
     const pause = pauses(AT_ONCE_MS);
     /** @type {{ node: LiveNode, rows: number[] }[]} */
     const found = [];
-    for (const node of liveNodes(this.#door)) {
+    for (const node of liveNodes(this.#door).slice(0, NODES_MAX)) {
       const rows = await gathered(rowsIn(this.#door, this.#detail, node, rect), pause);
       if (turn !== this.#turn) return;
       if (rows.length > 0) found.push({ node, rows });

@@ -2,32 +2,39 @@
 
 from __future__ import annotations
 
+import argparse
+import json
+import math
 import platform
 import sys
-from dataclasses import dataclass
-from itertools import groupby
-from typing import TYPE_CHECKING
+import time
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
 
 import studio
-from studio.cli.graph import settle, why_empty
+from studio.cli.graph import settle
 from studio.cli.terminal import harmless
 from studio.cli.wire import add_wire_options, opened_wire
-from studio.errors import StudioError
+from studio.errors import NoRouterError, SettingsError
 from studio.ros.names import is_hidden
-from studio.ros.qos import why_unmatched
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Iterator
-
-    from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.graph.graph import Graph
-    from studio.ros.profiles import WireProfile
-    from studio.ros.types.library import TypeLibrary
-    from studio.ros.wire.session import WireSession
+    from studio.live.doctor.examination import Examination
+    from studio.live.doctor.seen import Ends, Seen, System
+    from studio.protocol.doctor import Finding
 
 
 _Section = tuple[str, list[tuple[str, object]]]
+_KINDS: Final = {"qos": "QoS", "foreign-hash": "hash"}
+"""Findings that are called otherwise than by their code."""
+_NOBODY: Final = frozenset({"no-nodes", "other-domain"})
+"""That nobody is there is no fault."""
+_NOT_JOINED: Final = 2
+"""As of every verb that joins no router."""
+_LISTENS_S: Final = 2.0
+_LISTENS_MAX_S: Final = 3_600.0
+_LOOK_EVERY_S: Final = 1.0
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -41,47 +48,138 @@ def add(parser: argparse.ArgumentParser) -> None:
         "-iw", "--include-warnings", action="store_true", help="as is: warnings are shown"
     )
     parser.add_argument("verb", nargs="?", choices=["hello"], help="as is: whether all can be met")
+    parser.add_argument(
+        "--listen", type=_seconds, default=_LISTENS_S, metavar="SECONDS",
+        help=f"listen to topics for so long (default: {_LISTENS_S:g}); 0: look at the graph only",
+    )  # fmt: skip
+    parser.add_argument(
+        "--html", type=Path, metavar="FILE", help="write the report as one HTML file, to be sent"
+    )
+    parser.add_argument("--json", action="store_true", help="print all findings as JSON")
     add_wire_options(parser)
     parser.set_defaults(run=_run)
 
 
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 <= seconds <= _LISTENS_MAX_S or math.isnan(seconds):
+        raise argparse.ArgumentTypeError(f"{text} is no time from 0 to {_LISTENS_MAX_S:g} s")
+    return seconds
+
+
 def _run(options: argparse.Namespace) -> int:
-    from studio.ros.graph.graph import Graph
+    from studio.live.doctor.examination import examine
 
-    with opened_wire(options) as wire, Graph(wire) as graph:
-        settle(graph, options)
-        unseen = _unseen(wire)
-        faults = [*unseen, *faults_of(graph, wire.types, wire.profile)]
-        why_nobody = "" if graph.nodes() or unseen else why_empty(wire)
-        if options.report:
-            _print_sections([*_sections(wire, graph), *_fault_sections(faults, why_nobody)])
-        elif options.report_failed:
-            _print_sections(_fault_sections(faults, why_nobody))
-        else:
-            _print_verdict(graph, faults, why_nobody)
-    return 1 if faults else 0
-
-
-def _unseen(wire: WireSession) -> list[Fault]:
-    from studio.ros.graph.diagnosis import unseen_nodes, why_unseen
-
-    found = unseen_nodes(wire)
-    return [Fault("unseen nodes", why_unseen(found))] if found else []
-
-
-def _print_verdict(graph: Graph, faults: list[Fault], why_nobody: str) -> None:
-    for fault in faults:
-        print(f"{fault.kind}: {harmless(fault.sentence)}")
-    if why_nobody:
-        print(why_nobody)
-    elif not faults:
-        topics = [name for name, _ in graph.topics() if not is_hidden(name)]
-        print(f"All is well: {len(graph.nodes())} nodes, {len(topics)} topics.")
+    try:
+        seen = _seen(options)
+    except NoRouterError:
+        if options.html is None and not options.json:
+            raise
+        seen = _seen_without_router(options)
+    found = examine(seen)
+    if options.html is not None:
+        _write_html(options.html, seen, found)
+    if options.json:
+        print(json.dumps(_as_json(seen, found), indent=2))
+    elif options.report:
+        _print_sections([*_sections(seen), *_finding_sections(found, notes=True)])
+    elif options.report_failed:
+        _print_sections(_finding_sections(found, notes=False))
+    else:
+        _print_verdict(seen, found)
+    if seen.system is None:
+        return _NOT_JOINED
+    return 1 if any(map(_is_fault, found.findings)) else 0
 
 
-def _sections(wire: WireSession, graph: Graph) -> list[_Section]:
-    from studio.ros.graph.diagnosis import router_versions
+def _seen(options: argparse.Namespace) -> Seen:
+    """Join, look, ask and listen.
 
+    Raises:
+        NoRouterError: None answers.
+    """
+    from studio.live.doctor.asking import ask, look
+    from studio.live.doctor.here import look_here
+    from studio.live.doctor.seen import Seen
+    from studio.live.doctor.subjects.network import NAMES
+    from studio.live.doctor.watching import Watching
+    from studio.ros.graph.diagnosis import DistroHashes
+    from studio.ros.node.context import Context
+
+    with opened_wire(options) as wire:
+        context = Context.over(wire)
+        try:
+            settle(context.graph, options)
+            own, hashes = frozenset({wire.zid}), DistroHashes(wire.types)
+
+            def looked() -> System:
+                return look(wire, context.graph, wire.types, hashes, own=own)
+
+            watching = Watching(context, wire.types) if options.listen else None
+            heard = watching.heard(looked()) if watching is not None else None
+            answers = ask(wire, looked())
+            has_sound = heard is not None and any(one.pace for one in heard.topics.values())
+            end_s = time.monotonic() + (options.listen if has_sound else 0)
+            while watching is not None and (left_s := end_s - time.monotonic()) > 0:
+                time.sleep(min(left_s, _LOOK_EVERY_S))
+                watching.heard(looked())
+            system = looked()
+            heard = watching.heard(system) if watching is not None else None
+        finally:
+            context.shutdown()
+    return Seen(here=look_here(NAMES), system=system, heard=heard, answers=answers)
+
+
+def _seen_without_router(options: argparse.Namespace) -> Seen:
+    """Look at the place where a router should be."""
+    from studio.live.connection.report import examine
+    from studio.live.doctor.here import look_here
+    from studio.live.doctor.seen import Seen
+    from studio.live.doctor.subjects.network import NAMES
+    from studio.settings import WireChoice
+
+    choice = WireChoice("off", tuple(options.connect), options.domain, options.distro or "")
+    return Seen(here=look_here(NAMES), place=examine(choice, ()))
+
+
+def _is_fault(finding: Finding) -> bool:
+    return finding.level != "note" and finding.code not in _NOBODY
+
+
+def _kind(finding: Finding) -> str:
+    return _KINDS.get(finding.code, finding.code.replace("-", " "))
+
+
+def _print_verdict(seen: Seen, found: Examination) -> None:
+    faults = [one for one in found.findings if one.level != "note"]
+    for one in faults:
+        sentence = harmless(one.sentence)
+        print(sentence if one.code in _NOBODY else f"{_kind(one)}: {sentence}")
+    if not faults and seen.system is not None:
+        system = seen.system
+        topics = [name for name in system.topics if not is_hidden(name)]
+        print(f"All is well: {len(system.nodes)} nodes, {len(topics)} topics.")
+
+
+def _finding_sections(found: Examination, *, notes: bool) -> list[_Section]:
+    rows: list[tuple[str, object]] = [
+        (_kind(one), harmless(one.sentence))
+        for one in found.findings
+        if notes or one.level != "note"
+    ]
+    if found.more:
+        rows.append(("more", f"{found.more} findings like these"))
+    is_well = all(one.level == "note" for one in found.findings)
+    well: list[tuple[str, object]] = [("none", "all is well")] if is_well else []
+    return [("FINDINGS", [*well, *rows])]
+
+
+def _sections(seen: Seen) -> list[_Section]:
+    system = seen.system
+    if system is None:
+        return []
+    answers = seen.answers
+    versions = sorted(set(answers.routers.values())) if answers else []
     return [
         (
             "PLATFORM INFORMATION",
@@ -91,39 +189,58 @@ def _sections(wire: WireSession, graph: Graph) -> list[_Section]:
                 ("studio", studio.__version__),
             ],
         ),
+        ("NETWORK CONFIGURATION", [*_interfaces(seen)]),
         (
             "RMW MIDDLEWARE",
             [
                 ("middleware name", "rmw_zenoh's wire, spoken by the studio"),
-                ("distribution", wire.profile.distro),
-                ("router", ", ".join(wire.settings.connect) or "of the configuration"),
-                ("router's Zenoh", ", ".join(router_versions(wire)) or "unknown"),
-                ("domain", wire.domain),
-                ("session", wire.zid),
+                ("distribution", system.profile.distro),
+                ("router", system.endpoint or "of the configuration"),
+                ("router's Zenoh", ", ".join(versions) or "unknown"),
+                ("domain", system.domain),
+                ("session", next(iter(system.own))),
             ],
         ),
-        ("NODE LIST", [(node.path, f"session {node.zid}") for node in graph.nodes()]),
-        ("TOPIC LIST", [(name, _ends(graph, name, types)) for name, types in graph.topics()]),
+        ("NODE LIST", [(node.path, f"session {node.zid}") for node in system.nodes]),
+        ("TOPIC LIST", [(name, _topic(ends)) for name, ends in system.topics.items()]),
         (
             "SERVICE LIST",
             [
-                (name, f"{', '.join(types)}, servers {len(graph.servers(name))}")
-                for name, types in graph.services()
+                (name, f"{_types(ends)}, servers {len(ends.senders)}")
+                for name, ends in system.services.items()
+                if ends.senders
             ],
         ),
+        ("LISTENED TO", [*_listened(seen)]),
     ]
 
 
-def _ends(graph: Graph, name: str, types: list[str]) -> str:
-    publishers, subscribers = len(graph.publishers(name)), len(graph.subscriptions(name))
-    return f"{', '.join(types)}, publishers {publishers}, subscribers {subscribers}"
+def _interfaces(seen: Seen) -> list[tuple[str, object]]:
+    def said(known: bool | None, yes: str, no: str) -> str:  # noqa: FBT001 - as it is known
+        return "unknown" if known is None else yes if known else no
+
+    return [
+        (one.name, f"{said(one.is_up, 'up', 'down')}, "
+         f"{said(one.has_multicast, 'multicast', 'no multicast')} (rmw_zenoh needs none)")
+        for one in seen.here.interfaces
+    ]  # fmt: skip
 
 
-def _fault_sections(faults: list[Fault], why_nobody: str) -> list[_Section]:
-    rows: list[tuple[str, object]] = [(one.kind, harmless(one.sentence)) for one in faults]
-    if why_nobody:
-        rows.append(("no nodes", why_nobody))
-    return [("FINDINGS", rows or [("none", "all is well")])]
+def _listened(seen: Seen) -> list[tuple[str, object]]:
+    if seen.heard is None:
+        return []
+    return [
+        (name, f"{one.samples} samples" + (f", {one.pace.usual_hz:.1f} Hz" if one.pace else ""))
+        for name, one in seen.heard.topics.items()
+    ]
+
+
+def _types(ends: Ends) -> str:
+    return ", ".join(sorted({one.type_name for one in (*ends.senders, *ends.receivers)}))
+
+
+def _topic(ends: Ends) -> str:
+    return f"{_types(ends)}, publishers {len(ends.senders)}, subscribers {len(ends.receivers)}"
 
 
 def _print_sections(sections: list[_Section]) -> None:
@@ -132,97 +249,31 @@ def _print_sections(sections: list[_Section]) -> None:
         print(f"\n   {title}")
         width = max((len(name) for name, _ in rows), default=0)
         for name, value in rows:
-            print(f"{name:<{width}} : {value}")
+            print(f"{harmless(name):<{width}} : {harmless(str(value))}")
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """One problem: its kind, and a sentence."""
+def _as_json(seen: Seen, found: Examination) -> dict[str, object]:
+    from studio.live.panels.doctor import facts_of
 
-    kind: str
-    sentence: str
-
-
-def faults_of(graph: Graph, types: TypeLibrary, profile: WireProfile) -> list[Fault]:
-    """Find all that is wrong for one who speaks a profile, in the order of kinds and names."""
-    return [
-        *_duplicate_names(graph),
-        *(fault for name, _ in graph.topics() for fault in _topic_faults(graph, name, types)),
-        *(fault for name, _ in graph.services() for fault in _service_faults(graph, name, types)),
-        *_foreign_hashes(graph, types, profile),
-        *_malformed(graph),
-        *(Fault("interface text", str(error)) for error in types.faults().values()),
-    ]
+    return {
+        "facts": dict(facts_of(seen)),
+        "findings": [one.model_dump(exclude={"mend"}) for one in found.findings],
+        "more": found.more,
+        "subjects": [one.model_dump() for one in found.subjects],
+    }
 
 
-def _duplicate_names(graph: Graph) -> Iterator[Fault]:
-    for path, count in graph.duplicate_nodes().items():
-        yield Fault(
-            "duplicate name",
-            f"{count} nodes are called {path}: start all but one with another name.",
-        )
+def _write_html(file: Path, seen: Seen, found: Examination) -> None:
+    from studio.files import write_whole
+    from studio.live.doctor.report import About, report_html, words_of
+    from studio.live.panels.doctor import facts_of
+    from studio.settings import repository_or_wheel
 
-
-def _topic_faults(graph: Graph, name: str, types: TypeLibrary) -> Iterator[Fault]:
-    publishers, subscriptions = graph.publishers(name), graph.subscriptions(name)
-    yield from _type_faults(name, [*publishers, *subscriptions], types)
-    for publisher in publishers:
-        for subscription in subscriptions:
-            if publisher.type_name != subscription.type_name:
-                continue
-            for reason in why_unmatched(publisher.qos, subscription.qos):
-                yield Fault(
-                    "QoS",
-                    f"{name}: {reason} ({publisher.node.path} to {subscription.node.path}); "
-                    "Zenoh carries it, DDS would not.",
-                )
-
-
-def _service_faults(graph: Graph, name: str, types: TypeLibrary) -> Iterator[Fault]:
-    servers, clients = graph.servers(name), graph.clients(name)
-    yield from _type_faults(name, [*servers, *clients], types)
-    paths = [server.node.path for server in servers]
-    # Reported once for nodes of one name, not for each of their services.
-    is_one_name = len(set(paths)) == 1 and paths[0] in graph.duplicate_nodes()
-    if len(servers) > 1 and not is_one_name:
-        yield Fault(
-            "two servers",
-            f"{name} is served {len(servers)} times, by {', '.join(paths)}: keep one.",
-        )
-
-
-def _type_faults(name: str, ends: list[GraphEndpoint], types: TypeLibrary) -> Iterator[Fault]:
-    names = sorted({end.type_name for end in ends})
-    if len(names) > 1:
-        yield Fault("type", f"{name} has {len(names)} types, {', '.join(names)}: they never meet.")
-    ordered = sorted(ends, key=lambda end: end.type_name)
-    for type_name, same in groupby(ordered, key=lambda end: end.type_name):
-        yield from _hash_faults(name, type_name, list(same), types)
-
-
-def _hash_faults(
-    name: str, type_name: str, ends: list[GraphEndpoint], types: TypeLibrary
-) -> Iterator[Fault]:
-    hashes = {end.type_hash for end in ends}
-    if len(hashes) > 1:
-        who = ", ".join(f"{end.node.path} {end.type_hash[:15]}" for end in ends)
-        yield Fault("hash", f"{name}: {type_name} has several forms, which never meet ({who}).")
-        return
+    words = words_of(repository_or_wheel("frontend_assets"), "en")
+    made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
+    html = report_html(found, About("en", facts_of(seen), made), words)
     try:
-        types.hash_of(type_name)
-    except StudioError as error:
-        yield Fault("unknown type", f"{name}: {error}")
-
-
-def _foreign_hashes(graph: Graph, types: TypeLibrary, profile: WireProfile) -> Iterator[Fault]:
-    from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, why_not_received
-
-    ends = [end for node in graph.nodes() for end in graph.endpoints_of(node)]
-    for found in foreign_hashes(ends, profile, DistroHashes(types)):
-        yield Fault("hash", why_not_received(found, profile))
-
-
-def _malformed(graph: Graph) -> Iterator[Fault]:
-    count, last = graph.malformed
-    if count:
-        yield Fault("token", f"{count} liveliness tokens were not understood; the last: {last}")
+        write_whole(file, html.encode())
+    except OSError as error:
+        raise SettingsError(f"{file} cannot be written: {error.strerror}.") from error
+    print(f"Report: {file}", file=sys.stderr)

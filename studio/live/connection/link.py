@@ -109,6 +109,11 @@ class WireLink:
         return self._node
 
     @property
+    def context(self) -> Context:
+        """What the studio's nodes share: the session, and the thread that takes in what comes."""
+        return self._context
+
+    @property
     def types(self) -> TypeLibrary:
         """All types known on this connection."""
         return self._wire.types

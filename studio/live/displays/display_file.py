@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import logging
 import os
@@ -86,3 +87,28 @@ class DisplayFile:
             write_whole(self._path, msgspec.json.encode(kept), mode=0o600)
         except OSError as error:
             _log.warning("The displays are not kept in %s: %s.", self._path, error.strerror)
+
+
+class Keeper:
+    """Writes what is kept, the newest only: a slider changes faster than the disk."""
+
+    def __init__(self, file: DisplayFile) -> None:
+        self._file = file
+        self._unkept: KeptDisplays | None = None
+        self._writing: asyncio.Task[None] | None = None
+
+    def keep(self, kept: KeptDisplays) -> None:
+        """Write it soon."""
+        self._unkept = kept
+        if self._writing is None or self._writing.done():
+            self._writing = asyncio.create_task(self._write())
+
+    async def close(self) -> None:
+        """Wait until the newest is written."""
+        if self._writing is not None:
+            await self._writing
+
+    async def _write(self) -> None:
+        while self._unkept is not None:
+            kept, self._unkept = self._unkept, None
+            await asyncio.to_thread(self._file.write, kept)

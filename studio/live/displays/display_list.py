@@ -210,12 +210,27 @@ class DisplayList:
         self._groups_off = (self._groups_off - set(off)) | new
         self._specs |= {one.id: one for one in moved}
 
-    def move_group(self, group: str, before: str) -> None:
-        """Put all of a group before a display that is not in it; with an empty id at the end."""
-        members = self.members(group)
-        others = [one for one in self if one not in members]
-        at = others.index(self.get(before)) if before else len(others)
-        self._arrange([*others[:at], *members, *others[at:]])
+    def arrange_group(self, group: str, to: str | None, before: str | None) -> None:
+        """Give a group another path, or put all of it before a display; what is None stays.
+
+        Args:
+            group: Its path.
+            to: As for `regroup`.
+            before: Id of a display that is not in it; empty: at the end.
+
+        Raises:
+            CommandError: One of them cannot be; nothing was changed.
+        """
+        ids = {one.id for one in self.members(group)}
+        if before and self.get(before).id in ids:
+            raise CommandError("A group cannot stand before a display that is in it.")
+        if to is not None:
+            self.regroup(group, to)
+        if before is not None:
+            others = [one for one in self if one.id not in ids]
+            at = others.index(self.get(before)) if before else len(others)
+            moved = [one for one in self if one.id in ids]
+            self._arrange([*others[:at], *moved, *others[at:]])
 
     def _check_room(self) -> None:
         if len(self._specs) >= DISPLAYS_MAX:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from msgspec import structs
 
 from studio.errors import CommandError, StudioError
-from studio.live.displays.display_file import KeptDisplays
+from studio.live.displays.display_file import Keeper, KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
 from studio.live.displays.document_tools import DocumentTools
@@ -20,8 +20,11 @@ from studio.live.displays.followed_markers import FollowedMarkers
 from studio.live.displays.groups import all_groups, group_path
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
-from studio.live.displays.scene_clock import SceneClock
+from studio.live.displays.scene_times import COMMANDS as TIME_COMMANDS
+from studio.live.displays.scene_times import SceneTimes
 from studio.live.displays.selecting import AllDrawn
+from studio.live.displays.topic_offers import COMMANDS as TOPIC_COMMANDS
+from studio.live.displays.topic_offers import TopicOffers, first_topic, full_name
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
@@ -34,7 +37,6 @@ from studio.protocol.displays import (
     FrameFollowed,
     GetDisplayKinds,
     GetTf,
-    GetTopics,
     LiveDisplays,
     RemoveDisplay,
     RestoreDisplays,
@@ -43,20 +45,18 @@ from studio.protocol.displays import (
     SetFixedFrame,
     SwitchDisplays,
     TfFrames,
-    Topics,
 )
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
-from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene, SceneTime
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from studio.displays.properties import Value
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.displays.display_file import DisplayFile
     from studio.live.displays.display_list import DisplaySpec
-    from studio.live.displays.document_tools import ToolUse
+    from studio.live.displays.document_tools import Pointed, ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
@@ -64,7 +64,6 @@ if TYPE_CHECKING:
     from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
-    from studio.protocol.tools import UseTool
 
 
 _TICK_S: Final = 1 / 30
@@ -108,17 +107,17 @@ class DocumentDisplays:
         self._list = DisplayList()
         self._beside = KeptDisplays()
         """What is kept beside the displays: options of the view, and an opened config."""
-        self.views = SavedViews(audience, self._views_changed)
-        self.tools = DocumentTools(audience, self._keep)
+        self.views = SavedViews(audience, self._beside_changed)
+        self.tools = DocumentTools(audience, self._beside_changed)
+        self.offers = TopicOffers(wire)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
         self._markers = FollowedMarkers(audience)
         self._ticking: asyncio.Task[None] | None = None
-        self._keeping: asyncio.Task[None] | None = None
-        self._unkept: KeptDisplays | None = None
+        self._keeper = Keeper(file)
         self._seen_s = time.monotonic()
-        self._clock = SceneClock()
+        self.times = SceneTimes(lambda: self._room, self._look, self._changed)
         self._fault = ""
         self._checked_s = 0.0
         self._asked_until_s = 0.0
@@ -158,6 +157,12 @@ class DocumentDisplays:
         self._beside = structs.replace(self._beside, **changes)
         self._changed()
 
+    def set_entries(self, entries: Sequence[dict[str, Any]]) -> None:
+        """Note what a config file says of each display from now on."""
+        for spec, entry in zip(tuple(self._list), entries, strict=True):
+            self._list.change(replace(spec, entry=entry))
+        self._respecify()
+
     async def connect_if_needed(self) -> None:
         """Ensure a connection where a display has a topic, or the fixed frame is no link."""
         frame = self._fixed_frame
@@ -165,6 +170,11 @@ class DocumentDisplays:
             frame and frame not in self._room.frames.own.links
         ):
             await self._connect()
+
+    @property
+    def states(self) -> DisplayStates | None:
+        """The states sent last; None: nothing was drawn yet."""
+        return self._states.event
 
     def mirror(self, other: KeptDisplays) -> None:
         """Have the displays and tools of another document; how displays look here stays."""
@@ -176,7 +186,10 @@ class DocumentDisplays:
             self._remove(one.id)
         for spec in missing.values():
             self._restore_one(spec)
-        if gone or missing:
+        options = {"background": other.background, "frame_rate": other.frame_rate}
+        if self._beside != structs.replace(self._beside, **options):
+            self.keep_beside(**options)
+        elif gone or missing:
             self._changed()
 
     @property
@@ -202,7 +215,9 @@ class DocumentDisplays:
         self._go_on()
 
     def _take(self, kept: KeptDisplays) -> None:
-        self._beside = structs.replace(kept, displays=(), groups_off=(), fixed_frame="", views=())
+        self._beside = structs.replace(
+            kept, displays=(), groups_off=(), fixed_frame="", tools=(), views=()
+        )
         for spec in kept.displays:
             self._restore_one(spec)
         for group in all_groups(one.group for one in self._list):
@@ -229,7 +244,7 @@ class DocumentDisplays:
 
     async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
-        topic = _full_name(command.topic) or _first_topic(command.kind)
+        topic = full_name(command.topic) or first_topic(command.kind)
         spec = self._list.add(command.kind, topic)
         if settings := _settings_for(command.kind, topic):
             spec = replace(spec, topic="", values=settings)
@@ -291,10 +306,7 @@ class DocumentDisplays:
 
     def arrange_group(self, command: ArrangeGroup) -> None:
         """Name or move a group with all that is in it."""
-        if command.before is not None:
-            self._list.move_group(command.group, command.before)
-        if command.to is not None:
-            self._list.regroup(command.group, command.to)
+        self._list.arrange_group(command.group, command.to, command.before)
         self._respecify()
         self._changed()
 
@@ -319,7 +331,7 @@ class DocumentDisplays:
         """Listen to another topic, or otherwise."""
         before = self._list.get(command.display)
         listening = Listening(command.reliable, command.latched, command.depth)
-        spec = replace(before, topic=_full_name(command.topic), listening=listening)
+        spec = replace(before, topic=full_name(command.topic), listening=listening)
         old = None
         if spec.topic != before.topic:
             old = self._room.close(spec.id)
@@ -334,12 +346,13 @@ class DocumentDisplays:
         """Change a property."""
         spec = self._list.get(command.display)
         value = self._room.get(spec.id).set(command.name, command.value)
+        self._room.draw_once((spec.id,))
         values: dict[str, Value] = {**spec.values, command.name: value}
         self._change(replace(spec, values=values))
 
-    async def fix(self, command: SetFixedFrame) -> None:
-        """Draw everything in another frame."""
-        frame, frames = command.frame.strip().removeprefix("/"), self._room.frames
+    async def fix(self, frame: str) -> None:
+        """Draw everything in another frame; empty: in that of the robot's root link."""
+        frame, frames = frame.strip().removeprefix("/"), self._room.frames
         frames.chosen = frame
         self._room.renew()
         self._changed()
@@ -366,16 +379,6 @@ class DocumentDisplays:
 
         return DisplayKinds(request=command.request, kinds=kind_views())
 
-    async def topics(self, command: GetTopics) -> Topics:
-        """Return the topics; none without a connection."""
-        link = self._wire.current
-        if link is None:
-            return Topics(request=command.request, topics=())
-        from studio.live.displays.topic_views import topic_views  # noqa: PLC0415 - imports all
-
-        found = await asyncio.to_thread(topic_views, link)
-        return Topics(request=command.request, topics=found)
-
     async def tf(self, command: GetTf) -> TfFrames:
         """Return all frames, and the pose of one in another; subscribes to TF for a while."""
         frames = await self._frames(wait=not command.pose_only)
@@ -384,9 +387,9 @@ class DocumentDisplays:
         # Thousands of frames as JSON take a while, and the loop has other work.
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
-    async def tool_use(self, command: UseTool) -> ToolUse:
+    async def tool_use(self, pointed: Pointed) -> ToolUse:
         """Return what a tool is to send; subscribes to TF for a while."""
-        return self.tools.use(command, await self._frames(wait=True))
+        return self.tools.use(pointed, await self._frames(wait=True))
 
     async def _frames(self, *, wait: bool) -> SceneFrames:
         """Return the frames of now; subscribes to TF for a while.
@@ -405,34 +408,19 @@ class DocumentDisplays:
 
     def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
         """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
+        self._look()
         frame = command.frame.strip().removeprefix("/")
         trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
         return FrameFollowed(request=command.request, trouble=trouble)
-
-    def time(self, command: GetSceneTime) -> SceneTime:
-        """Return the time of the view; subscribes to /clock for a while."""
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
-        return self._clock.told(command.request, self._room.frames.clock_ns, paused=self.is_paused)
 
     @property
     def is_paused(self) -> bool:
         """Whether drawing is paused."""
         return self._made is not None and self._made.is_paused
 
-    def pause(self, command: PauseScene) -> None:
-        """Pause drawing for all who look, or go on with the newest."""
-        self._room.pause(paused=command.paused)
-        self._clock.pause(self._room.frames.clock_ns, paused=command.paused)
-        self._changed()
-
-    def reset(self, _: ResetScene) -> None:
-        """Forget all that was received, and receive again what is latched."""
-        self._room.reset()
-        self._clock.reset()
-        self._checked_s = 0.0
+    def _look(self) -> None:
+        """Subscribe to TF and the clock for a while."""
+        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
 
     def let_go(self) -> None:
@@ -455,8 +443,7 @@ class DocumentDisplays:
         await self._markers.close()
         if self._made is not None:
             self._made.close_all()
-        if self._keeping is not None:
-            await self._keeping
+        await self._keeper.close()
 
     async def _connect(self) -> None:
         """Ensure a connection; if there is none, the displays' states say why."""
@@ -482,7 +469,7 @@ class DocumentDisplays:
         self.on_list()
         self.on_change()
 
-    def _views_changed(self) -> None:
+    def _beside_changed(self) -> None:
         self._keep()
         self.on_change()
 
@@ -491,15 +478,7 @@ class DocumentDisplays:
             self._robot.scene.live.show(spec.id, visible=self._list.is_shown(spec))
 
     def _keep(self) -> None:
-        self._unkept = self.kept
-        if self._keeping is None or self._keeping.done():
-            self._keeping = asyncio.create_task(self._write())
-
-    async def _write(self) -> None:
-        """Keep the newest until there is no newer: a slider changes faster than the disk."""
-        while self._unkept is not None:
-            kept, self._unkept = self._unkept, None
-            await asyncio.to_thread(self._file.write, kept)
+        self._keeper.keep(self.kept)
 
     @property
     def fixed_frame_in_use(self) -> str:
@@ -597,20 +576,18 @@ COMMANDS.controller(
 )
 COMMANDS.controller(ArrangeDisplay, lambda displays, c, _: displays.arrange(c))
 COMMANDS.controller(ArrangeGroup, lambda displays, c, _: displays.arrange_group(c))
-COMMANDS.controller(PauseScene, lambda displays, c, _: displays.pause(c))
-COMMANDS.controller(ResetScene, lambda displays, c, _: displays.reset(c))
-COMMANDS.viewer(GetSceneTime, lambda displays, c, _: displays.time(c))
 COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
-COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c))
+COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c.frame))
 COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
-COMMANDS.viewer(GetTopics, lambda displays, c, _: displays.topics(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
 COMMANDS.include(MARKER_COMMANDS, lambda displays, _: displays.markers)
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
+COMMANDS.include(TIME_COMMANDS, lambda displays, _: displays.times)
 COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
+COMMANDS.include(TOPIC_COMMANDS, lambda displays, _: displays.offers)
 
 
 def _settings_for(kind: str, topic: str) -> Mapping[str, Value]:
@@ -618,20 +595,3 @@ def _settings_for(kind: str, topic: str) -> Mapping[str, Value]:
     from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
 
     return display_of_kind(kind).settings_for(topic)
-
-
-def _first_topic(kind: str) -> str:
-    """Return the topic of a new display of a kind.
-
-    Raises:
-        DisplayError: There is no such kind.
-    """
-    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
-
-    return display_of_kind(kind).FIRST_TOPIC
-
-
-def _full_name(topic: str) -> str:
-    """Return a topic as the graph names it."""
-    topic = topic.strip()
-    return f"/{topic}" if topic and topic[0] not in "/~" else topic

@@ -29,11 +29,27 @@ if TYPE_CHECKING:
 
     from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol.listeners import Audience
-    from studio.protocol.tools import UseTool
     from studio.rviz.tools import ToolKind, ToolSpec
 
 FIXED_FRAME: Final = "<Fixed Frame>"
 """What pages and RViz write for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pointed:
+    """A place that somebody pointed at with a tool.
+
+    Attributes:
+        tool: Its id.
+        fixed_frame: The frame that was chosen in the view; empty: the robot's root link.
+        xyz: In the fixed frame, m.
+        yaw_rad: A direction about z of the fixed frame.
+    """
+
+    tool: str
+    fixed_frame: str
+    xyz: tuple[float, float, float]
+    yaw_rad: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,29 +129,28 @@ class DocumentTools:
         self.list.set(command.tool, command.name, value)
         self._tell()
 
-    def use(self, command: UseTool, frames: SceneFrames) -> ToolUse:
-        """Return what a tool is to send when it was pointed at a place of the fixed frame.
+    def use(self, pointed: Pointed, frames: SceneFrames) -> ToolUse:
+        """Return what a tool is to send.
 
         Raises:
             ToolError: The tool publishes nothing, or there is no fixed frame, or another one.
             FrameError: Nothing connects the tool's frame with the fixed frame.
         """
-        tool = self.list.get(command.tool)
+        tool = self.list.get(pointed.tool)
         if not kind_of(tool.kind).message_type:
             raise ToolError(f"{tool.name} publishes nothing.")
-        if command.fixed_frame != frames.chosen:
+        if pointed.fixed_frame != frames.chosen:
             raise ToolError("The fixed frame was changed meanwhile: point at the place again.")
         fixed = frames.fixed
         if not fixed:
             raise ToolError("There is no fixed frame: choose one in the 3D view.")
-        half_rad = command.yaw / 2
+        half_rad = pointed.yaw_rad / 2
         pose = (math.cos(half_rad), 0.0, 0.0, math.sin(half_rad))
-        xyz = (command.x, command.y, command.z)
         frame = str(tool.value(FRAME)) or fixed
         if frame == fixed:
-            return ToolUse(tool, fixed, pose, xyz)
+            return ToolUse(tool, fixed, pose, pointed.xyz)
         frame_from_fixed = frames.buffer.fixed_from(frame, fixed)
-        placed = compose((*frame_from_fixed.wxyz, *frame_from_fixed.xyz), (*pose, *xyz))
+        placed = compose((*frame_from_fixed.wxyz, *frame_from_fixed.xyz), (*pose, *pointed.xyz))
         return ToolUse(tool, frame, placed[:4], placed[4:])
 
     def _tell(self) -> None:

@@ -83,6 +83,8 @@ class DrawingRoom:
         self._followed = FollowedFrames(robot.scene.live)
         self._held: set[str] | None = None
         """Displays whose news are not drawn yet, while drawing is paused; None: it is not."""
+        self._let_through: set[str] = set()
+        """Displays that are drawn once nevertheless."""
         self._robot_at: Pose = STILL
         self._robot_trouble = ""
 
@@ -108,6 +110,7 @@ class DrawingRoom:
         """Remove a display from the scene and return it, to be closed by the caller."""
         self._scene.live.drop(display)
         self._faults.pop(display, None)
+        self._let_through.discard(display)
         if self._held is not None:
             self._held.discard(display)
         return self._running.pop(display, None)
@@ -166,9 +169,15 @@ class DrawingRoom:
             self._held = set()
         elif not paused and self._held is not None:
             held, self._held = self._held, None
+            self._let_through.clear()
             for display in held:
                 running = self._running[display]
                 self._apply(display, running, running.placing.shown)
+
+    def draw_once(self, displays: Iterable[str]) -> None:
+        """Draw these although drawing is paused: somebody changed how they look."""
+        if self._held is not None:
+            self._let_through.update(displays)
 
     def reset(self) -> None:
         """Forget all messages and transforms; all is subscribed again with the next check."""
@@ -178,9 +187,12 @@ class DrawingRoom:
             running.begin_anew()
 
     def renew(self) -> None:
-        """The fixed frame is another: everything is placed again."""
+        """The fixed frame is another: everything is placed again, also while drawing is paused."""
         for running in self._running.values():
             running.placing.renew()
+        if self._held is not None:
+            self.draw_once(self._running)
+            self._place_robot()
 
     def follow(self, frame: str, now_ns: int, visitor: Visitor) -> str:
         """Keep a frame in the scene for a while; return why it cannot be, or an empty text."""
@@ -272,7 +284,8 @@ class DrawingRoom:
         shown = running.step(self.frames.lookup, now_ns, at_once_s)
         if shown is None:
             return
-        if self._held is None:
+        if self._held is None or display in self._let_through:
+            self._let_through.discard(display)
             self._apply(display, running, shown)
         else:
             self._held.add(display)

@@ -8,7 +8,7 @@ import os
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from msgspec import structs
 
@@ -56,6 +56,7 @@ ENDINGS: Final = (".rviz", ".studio.yaml")
 """Of RViz's files, and of those that hold the studio's panels, too."""
 _RECENT: Final = "recent_rviz.json"
 _QUIET_S: Final = 0.3
+_AS_IT_IS: Final = GetRvizText()
 _LISTED_MAX: Final = 200
 _WALKED_MAX: Final = 2000
 """Folders that are looked into for config files."""
@@ -110,7 +111,7 @@ class RvizConfigs:
 
     def events(self) -> Iterable[Event]:
         """Yield the events for a new page."""
-        none = RvizConfigState(name="", path="", changed=False, undo=False)
+        none = RvizConfigState(name="", path="", changed=False, rviz1=False, undo=False)
         yield self._state.event or none
         if self._state.event is None and self._displays.kept.config is not None:
             self._checking.trigger()
@@ -157,7 +158,7 @@ class RvizConfigs:
 
     async def text(self, command: GetRvizText) -> RvizText:
         """Return the text of a file with all that is shown."""
-        text = await self._written(command.view, command.page)
+        text = await self._written(command)
         return RvizText(request=command.request, name=self._name, text=text)
 
     async def save(self, command: SaveRvizFile) -> RvizFileSaved:
@@ -173,7 +174,7 @@ class RvizConfigs:
         own = config is not None and config.path == str(path)
         if is_there(path) and not (own or command.replace):
             return RvizFileSaved(request=command.request, path=str(path), is_there=True)
-        text = await self._written(command.view, command.page)
+        text = await self._written(command)
         await asyncio.to_thread(_write, path, text.encode("utf-8"))
         await self._take_saved(text, path)
         return RvizFileSaved(request=command.request, path=str(path), is_there=False)
@@ -199,7 +200,7 @@ class RvizConfigs:
 
     def set_options(self, command: SetViewOptions) -> None:
         """Change background or frame rate."""
-        changes: dict[str, str | int] = {}
+        changes: dict[str, Any] = {}
         if command.background is not None:
             changes["background"] = command.background.lower()
         if command.frame_rate is not None:
@@ -262,14 +263,17 @@ class RvizConfigs:
         config = self._displays.kept.config
         return config.name if config else f"{self._folders.entry.name.split('.')[0]}{ENDINGS[0]}"
 
-    async def _written(self, view: ViewValues | None, page: str = "") -> str:
+    async def _written(self, asked: GetRvizText | SaveRvizFile = _AS_IT_IS) -> str:
         kept, root = self._displays.kept, self._displays.fixed_frame_in_use
-        return await asyncio.to_thread(_text_of, kept, root, view, page)
+        return await asyncio.to_thread(_text_of, kept, root, asked)
 
     async def _take_saved(self, text: str, path: Path) -> None:
         """From now on this is the file that is open."""
         config, _ = await asyncio.to_thread(_read_text, text)
         opened = OpenedConfig(path.name, str(path), dict(config.groups), config.rest, _digest(text))
+        shown = [(one.kind, one.name) for one in self._displays.kept.displays]
+        if shown == [(one.kind, one.name) for one in config.displays]:
+            self._displays.set_entries([one.entry for one in config.displays])
         self._displays.keep_beside(config=opened)
         self._recent.note(str(path), path.name, {}, datetime.now(UTC).timestamp())
         await self._checked_now()
@@ -284,7 +288,7 @@ class RvizConfigs:
         config = kept.config
         changed = False
         if config is not None:
-            text = await self._written(None)
+            text = await self._written()
             changed = config.digest != _digest(text)
         undo = self._before is not None and self._displays.kept == self._after
         if not undo:
@@ -294,6 +298,7 @@ class RvizConfigs:
                 name=config.name if config else "",
                 path=config.path if config else "",
                 changed=changed,
+                rviz1=await asyncio.to_thread(_is_of_rviz1, kept),
                 undo=undo,
             )
         )
@@ -344,15 +349,22 @@ def _read_text(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
     return read_config(text)
 
 
-def _text_of(kept: KeptDisplays, root: str, view: ViewValues | None, page: str) -> str:
-    from studio.rviz.config import tree_of  # noqa: PLC0415 - imports all displays
+def _is_of_rviz1(kept: KeptDisplays) -> bool:
+    from studio.rviz.config import is_of_rviz1  # noqa: PLC0415 - imports all displays
+
+    return kept.config is not None and is_of_rviz1(_config_of(kept, None))
+
+
+def _text_of(kept: KeptDisplays, root: str, asked: GetRvizText | SaveRvizFile) -> str:
+    from studio.rviz.config import for_rviz2, tree_of  # noqa: PLC0415 - imports all displays
     from studio.rviz.config_page import PAGE, page_entry  # noqa: PLC0415
     from studio.rviz.config_text import write_tree  # noqa: PLC0415
     from studio.rviz.config_values import entry_at  # noqa: PLC0415
 
-    tree = tree_of(replace(_config_of(kept, view), root=root))
-    if page:
-        tree |= {PAGE: page_entry(page, entry_at(tree, PAGE))}
+    config = replace(_config_of(kept, asked.view), root=root)
+    tree = tree_of(for_rviz2(config) if asked.rviz2 else config)
+    if asked.page:
+        tree |= {PAGE: page_entry(asked.page, entry_at(tree, PAGE))}
     return write_tree(tree)
 
 
@@ -380,7 +392,7 @@ def _config_of(kept: KeptDisplays, view: ViewValues | None) -> RvizConfig:
 def _as_clean(kept: KeptDisplays) -> KeptDisplays:
     """Return it with its file noted as it is written without a change."""
     assert kept.config is not None
-    digest = _digest(_text_of(kept, "", None, ""))
+    digest = _digest(_text_of(kept, "", _AS_IT_IS))
     return structs.replace(kept, config=structs.replace(kept.config, digest=digest))
 
 

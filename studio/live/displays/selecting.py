@@ -87,14 +87,20 @@ class Selecting:
 
     async def pick(self, command: PickItems) -> ItemsPicked:
         """Return the items that were pointed at; parts that are not there any more are ignored."""
-        found: dict[tuple[str, str], None] = {}
+        found: dict[str, dict[str, None]] = {}
         rest = _Turns()
         for node in command.nodes:
-            for key in filter(_is_sendable, self._keys_at(node)):
-                found[node.display, key] = None
+            found.setdefault(node.display, {}).update(dict.fromkeys(self._keys_at(node)))
             await rest.after()
-        items = tuple(ItemRef(display=one, key=key) for one, key in islice(found, ITEMS_MAX))
-        return ItemsPicked(request=command.request, items=items, left_out=len(found) - len(items))
+        chosen = _chosen({display: [*keys] for display, keys in found.items()}, ITEMS_MAX)
+        items = tuple(
+            ItemRef(display=display, key=key)
+            for display, keys in chosen.items()
+            for key in keys
+            if _is_sendable(key)
+        )
+        left_out = sum(map(len, found.values())) - len(items)
+        return ItemsPicked(request=command.request, items=items, left_out=left_out)
 
     async def describe(self, command: DescribeItems) -> ItemsDescribed:
         """Return where items are now, and all that is known of a few of them."""
@@ -188,6 +194,17 @@ class Selecting:
             return None
         drawn = now.displays.get(display)
         return drawn.shown.poses.get(item.path) if drawn is not None else None
+
+
+def _chosen(keys: Mapping[str, list[str]], most: int) -> dict[str, list[str]]:
+    """Choose at most so many keys: displays of few keep all, others some, spread evenly."""
+    chosen: dict[str, list[str]] = {}
+    for at, display in enumerate(sorted(keys, key=lambda one: len(keys[one]))):
+        of_display = keys[display]
+        share = min(len(of_display), most // (len(keys) - at))
+        chosen[display] = [of_display[n * len(of_display) // share] for n in range(share)]
+        most -= share
+    return {display: chosen[display] for display in keys}
 
 
 def _is_sendable(key: str) -> bool:

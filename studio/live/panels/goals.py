@@ -133,6 +133,10 @@ class ActionGoals:
         )
         return Begun(request=command.request, operation=number)
 
+    async def send(self, name: str, action_type: str, text: str) -> int:
+        """Send a goal for another part, as `begin`; return its number."""
+        return (await self.begin(SendGoal(name=name, action_type=action_type, text=text))).operation
+
     async def cancel(self, command: CancelGoal) -> None:
         """Ask a server to cancel a goal.
 

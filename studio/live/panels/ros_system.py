@@ -7,10 +7,12 @@ from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import RouterGoneError
+from studio.live.doctor.seen import Unanswered
 from studio.live.panels import (
     calls,
     changes,
     diagnostics,
+    doctor,
     driving,
     goal_statuses,
     goals,
@@ -74,6 +76,7 @@ class RosSystem:
         self.parameters = parameters.NodeParameters(wire)
         self.driving = driving.Driving(wire)
         self.lessons = lessons.CourseDemos(wire, partial(self.changes.changed, "lessons"))
+        self.doctor = doctor.Doctor(wire, self._unanswered)
         self._stopping: asyncio.Task[None] | None = None
         self._operations = {
             "calls": self.calls.operations,
@@ -88,6 +91,19 @@ class RosSystem:
         else:
             self._epoch = self.connection.topics.epoch
             self.changes.all_changed()
+
+    def _unanswered(self) -> tuple[Unanswered, ...]:
+        """Return the services and actions whose last call or goal failed."""
+        newest: dict[tuple[bool, str], tuple[str, str]] = {}
+        for call in self.calls.operations.all():
+            newest[False, call.name] = call.state, call.trouble
+        for goal in self.goals.operations.all():
+            newest[True, goal.name] = goal.state, goal.trouble
+        return tuple(
+            Unanswered(is_action, name, trouble)
+            for (is_action, name), (state, trouble) in newest.items()
+            if state == "failed"
+        )
 
     def check_router(self) -> None:
         """Pass if the router is there, or if there is no connection yet: one is made then.
@@ -149,6 +165,7 @@ class RosSystem:
         """Let go of the connection, which is about to end."""
         await asyncio.gather(
             self.let_go_of_operations(),
+            self.doctor.let_go(),
             self.driving.let_go(),
             self.lessons.let_go(),
             self.lifecycle.let_go(),
@@ -171,6 +188,7 @@ class RosSystem:
             self.changes.close(),
             self.browser_topics.close(),
             self.let_go_of_operations(),
+            self.doctor.let_go(),
             self.driving.let_go(),
             self.lessons.close(),
             self.lifecycle.let_go(),
@@ -184,6 +202,7 @@ COMMANDS.viewer(FollowOperations, lambda ros, c, who: ros.follow(c, who))
 COMMANDS.include(calls.COMMANDS, lambda ros, _: ros.calls)
 COMMANDS.include(changes.COMMANDS, lambda ros, _: ros.changes)
 COMMANDS.include(diagnostics.COMMANDS, lambda ros, _: ros.diagnostics)
+COMMANDS.include(doctor.COMMANDS, lambda ros, _: ros.doctor)
 COMMANDS.include(driving.COMMANDS, lambda ros, _: ros.driving)
 COMMANDS.include(goal_statuses.COMMANDS, lambda ros, _: ros.goal_statuses)
 COMMANDS.include(goals.COMMANDS, lambda ros, _: ros.goals)

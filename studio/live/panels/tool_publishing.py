@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import CommandError
 from studio.live.panels.operations import Begins
-from studio.protocol.goals import SendGoal
-from studio.protocol.tools import ToolUsed
 from studio.rviz.tools import (
     ACTION,
     COVARIANCES,
@@ -34,7 +32,6 @@ if TYPE_CHECKING:
     from studio.live.displays.document_tools import ToolUse
     from studio.live.panels.goals import ActionGoals
     from studio.live.panels.tool_work import ToolPublisher
-    from studio.protocol.tools import UseTool
     from studio.rviz.tools import ToolSpec
 
 _PUBLISHERS_MAX: Final = 100
@@ -55,6 +52,21 @@ class TopicSettings:
     durability: str
 
 
+@dataclass(frozen=True, slots=True)
+class ToolSent:
+    """What was sent.
+
+    Attributes:
+        name: Of the topic or the action.
+        subscriptions: Of the topic when it was published; 0: nobody heard it.
+        operation: Of a goal: its number among goals; else 0.
+    """
+
+    name: str
+    subscriptions: int = 0
+    operation: int = 0
+
+
 class ToolPublishing:
     """Publishes for tools; the publisher of a tool stays until its topic or QoS is another.
 
@@ -68,7 +80,7 @@ class ToolPublishing:
         self._begins = Begins()
         self._turn = asyncio.Lock()
 
-    async def use(self, command: UseTool, use: ToolUse, person: str) -> ToolUsed:
+    async def use(self, document: str, use: ToolUse, person: str) -> ToolSent:
         """Publish, or send a goal; return what was sent where.
 
         Raises:
@@ -85,8 +97,8 @@ class ToolPublishing:
 
             if await self._goes_to_action(use.tool, link):
                 check()
-                return await self._send_goal(command, use)
-            return await self._publish(command, use, link, check)
+                return await self._send_goal(use)
+            return await self._publish(document, use, link, check)
 
     def release(self, may_go_on: Callable[[str], bool]) -> None:
         """Send nothing of what these persons are about to."""
@@ -113,29 +125,27 @@ class ToolPublishing:
             raise not_served("action", name, NAVIGATE_TO_POSE, _types(link, name))
         return True
 
-    async def _send_goal(self, command: UseTool, use: ToolUse) -> ToolUsed:
+    async def _send_goal(self, use: ToolUse) -> ToolSent:
         name = str(use.tool.value(ACTION))
         goal = json.dumps({"pose": message_values(use)})
-        order = SendGoal(name=name, action_type=NAVIGATE_TO_POSE, text=goal)
-        begun = await self._goals.begin(order)
-        return _answer(command, use, name, operation=begun.operation)
+        return ToolSent(name, operation=await self._goals.send(name, NAVIGATE_TO_POSE, goal))
 
     async def _publish(
-        self, command: UseTool, use: ToolUse, link: WireLink, check: Callable[[], None]
-    ) -> ToolUsed:
+        self, document: str, use: ToolUse, link: WireLink, check: Callable[[], None]
+    ) -> ToolSent:
         from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh
 
-        publisher = await self._publisher(command, use.tool, link)
+        publisher = await self._publisher(document, use.tool, link)
         await came_true(lambda: publisher.subscriptions() > 0, _LISTENER_PATIENCE_S)
         check()
         subscriptions = publisher.subscriptions()
         await asyncio.to_thread(publisher.send, message_values(use))
-        return _answer(command, use, publisher.name, subscriptions=subscriptions)
+        return ToolSent(publisher.name, subscriptions)
 
-    async def _publisher(self, command: UseTool, tool: ToolSpec, link: WireLink) -> ToolPublisher:
+    async def _publisher(self, document: str, tool: ToolSpec, link: WireLink) -> ToolPublisher:
         from studio.live.panels.tool_work import ToolPublisher  # noqa: PLC0415 - imports zenoh
 
-        key, settings = (command.document, tool.id), settings_of(tool)
+        key, settings = (document, tool.id), settings_of(tool)
         async with self._turn:
             found = self._publishers.pop(key, None)
             if found is None or found.link is not link or found.settings != settings:
@@ -176,18 +186,3 @@ def message_values(use: ToolUse) -> dict[str, Any]:
 
 def _types(link: WireLink, action: str) -> tuple[str, ...]:
     return tuple(dict(link.graph.actions()).get(action, ()))
-
-
-def _answer(
-    command: UseTool, use: ToolUse, name: str, *, subscriptions: int = 0, operation: int = 0
-) -> ToolUsed:
-    return ToolUsed(
-        request=command.request,
-        sent_as="action" if operation else "topic",
-        name=name,
-        frame=use.frame,
-        xyz=use.xyz,
-        wxyz=use.wxyz,
-        subscriptions=subscriptions,
-        operation=operation,
-    )

@@ -66,10 +66,13 @@ class TopicRates:
     Args:
         measure: Starts to count a topic, until nobody asked for so many seconds; returns None if
             the source has ended or nobody publishes it.
+        bytes_max: Limit per second of all topics together; None: `BYTES_MAX`.
     """
 
-    def __init__(self, measure: Callable[[str, float], Meter | None]) -> None:
-        self._measure = measure
+    def __init__(
+        self, measure: Callable[[str, float], Meter | None], bytes_max: int | None = None
+    ) -> None:
+        self._measure, self._bytes_max = measure, bytes_max
         self._lock = threading.Lock()
         self._measured: dict[str, _Measured] = {}
         self._resting: dict[str, _Rest] = {}
@@ -117,10 +120,11 @@ class TopicRates:
     def _spare(self) -> None:
         """Let the heaviest rest while all together are too heavy."""
         now_s = time.monotonic()
+        bytes_max = BYTES_MAX if self._bytes_max is None else self._bytes_max
         total = sum(one.flow.bytes_per_s for one in self._measured.values())
         heaviest = sorted(self._measured, key=lambda name: -self._measured[name].flow.bytes_per_s)
         for name in heaviest:
-            if total <= BYTES_MAX:
+            if total <= bytes_max:
                 return
             one = self._measured[name]
             if now_s - one.began_s >= _MEASURED_S:

@@ -10,12 +10,18 @@ from typing import TYPE_CHECKING, Final, cast
 
 from studio.errors import InterfaceError, TokenError
 from studio.ros.profiles import PROFILES
-from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token, tokens_of_domain
+from studio.ros.tokens import (
+    EndpointToken,
+    NodeToken,
+    nodes_of_domain,
+    parse_token,
+    tokens_of_domain,
+)
 from studio.ros.types.library import TypeLibrary
 from studio.ros.wire.zenoh import admin_answers, live_tokens
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.profiles import WireProfile
@@ -26,7 +32,9 @@ _NAMED_MAX = 3
 _ADMIN_TIMEOUT_S: Final = 3.0
 _STARTING_S: Final = 1.0
 """Tokens of a process that starts may come so much later than its first publisher."""
+_LOOKS: Final = 4
 _ASKED_MAX: Final = 5
+_SESSIONS_MAX: Final = 1_000
 _STRANGE: Final = ""
 QUERY_TIMEOUT_S = 3.0
 
@@ -148,10 +156,14 @@ def unseen_nodes(wire: WireSession) -> UnseenNodes | None:
     """
     session = wire.zenoh
     publishing = set(_publishing(session, wire.domain))
-    unseen = publishing - _shown(session, wire.domain)
-    if unseen:
-        time.sleep(_STARTING_S)
-        unseen -= _shown(session, wire.domain)
+    # Nodes first: with thousands of endpoints their tokens take seconds.
+    unseen = publishing - _shown(session, nodes_of_domain(str(wire.domain)))
+    for _ in range(_LOOKS):
+        if not unseen:
+            return None
+        # A router answers with a part of its tokens, or none, now and then.
+        time.sleep(_STARTING_S / _LOOKS)
+        unseen -= _shown(session, tokens_of_domain(wire.domain))
     if not unseen:
         return None
     asked = sorted(unseen)[:_ASKED_MAX]
@@ -181,14 +193,26 @@ def router_versions(wire: WireSession) -> tuple[str, ...]:
     return _versions(wire.zenoh, (f"@/{zid}/router" for zid in zids))
 
 
+def versions_by_session(wire: WireSession, whatami: str) -> dict[str, str]:
+    """Return Zenoh's version of every router (`router`) or process (`peer`) that tells it, by id.
+
+    Processes of rmw_zenoh do, and routers; lasts some seconds where somebody does not answer.
+    """
+    found: dict[str, str] = {}
+    for answered, data in admin_answers(wire.zenoh, f"@/*/{whatami}", _ADMIN_TIMEOUT_S):
+        if len(found) < _SESSIONS_MAX and (version := _version(data)):
+            found[answered.split("/")[1]] = version
+    return found
+
+
 def _publishing(session: Session, domain: int) -> Iterator[str]:
     """Session ids of those who publish `/rosout`, as each process with a node of ROS does."""
     key = f"@/*/peer/publisher/{domain}/rosout/**"
     return (answered.split("/")[1] for answered, _ in admin_answers(session, key, _ADMIN_TIMEOUT_S))
 
 
-def _shown(session: Session, domain: int) -> set[str]:
-    tokens = live_tokens(session, tokens_of_domain(domain), _ADMIN_TIMEOUT_S)
+def _shown(session: Session, key: str) -> set[str]:
+    tokens = live_tokens(session, key, _ADMIN_TIMEOUT_S)
     return {_zid(token) for token in tokens}
 
 
@@ -220,15 +244,24 @@ def _version(data: bytes) -> str:
     return number if len(number) <= 20 and number.replace(".", "").isalnum() else _STRANGE
 
 
-def nodes_by_domain(wire: WireSession, timeout_s: float = QUERY_TIMEOUT_S) -> dict[int, int]:
-    """Ask the router for the nodes of every domain, once; lasts `timeout_s` at most."""
-    return count_nodes(live_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", timeout_s))
+def nodes_by_domain(
+    wire: WireSession, timeout_s: float = QUERY_TIMEOUT_S, own: Collection[str] = ()
+) -> dict[int, int]:
+    """Ask the router for the nodes of every domain, once; lasts `timeout_s` at most.
+
+    Args:
+        wire: The session.
+        timeout_s: See above.
+        own: Sessions whose nodes do not count.
+    """
+    return count_nodes(live_tokens(wire.zenoh, nodes_of_domain("*"), timeout_s), own)
 
 
-def count_nodes(tokens: Iterable[str]) -> dict[int, int]:
+def count_nodes(tokens: Iterable[str], own: Collection[str] = ()) -> dict[int, int]:
     """Count the nodes of each domain, in the order of their numbers; a token counts once."""
     nodes = (node for token in set(tokens) if (node := _node(token)) is not None)
-    return dict(sorted(Counter(node.domain for node in nodes).items()))
+    domains = Counter(node.domain for node in nodes if node.zid not in own)
+    return dict(sorted(domains.items()))
 
 
 def _node(token: str) -> NodeToken | None:

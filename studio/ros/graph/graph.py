@@ -151,6 +151,11 @@ class Graph:
         """Return the nodes that have a client of an action."""
         return [found.node for found in self.clients(goal_service(action))]
 
+    def all_of(self, kind: EndpointKind) -> dict[str, tuple[GraphEndpoint, ...]]:
+        """Return all endpoints of a kind by name, in no order: much cheaper than one by one."""
+        with self._changed:
+            return {name: tuple(one.values()) for name, one in self._table.named(kind).items()}
+
     def endpoint_of_gid(self, gid: bytes) -> GraphEndpoint | None:
         """Return the endpoint that has a GID, None when none is known."""
         with self._changed:

@@ -138,12 +138,20 @@ def test_a_group_that_is_dissolved_leaves_what_was_in_it_where_it_stood():
 
 def test_a_group_is_moved_as_a_whole():
     displays = nested()
-    displays.move_group("Nav", next(iter(displays)).id)
+    displays.arrange_group("Nav", None, next(iter(displays)).id)
     assert names(displays) == ["Path", "Map", "LaserScan"]
-    displays.move_group("Nav", "")
+    displays.arrange_group("Nav", "Way", "")
     assert names(displays) == ["LaserScan", "Path", "Map"]
-    with pytest.raises(CommandError, match="not there any more"):
-        displays.move_group("Nav", "d99")
+    assert groups(displays) == ["", "Way/Local", "Way"]
+    for to, before, why in (
+        ("Other", "d99", "not there any more"),
+        ("Other", "d2", "in it"),
+        ("Way/Local", "d1", "itself"),
+    ):
+        with pytest.raises(CommandError, match=why):
+            displays.arrange_group("Way", to, before)
+    assert names(displays) == ["LaserScan", "Path", "Map"]
+    assert groups(displays) == ["", "Way/Local", "Way"]
 
 
 def test_what_was_removed_comes_back_where_it_stood_as_long_as_it_is_known():

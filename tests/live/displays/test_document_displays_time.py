@@ -9,7 +9,7 @@ import pytest
 
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.connection import SetJointSource
-from studio.protocol.displays import AddDisplay, SetFixedFrame
+from studio.protocol.displays import AddDisplay, SetDisplayProperty, SetFixedFrame
 from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene
 from studio.ros.messages import message
 from tests.live.displays.test_document_displays import (
@@ -33,6 +33,11 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.network
 
 CLOCK = "rosgraph_msgs/msg/Clock"
+
+
+def received(one: Studio) -> int:
+    """Messages that came for the first display."""
+    return one.ear.last("display_states")["states"][0]["received"]
 
 
 async def time_of(one: Studio) -> dict[str, Any]:
@@ -60,19 +65,23 @@ def test_a_pause_leaves_the_view_as_it_is_and_what_came_meanwhile_is_drawn_after
             )
             tf.publish(transform("odom", "base", 1.0))
             poses.publish(pose_at("odom", 2.0))
-            await is_at(one, [0.0, 0.0, 0.0])
+            await until(lambda: said(one) == [""])
             await one.do(PauseScene(paused=True))
             assert one.ear.last("live_displays")["paused"]
-            received = one.ear.last("display_states")["states"][0]["received"]
             before = await places(one)
             poses.publish(pose_at("base", 0.0))
             tf.publish(transform("odom", "base", 5.0, NOW_S + 1))
-            await until(
-                lambda: one.ear.last("display_states")["states"][0]["received"] == received + 1
-            )
+            await until(lambda: received(one) == 2)
             assert await places(one) == before
+            await one.do(SetDisplayProperty(display="d1", name="Alpha", value=0.5))
+            await is_at(one, [1.0, 0.0, 0.0])  # who changes a display sees the change
+            poses.publish(pose_at("odom", 2.0))
+            await until(lambda: received(one) == 3)
+            assert [1.0, 0.0, 0.0] in await places(one)
             await one.do(PauseScene(paused=False))
-            await is_at(one, [1.0, 0.0, 0.0])
+            async with asyncio.timeout(60):
+                while [1.0, 0.0, 0.0] in await places(one):  # noqa: ASYNC110 - nothing tells us when
+                    await asyncio.sleep(0.02)
             assert not one.ear.last("live_displays")["paused"]
 
     asyncio.run(run())

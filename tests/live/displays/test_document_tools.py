@@ -8,7 +8,7 @@ import math
 import pytest
 
 from studio.errors import FrameError, ToolError
-from studio.live.displays.document_tools import DocumentTools
+from studio.live.displays.document_tools import DocumentTools, Pointed
 from studio.live.displays.scene_frames import SceneFrames
 from studio.protocol.listeners import Audience
 from studio.protocol.tools import (
@@ -17,7 +17,6 @@ from studio.protocol.tools import (
     RemoveTool,
     RenameTool,
     SetToolProperty,
-    UseTool,
 )
 from studio.rviz.tools import TOOL_KINDS
 from tests.support.memory_source import MemorySource
@@ -26,6 +25,7 @@ from tests.support.posed import Posed, arm
 from tests.support.transforms import S, Told, columns
 
 TURN = math.pi / 2
+ORIGIN = (0.0, 0.0, 0.0)
 
 
 def tools_of() -> tuple[DocumentTools, Ear, list[str]]:
@@ -81,26 +81,26 @@ def test_a_place_is_in_the_fixed_frame_unless_the_tool_has_another():
     tools, _, _ = tools_of()
     goal = goal_of(tools)
     frames = frames_of(Told("map", "base", S, (1.0, 2.0, 0.0), (0.5**0.5, 0.0, 0.0, 0.5**0.5)))
-    plain = tools.use(UseTool(tool=goal, x=0.5, y=0.0, yaw=TURN), frames)
+    plain = tools.use(Pointed(goal, "", (0.5, 0.0, 0.0), TURN), frames)
     assert (plain.frame, plain.xyz) == ("base", (0.5, 0.0, 0.0))
     assert plain.wxyz == pytest.approx((math.cos(TURN / 2), 0, 0, math.sin(TURN / 2)))
     tools.set_property(SetToolProperty(tool=goal, name="Frame", value="/map"))
-    turned = tools.use(UseTool(tool=goal, x=0.5, y=0.0, yaw=TURN), frames)
+    turned = tools.use(Pointed(goal, "", (0.5, 0.0, 0.0), TURN), frames)
     assert turned.frame == "map"
     assert turned.xyz == pytest.approx((1.0, 2.5, 0.0))
     assert turned.wxyz == pytest.approx((0, 0, 0, 1), abs=1e-12)
     tools.set_property(SetToolProperty(tool=goal, name="Frame", value="<Fixed Frame>"))
     frames.chosen = "map"
-    assert tools.use(UseTool(tool=goal, fixed_frame="map", x=0, y=0), frames).frame == "map"
+    assert tools.use(Pointed(goal, "map", ORIGIN), frames).frame == "map"
 
 
 def test_what_cannot_be_sent_is_said_with_its_reason():
     tools, _, _ = tools_of()
     goal, frames = goal_of(tools), frames_of(Told("map", "base", S), Told("moon", "flag", S))
     with pytest.raises(ToolError, match="fixed frame was changed"):
-        tools.use(UseTool(tool=goal, fixed_frame="map", x=0, y=0), frames)
+        tools.use(Pointed(goal, "map", ORIGIN), frames)
     with pytest.raises(ToolError, match="Interact publishes nothing"):
-        tools.use(UseTool(tool="t1", x=0, y=0), frames)
+        tools.use(Pointed("t1", "", ORIGIN), frames)
     tools.set_property(SetToolProperty(tool=goal, name="Frame", value="moon"))
     with pytest.raises(FrameError, match="moon"):
-        tools.use(UseTool(tool=goal, x=0, y=0), frames)
+        tools.use(Pointed(goal, "", ORIGIN), frames)

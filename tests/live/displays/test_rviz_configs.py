@@ -159,6 +159,7 @@ def test_a_file_is_shown_with_its_losses_and_comes_back_as_it_was(tmp_path: Path
             "name": "arm.rviz",
             "path": "",
             "changed": False,
+            "rviz1": False,
             "undo": True,
         }
 
@@ -323,5 +324,60 @@ def test_a_link_that_leads_out_is_not_read_and_who_presents_not_opens_no_file(tm
             await one.do(OpenRvizFile(path="arm.urdf"), Ear(Role.STUDENT))
         await one.do(OpenRvizText(name="own.rviz", text=FILE), Ear(Role.STUDENT))
         assert len(one.displays) == 3
+
+    with_arm(folder, work)
+
+
+def test_a_file_of_rviz_1_keeps_its_names_until_it_is_saved_for_rviz2(tmp_path: Path):
+    text = FILE.replace("rviz_default_plugins/", "rviz/").replace("rviz_common/", "rviz/")
+
+    async def work(one: Opened) -> None:
+        await one.do(OpenRvizText(name="old.rviz", text=text))
+        assert one.state["rviz1"]
+        await one.do(GetRvizText())
+        assert one.ear.last("rviz_text")["text"] == text
+        await one.do(SaveRvizFile(path="new.rviz", rviz2=True))
+        assert (one.state["name"], one.state["rviz1"]) == ("new.rviz", False)
+        assert not one.state["changed"]
+        written = (tmp_path / "new.rviz").read_text()
+        assert "rviz/" not in written.replace("_rviz/", "")
+        tree = yaml.safe_load(written)["Visualization Manager"]
+        assert [each["Class"] for each in tree["Displays"]] == [
+            "rviz_default_plugins/Grid", "rviz_common/Group",
+        ]  # fmt: skip
+        assert tree["Displays"][0]["Alpha"] == 0.25
+        assert tree["Displays"][0]["Plane Cell Count"] == 10
+        assert tree["Tools"][0]["Class"] == "rviz_default_plugins/MoveCamera"
+        assert tree["Views"]["Current"]["Class"] == "rviz_default_plugins/Orbit"
+
+    with_arm(tmp_path, work)
+
+
+NAMING = """Visualization Manager:
+  Displays:
+    - Class: rviz_default_plugins/RobotModel
+      Description File: {}
+      Description Source: File
+      Name: Robot
+      Value: true
+"""
+
+
+def test_a_robot_outside_the_folders_is_not_read_though_a_config_file_names_it(tmp_path: Path):
+    folder = tmp_path / "robot"
+    folder.mkdir()
+    (tmp_path / "secret.urdf").write_text(ROBOT.replace("base", "secret_link"))
+
+    def remarks(one: Opened) -> str:
+        told = [each for each in one.ear.events if each["type"] == "display_states"]
+        states: list[dict[str, Any]] = told[-1]["states"] if told else []
+        return " ".join(each["sentence"] for state in states for each in state["remarks"])
+
+    async def work(one: Opened) -> None:
+        for name in (str(tmp_path / "secret.urdf"), "../secret.urdf", "package://../secret.urdf"):
+            one.ear.events.clear()
+            await one.do(OpenRvizText(name="a.rviz", text=NAMING.format(name)))
+            await until(lambda: bool(remarks(one)) and "on its way" not in remarks(one))
+            assert "secret_link" not in str(one.ear.events)
 
     with_arm(folder, work)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -11,6 +12,8 @@ import numpy as np
 import pytest
 
 from studio.displays.display import Limits
+from studio.displays.drawing import Points
+from studio.displays.laser_scan import LaserScanDisplay
 from studio.displays.markers.display import MarkerDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.errors import FrameError
@@ -75,7 +78,7 @@ def lookup(frame: str, stamp_ns: int) -> Pose:
     return LEFT
 
 
-def selecting(displays: Mapping[str, Drawn]) -> Selecting:
+def selecting(displays: Mapping[str, Drawn | Swept]) -> Selecting:
     return Selecting(lambda: AllDrawn(displays, ROBOT, lookup, "world"))
 
 
@@ -163,7 +166,54 @@ def test_a_link_of_the_document_is_an_item_without_a_display():
     assert [one.name for one in answer.details[0].in_fixed] == ["position", "orientation"]
 
 
-def test_of_too_many_items_the_first_ones_are_taken_and_the_loop_has_its_turns():
+def test_a_namespace_that_no_page_could_send_back_is_left_out():
+    display = markers(1)
+    fields = {"ns": "n" * 500, "id": 2, "type": 1, "pose": pose(), "scale": point(1.0, 1.0, 1.0)}
+    display.take(received(MARKER, {**fields, "color": {"r": 1.0, "g": 1.0, "b": 1.0, "a": 1.0}}))
+    drawn = Drawn(display)
+    nodes = tuple(
+        node("d1", path, name, "many", 0)
+        for path, placed in drawn.shown.drawing.items()
+        for name in placed.shapes
+    )
+    answer = asyncio.run(selecting({"d1": drawn}).pick(PickItems(nodes=nodes)))
+    assert refs(answer) == [("d1", "1/a/b")]
+    assert answer.left_out == 1
+
+
+class Swept(NamedTuple):
+    """A scan whose points are drawn 1 m higher than its message has them."""
+
+    display: LaserScanDisplay
+
+    @property
+    def shown(self) -> Shown:
+        ((path, placed),) = self.display.draw(NOW_NS).items()
+        points = placed.shapes["points"]
+        assert isinstance(points, Points)
+        assert placed.sweep is not None
+        moved = replace(points, positions=points.positions + np.array([0, 0, 1], np.float32))
+        return Shown({path: replace(placed, shapes={"points": moved})}, {path: LEFT})
+
+
+def test_a_beam_of_a_turning_lidar_is_where_it_is_drawn():
+    display = LaserScanDisplay(TYPES)
+    fields = {
+        "angle_increment": 0.1,
+        "range_max": 9.0,
+        "time_increment": 0.01,
+        "ranges": [1.0, 2.0],
+    }
+    display.take(received("sensor_msgs/msg/LaserScan", fields))
+    items = selecting({"d1": Swept(display)})
+    command = DescribeItems(items=(ItemKeys(display="d1", keys=("newest/0",)),))
+    (view,) = asyncio.run(items.describe(command)).items
+    assert view.place == pytest.approx((10.0, 1.0, 1.0))
+    assert view.box is not None
+    assert view.box[:3] == pytest.approx((1.0, 0.0, 1.0))
+
+
+def test_of_too_many_items_some_of_each_display_are_taken_and_the_loop_has_its_turns():
     """A cloud of a million points, all of which were pointed at."""
     display = PointCloud2Display(TYPES, {"Points at most": 1_000_000})
     display.limit(Limits(points=1_000_000))
@@ -171,18 +221,19 @@ def test_of_too_many_items_the_first_ones_are_taken_and_the_loop_has_its_turns()
     drawn = Drawn(display)
     drawn.shown  # noqa: B018 - drawn before
     items = selecting({"d1": drawn, "d2": drawn})
-    rows = tuple(range(0, 1_000_000, 250))
+    rows = tuple(range(0, 1_000_000, 25))
     command = PickItems(
         nodes=(node("d1", "0", "points", "points", *rows), node("d2", "0", "points", "points", 7))
     )
     (answer, longest_s) = asyncio.run(watched(items.pick(command)))
     assert len(answer.items) == 4000
-    assert answer.left_out == 1
+    assert ("d2", "newest/7") in refs(answer)
+    assert answer.left_out == 40_001 - 4000
     assert longest_s < 0.05
-    keys = tuple(one.key for one in answer.items)
+    keys = tuple(one.key for one in answer.items if one.display == "d1")
     describe = DescribeItems(items=(ItemKeys(display="d1", keys=keys),))
     (described, longest_s) = asyncio.run(watched(items.describe(describe)))
-    assert len(described.items) == 4000
+    assert len(described.items) == 3999
     assert longest_s < 0.05
 
 

@@ -12,7 +12,6 @@ import pytest
 from studio.errors import CommandError, NotServedError, RosNameError
 from studio.live.displays.document_tools import ToolUse
 from studio.protocol.goals import CancelGoal
-from studio.protocol.tools import ToolUsed, UseTool
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from studio.rviz.tools import POINT, POSE, POSE_WITH_COVARIANCE, ToolSpec
 from tests.support.bridged import Bridged, bridged
@@ -21,6 +20,7 @@ from tests.support.navigation import navigator
 from tests.support.open_documents import until
 
 if TYPE_CHECKING:
+    from studio.live.panels.tool_publishing import ToolSent
     from studio.ros.client import Node
 
 pytestmark = pytest.mark.network
@@ -35,13 +35,12 @@ def _impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("studio.live.panels.tool_publishing._LISTENER_PATIENCE_S", 0.1)
 
 
-async def used(page: Bridged, kind: str, **values: Any) -> ToolUsed:  # noqa: ANN401 - of properties
+async def used(page: Bridged, kind: str, **values: Any) -> ToolSent:  # noqa: ANN401 - of properties
     """Point with a tool at (1, 2, 0.5) of odom, turned by 45 degrees."""
     tool = ToolSpec(
         kind, kind, "Tool", {name.replace("_", " "): one for name, one in values.items()}
     )
-    command = UseTool(tool=kind, x=1.0, y=2.0, request=7)
-    return await page.ros.tools.use(command, ToolUse(tool, "odom", QUARTER, (1.0, 2.0, 0.5)), "me")
+    return await page.ros.tools.use("d", ToolUse(tool, "odom", QUARTER, (1.0, 2.0, 0.5)), "me")
 
 
 def test_a_pose_estimate_has_the_covariances_the_frame_and_the_time_of_now(
@@ -49,7 +48,7 @@ def test_a_pose_estimate_has_the_covariances_the_frame_and_the_time_of_now(
 ):
     poses = heard(tester, POSE_WITH_COVARIANCE, "/initialpose")
 
-    async def run() -> ToolUsed:
+    async def run() -> ToolSent:
         async with bridged(endpoint) as page:
             answer = await used(page, "SetInitialPose", Covariance_y=2.0)
             await until(lambda: bool(poses))
@@ -57,8 +56,7 @@ def test_a_pose_estimate_has_the_covariances_the_frame_and_the_time_of_now(
 
     answer = asyncio.run(run())
     (said,) = poses
-    assert (answer.sent_as, answer.name, answer.frame) == ("topic", "/initialpose", "odom")
-    assert (answer.request, answer.subscriptions, answer.operation) == (7, 1, 0)
+    assert (answer.name, answer.subscriptions, answer.operation) == ("/initialpose", 1, 0)
     assert said.header.frame_id == "odom"
     stamp_s = said.header.stamp.sec + said.header.stamp.nanosec / 1e9
     assert abs(time.time_ns() / 1e9 - stamp_s) < 60
@@ -127,13 +125,13 @@ def test_a_goal_goes_to_the_action_where_it_is_served_and_is_cancelled(endpoint:
         async with bridged(endpoint) as page:
             with pytest.raises(NotServedError, match="/navigate_to_pose"):
                 await used(page, "SetGoal", Send_as="Action")
-            assert (await used(page, "SetGoal")).sent_as == "topic"
+            assert (await used(page, "SetGoal")).operation == 0
             await until(lambda: len(poses) == 1)
             with navigator(endpoint) as work:
                 link = await page.ros.connection.link()
                 await until(lambda: bool(link.graph.action_servers("/navigate_to_pose")))
                 answer = await used(page, "SetGoal")
-                assert (answer.sent_as, answer.name) == ("action", "/navigate_to_pose")
+                assert answer.name == "/navigate_to_pose"
                 await page.operation_in("goals", answer.operation, "executing")
                 asked = await asyncio.to_thread(lambda: work.goal().request.pose)
                 assert (asked.header.frame_id, asked.pose.position.y) == ("odom", 2.0)

@@ -1,0 +1,162 @@
+"""What the Doctor asks of routers and nodes: who is there, of which version, and who answers.
+
+It imports Zenoh (through `ros`), so it is imported when somebody asks.
+"""
+
+from __future__ import annotations
+
+import secrets
+import time
+from collections import Counter
+from typing import TYPE_CHECKING, Final
+
+from studio.live.doctor.seen import Answers, Ends, System
+from studio.ros.attachment import GID_BYTES, packed
+from studio.ros.graph.diagnosis import (
+    DistroHashes,
+    nodes_by_domain,
+    unseen_nodes,
+    versions_by_session,
+)
+from studio.ros.tokens import DataKey, EndpointKind
+from studio.ros.wire.zenoh import Replies, ZError, declare_querier
+
+if TYPE_CHECKING:
+    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.graph.graph import Graph
+    from studio.ros.types.library import TypeLibrary
+    from studio.ros.wire.session import WireSession
+    from studio.ros.wire.zenoh import Querier
+
+ASKED_MAX: Final = 60
+"""Nodes that are asked at once."""
+ANSWER_S: Final = 2.0
+"""So long a node may take to answer."""
+_LOOKS: Final = 3
+_CHECK_EVERY_S: Final = 0.01
+_ANSWERING: Final = "/get_parameters"
+"""A service that every node has and that changes nothing: it is asked for no parameter at all."""
+_NO_PARAMETERS: Final = bytes((0, 1, 0, 0, 0, 0, 0, 0))
+
+
+def look(
+    wire: WireSession,
+    graph: Graph,
+    types: TypeLibrary,
+    hashes: DistroHashes,
+    *,
+    own: frozenset[str],
+) -> System:
+    """Return the graph of a system as it is now; some milliseconds with thousands of nodes.
+
+    Args:
+        wire: The session.
+        graph: Of its domain.
+        types: Message types that are known.
+        hashes: Those of every distribution.
+        own: Sessions of the studio.
+    """
+    malformed, last = graph.malformed
+    return System(
+        endpoint=", ".join(wire.settings.connect),
+        domain=wire.domain,
+        profile=wire.profile,
+        is_connected=wire.is_connected,
+        has_own_router=wire.router is not None,
+        own=own,
+        nodes=tuple(graph.nodes()),
+        topics=_ends(graph, EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION),
+        services=_ends(graph, EndpointKind.SERVICE, EndpointKind.CLIENT),
+        malformed=(malformed, last or ""),
+        types=types,
+        hash_of=hashes,
+    )
+
+
+def _ends(graph: Graph, senders: EndpointKind, receivers: EndpointKind) -> dict[str, Ends]:
+    sending, receiving = graph.all_of(senders), graph.all_of(receivers)
+    return {
+        name: Ends(_in_order(sending.get(name, ())), _in_order(receiving.get(name, ())))
+        for name in sorted({*sending, *receiving})
+    }
+
+
+def _in_order(ends: tuple[GraphEndpoint, ...]) -> tuple[GraphEndpoint, ...]:
+    if len(ends) < 2:
+        return ends
+    return tuple(sorted(ends, key=lambda end: (end.node.path, end.token)))
+
+
+def ask(wire: WireSession, system: System, before: Answers | None = None) -> Answers:
+    """Ask all of it; takes some seconds where somebody does not answer, so call it in a thread.
+
+    Args:
+        wire: The session.
+        system: The graph as it is now.
+        before: The answers of the last time, by which it is known who answers no more.
+    """
+    nodes = _nodes_by_domain(wire, system)
+    unseen = unseen_nodes(wire)
+    asked, silent = _silent_nodes(wire, system)
+    sessions = versions_by_session(wire, "peer")
+    known = frozenset(before.sessions) | before.lost if before else frozenset[str]()
+    return Answers(
+        nodes_by_domain=nodes,
+        unseen=unseen,
+        routers=versions_by_session(wire, "router"),
+        sessions=sessions,
+        asked=asked,
+        silent=silent,
+        lost=(known - sessions.keys()) & {one.zid for one in system.nodes},
+    )
+
+
+def _nodes_by_domain(wire: WireSession, system: System) -> dict[int, int]:
+    """Count others' nodes; a router answers with a part of its tokens, or none, now and then."""
+    most = Counter({system.domain: len(system.others)})
+    for _ in range(_LOOKS):
+        most |= Counter(nodes_by_domain(wire, own=system.own))
+    return {domain: nodes for domain, nodes in sorted(most.items()) if nodes}
+
+
+def _silent_nodes(wire: WireSession, system: System) -> tuple[int, tuple[str, ...]]:
+    """Ask nodes of others, all at once; return how many were asked, and who did not answer."""
+    servers = [
+        ends.senders[0]
+        for name, ends in system.services.items()
+        if name.endswith(_ANSWERING) and ends.senders and not system.is_own(ends.senders[0])
+    ][:ASKED_MAX]
+    asked = [(one.node.path, _Question(wire, one)) for one in servers]
+    end_s = time.monotonic() + ANSWER_S
+    while time.monotonic() < end_s and not all(one.is_answered() for _, one in asked):
+        time.sleep(_CHECK_EVERY_S)
+    silent = tuple(path for path, one in asked if not one.is_answered())
+    for _, one in asked:
+        one.close()
+    return len(asked), silent
+
+
+class _Question:
+    """A request for no parameters, which only shows whether a node answers."""
+
+    def __init__(self, wire: WireSession, server: GraphEndpoint) -> None:
+        key = DataKey(wire.domain, server.name, server.type_name, server.type_hash)
+        attachment = packed(1, time.time_ns(), secrets.token_bytes(GID_BYTES))
+        self._answered = False
+        self._querier: Querier = declare_querier(wire.zenoh, str(key), ANSWER_S)
+        self._replies = Replies(self._querier, _NO_PARAMETERS, attachment)
+
+    def is_answered(self) -> bool:
+        """Whether an answer came; asked again and again."""
+        if not self._answered:
+            try:
+                reply = self._replies.try_recv()
+            except ZError:  # the time is over
+                return False
+            self._answered = reply is not None and reply.ok is not None
+        return self._answered
+
+    def close(self) -> None:
+        """Wait no more."""
+        self._replies.cancel()
+        self._querier.undeclare()

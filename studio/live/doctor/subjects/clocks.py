@@ -1,0 +1,134 @@
+"""Clocks: of machines that differ, and of nodes that go by simulated time while others do not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.live.doctor.seen import Looked, listed, short
+from studio.protocol.doctor import Concern, Finding
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.live.doctor.seen import Offset, Seen, System
+    from studio.protocol.doctor import SubjectName
+
+SUBJECT: Final[SubjectName] = "clocks"
+CLOCK: Final = "/clock"
+AHEAD_NS: Final = 20_000_000
+"""A message that came so long before it was sent shows that a clock is ahead."""
+BEHIND_NS: Final = 500_000_000
+"""The quickest of some messages should not take so long."""
+SAMPLES_MIN: Final = 3
+_OWN_TOPICS: Final = frozenset({"/rosout", "/parameter_events", CLOCK})
+
+
+def looked_at(seen: Seen) -> Looked | None:
+    """The processes whose samples came."""
+    if seen.heard is None:
+        return None
+    clock = seen.heard.clock
+    return Looked(len(seen.heard.offsets), f"/clock is {clock.now_ns / 1e9:.1f} s" if clock else "")
+
+
+def findings(seen: Seen) -> Iterator[Finding]:
+    """Find clocks that do not go together."""
+    for one in seen.heard.offsets if seen.heard else ():
+        yield from _of_offset(one)
+    if seen.system is not None:
+        yield from _of_simulated_time(seen, seen.system)
+
+
+def is_off(offset: Offset) -> bool:
+    """Whether the clock of a process differs from that of this machine."""
+    enough = offset.samples >= SAMPLES_MIN
+    return offset.least_ns < -AHEAD_NS or (enough and offset.least_ns > BEHIND_NS)
+
+
+def _of_offset(offset: Offset) -> Iterator[Finding]:
+    if not is_off(offset):
+        return
+    off_s, who = abs(offset.least_ns) / 1e9, listed(offset.nodes)
+    about = tuple(Concern(kind="node", name=one) for one in offset.nodes[:3])
+    if offset.least_ns < 0:
+        sentence = (
+            f"The clock of the machine of {who} is at least {off_s:.3g} s ahead of this one: its "
+            "messages come before they were sent. Set both by NTP."
+        )
+    else:
+        sentence = (
+            f"Messages of {who} come {off_s:.3g} s after they were sent: the clock of their "
+            "machine is behind this one, or the network is that slow. Set both by NTP."
+        )
+    yield Finding(
+        code="clock-ahead" if offset.least_ns < 0 else "clock-behind",
+        level="error" if off_s > 1 else "warn",
+        subject=SUBJECT,
+        sentence=sentence,
+        evidence=(
+            f"the quickest of {offset.samples} samples came {offset.least_ns / 1e9:+.4f} s after "
+            "it was sent, by both clocks",
+        ),
+        line="timedatectl status",
+        about=about,
+    )
+
+
+def _of_simulated_time(seen: Seen, system: System) -> Iterator[Finding]:
+    clock = system.topics.get(CLOCK)
+    # A node of rclcpp or rclpy subscribes to /clock exactly when its use_sim_time is true.
+    simulated = (
+        {one.node.path for one in clock.receivers if not system.is_own(one)}
+        if clock
+        else set[str]()
+    )
+    publishers = tuple(dict.fromkeys(one.node.path for one in clock.senders)) if clock else ()
+    if simulated and not publishers:
+        yield Finding(
+            code="no-clock",
+            level="error",
+            subject=SUBJECT,
+            sentence=(
+                f"{listed(sorted(simulated))} {'goes' if len(simulated) == 1 else 'go'} by "
+                "simulated time (use_sim_time), and nobody publishes /clock: their time stands "
+                "still. Start the simulation, or set use_sim_time to false."
+            ),
+            line=f"ros2 param set {short(min(simulated))} use_sim_time false",
+            about=(Concern(kind="topic", name=CLOCK),),
+        )
+    if len(publishers) > 1:
+        yield Finding(
+            code="two-clocks",
+            level="warn",
+            subject=SUBJECT,
+            sentence=f"/clock is published by {listed(publishers)}: time jumps between them.",
+            about=(Concern(kind="topic", name=CLOCK),),
+        )
+    if publishers:
+        yield from _mixed(system, simulated, set(publishers))
+
+
+def _mixed(system: System, simulated: set[str], clocks: set[str]) -> Iterator[Finding]:
+    """Nodes that publish data and do not go by the time that is published."""
+    publishing = {
+        one.node.path
+        for name, ends in system.topics.items()
+        if name not in _OWN_TOPICS
+        for one in ends.senders
+        if not system.is_own(one)
+    }
+    on_wall_time = sorted(publishing - simulated - clocks)
+    if on_wall_time:
+        yield Finding(
+            code="time-mixed",
+            level="warn",
+            subject=SUBJECT,
+            sentence=(
+                f"/clock is published, and {listed(on_wall_time)} "
+                f"{'does' if len(on_wall_time) == 1 else 'do'} not go by it: stamps of both kinds "
+                "of time never fit together. Set use_sim_time to true."
+            ),
+            evidence=(f"by simulated time: {listed(sorted(simulated)) or 'no node'}",),
+            line=f"ros2 param set {short(on_wall_time[0])} use_sim_time true",
+            about=tuple(Concern(kind="node", name=one) for one in on_wall_time[:3]),
+        )

@@ -1,0 +1,128 @@
+"""The router that nodes meet at: whether it is there, is one, and lets the studio in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from studio.live.doctor.seen import Looked
+from studio.protocol.displays import Mend
+from studio.protocol.doctor import Concern, Finding
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.live.doctor.seen import Seen
+    from studio.protocol.connection import Verdict, WireReport
+    from studio.protocol.doctor import Level, SubjectName
+
+SUBJECT: Final[SubjectName] = "router"
+CONNECT: Final = Mend(label="Connect", command={"type": "connect_wire"})
+CONNECTION: Final = Concern(kind="connection", name="")
+_START: Final = "ros2 run rmw_zenoh_cpp rmw_zenohd"
+
+
+def looked_at(seen: Seen) -> Looked | None:
+    """The router, and its version where it tells it."""
+    if seen.system is not None:
+        versions = sorted(set(seen.answers.routers.values())) if seen.answers else []
+        zenoh = f", Zenoh {', '.join(versions)}" if versions else ""
+        return Looked(1, f"{seen.system.endpoint}{zenoh}")
+    return Looked(1, seen.place.endpoint) if seen.place else None
+
+
+def findings(seen: Seen) -> Iterator[Finding]:
+    """Find why the router cannot be used."""
+    if seen.place is not None and seen.system is None:
+        yield from _of_place(seen.place)
+    if seen.system is not None and not seen.system.is_connected:
+        yield _found(
+            "router-gone",
+            "error",
+            f"The router at {seen.system.endpoint} went away: it is joined again once it runs.",
+            line=_START,
+        )
+    routers = dict(seen.answers.routers) if seen.answers else dict[str, str]()
+    if len(routers) > 1:
+        yield _found(
+            "several-routers",
+            "note",
+            f"{len(routers)} routers are connected with each other: nodes of all of them meet.",
+            evidence=tuple(f"{zid}: Zenoh {version}" for zid, version in list(routers.items())[:8]),
+        )
+
+
+def _of_place(place: WireReport) -> Iterator[Finding]:
+    """What a look at the place said while the studio is not connected."""
+    sentence, level = _SENTENCES.get(place.verdict, ("", "note"))
+    if not sentence:
+        return
+    if place.verdict == "no_router" and place.starts_router:
+        sentence, level = _STARTS, "warn"
+    yield _found(
+        _CODES.get(place.verdict, "not-connected"),
+        level,
+        sentence.format(endpoint=place.endpoint),
+        mend=CONNECT if place.verdict not in {"foreign", "not_admitted"} else None,
+        line=_START if place.verdict == "no_router" else "",
+    )
+
+
+_CODES: Final[dict[Verdict, str]] = {
+    "no_router": "no-router",
+    "foreign": "no-zenoh",
+    "not_admitted": "not-admitted",
+    "bridge": "only-a-bridge",
+}
+_STARTS: Final = (
+    "No router runs at {endpoint} yet: the studio starts one when it connects, or start rmw_zenohd."
+)
+_CONNECTABLE: Final = (
+    "A router is at {endpoint}, and the studio is not connected with it: connect to see its nodes."
+)
+_SENTENCES: Final[dict[Verdict, tuple[str, Level]]] = {
+    "no_router": (
+        "No router answers at {endpoint}: start rmw_zenohd there, or choose another address.",
+        "error",
+    ),
+    "foreign": (
+        "What answers at {endpoint} is no router of Zenoh: another program holds the port. "
+        "End it, or give the router another one.",
+        "error",
+    ),
+    "not_admitted": (
+        "The router at {endpoint} lets nobody in without its name and password or certificate: "
+        "give them in ZENOH_CONFIG_OVERRIDE.",
+        "error",
+    ),
+    "bridge": (
+        "Only a bridge to DDS is at {endpoint}, which speaks other keys than rmw_zenoh: "
+        "start the nodes with RMW_IMPLEMENTATION=rmw_zenoh_cpp.",
+        "error",
+    ),
+    "fine": (_CONNECTABLE, "warn"),
+    "alone": (_CONNECTABLE, "warn"),
+    "other_domain": (_CONNECTABLE, "warn"),
+    "other_distro": (_CONNECTABLE, "warn"),
+    "unseen": (_CONNECTABLE, "warn"),
+}
+
+
+def _found(
+    code: str,
+    level: Level,
+    sentence: str,
+    *,
+    evidence: tuple[str, ...] = (),
+    mend: Mend | None = None,
+    line: str = "",
+) -> Finding:
+    return Finding(
+        code=code,
+        level=level,
+        subject=SUBJECT,
+        sentence=sentence,
+        evidence=evidence,
+        mend=mend,
+        line=line,
+        about=(CONNECTION,),
+    )

@@ -1,0 +1,73 @@
+"""Versions: of the studio, of the routers' Zenoh, and of rmw_zenoh by what its samples carry."""
+
+from __future__ import annotations
+
+import platform
+from typing import TYPE_CHECKING, Final
+
+import studio
+from studio.live.doctor.seen import Looked, listed, short
+from studio.protocol.doctor import Concern, Finding
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from studio.live.doctor.seen import Seen
+    from studio.protocol.doctor import SubjectName
+
+SUBJECT: Final[SubjectName] = "versions"
+
+
+def looked_at(seen: Seen) -> Looked:
+    """All versions that are known."""
+    known = [f"studio {studio.__version__}", f"Python {platform.python_version()}"]
+    if seen.answers:
+        known += [f"router's Zenoh {one}" for one in sorted(set(seen.answers.routers.values()))]
+        known += [f"nodes' Zenoh {one}" for one in sorted(set(seen.answers.sessions.values()))]
+    return Looked(len(known), ", ".join(known))
+
+
+def findings(seen: Seen) -> Iterator[Finding]:
+    """Find versions that do not go together."""
+    if seen.answers is not None:
+        yield from _of_zenoh(seen)
+    for one in seen.heard.topics.values() if seen.heard else ():
+        if one.not_understood:
+            yield Finding(
+                code="old-rmw",
+                level="error",
+                subject=SUBJECT,
+                sentence=(
+                    f"Samples on {short(one.topic)} ({one.not_understood} so far) have no "
+                    "attachment of rmw_zenoh as it is now: bring rmw_zenoh_cpp of their sender up "
+                    "to date (0.1.2 for Humble, 0.2.4 for Jazzy), for nobody else hears it either."
+                ),
+                about=(Concern(kind="topic", name=one.topic),),
+            )
+
+
+def _of_zenoh(seen: Seen) -> Iterator[Finding]:
+    routers = sorted(set(seen.answers.routers.values())) if seen.answers else []
+    sessions = sorted(set(seen.answers.sessions.values())) if seen.answers else []
+    majors = {one.partition(".")[0] for one in (*routers, *sessions)}
+    if len(majors) > 1:
+        yield Finding(
+            code="zenoh-versions",
+            level="error",
+            subject=SUBJECT,
+            sentence=(
+                f"Routers have Zenoh {listed(routers)} and nodes {listed(sessions)}, which do not "
+                "understand each other: use the rmw_zenoh of one distribution everywhere."
+            ),
+        )
+    elif len(set(routers)) > 1:
+        yield Finding(
+            code="router-versions",
+            level="note",
+            subject=SUBJECT,
+            sentence=f"The routers have different versions of Zenoh: {listed(routers)}.",
+            evidence=tuple(
+                f"{zid}: {version}"
+                for zid, version in list(seen.answers.routers.items() if seen.answers else ())[:8]
+            ),
+        )

@@ -1,0 +1,69 @@
+"""Clocks that differ, and two kinds of time."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from studio.ros.attachment import packed
+from studio.ros.messages import message
+from studio.ros.tokens import DataKey
+from studio.ros.wire.zenoh import declare_publisher
+from tests.support.patient import CLOCK, STRING, Patient, clock_at
+from tests.support.wire import wait_until
+
+pytestmark = pytest.mark.network
+
+
+@pytest.mark.parametrize(("code", "off_s"), [("clock-ahead", 5.0), ("clock-behind", -5.0)])
+def test_a_clock_that_differs_is_found_in_both_directions(
+    patient: Patient, code: str, off_s: float
+):
+    node = patient.node("elsewhere")
+    topic = f"/{code.replace('-', '_')}"
+    patient.publisher(STRING, topic, node=node)
+    wait_until("its publisher is there", lambda: bool(node.graph.publishers(topic)))
+    (end,) = node.graph.publishers(topic)
+    key = str(DataKey(0, topic, end.type_name, end.type_hash))
+    out = declare_publisher(node.wire.zenoh, key, blocking=False, reliable=True)
+    numbers = iter(range(1, 1_000_000))
+
+    def send() -> None:
+        sent_ns = time.time_ns() + int(off_s * 1e9)
+        out.put(b"\0\1\0\0\1\0\0\0\0", attachment=packed(next(numbers), sent_ns, end.gid))
+
+    found = patient.until(code, "/elsewhere", do=send)
+    out.undeclare()
+    assert found.level == "error"
+    assert "/elsewhere" in found.sentence
+
+
+def test_simulated_time_without_a_clock_is_an_error(patient: Patient):
+    patient.subscribe(CLOCK, "/clock")
+    found = patient.until("no-clock", "/robot")
+    assert found.line == "ros2 param set /robot use_sim_time false"
+
+
+def test_two_clocks_and_nodes_of_wall_time_are_warnings(patient: Patient):
+    one, other = patient.node("gazebo"), patient.node("bag")
+    for node in one, other:
+        patient.publisher(CLOCK, "/clock", node=node).publish(clock_at(5 * 10**9))
+    patient.publisher(STRING, "/by_wall_time")
+    assert "/bag, /gazebo" in patient.until("two-clocks").sentence
+    mixed = patient.until("time-mixed", "/robot")
+    assert "/gazebo" not in mixed.sentence
+    patient.subscribe(CLOCK, "/clock")
+    assert "time-mixed" not in patient.codes("/robot")
+
+
+def test_clocks_that_agree_are_well(patient: Patient):
+    out = patient.publisher(STRING, "/agreed")
+
+    def heard() -> int:
+        out.publish(message(STRING)())
+        seen = patient.seen().heard
+        return sum(one.samples for one in seen.offsets) if seen else 0
+
+    wait_until("some samples", lambda: heard() > 5)
+    assert not patient.codes("/robot") & {"clock-ahead", "clock-behind"}
