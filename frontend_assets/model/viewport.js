@@ -115,6 +115,7 @@ function askFor(frame) {
  * @property {(place: readonly [number, number, number] | null) => void} setGuide a mark at what somebody else points at
  * @property {(frame: string) => void} follow the camera goes with a frame, with it in the middle; empty: with none
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
+ * @property {(sight: {display: string, canvas: HTMLCanvasElement, told: (seen: boolean) => void}) => {renew: () => void, leave: () => void}} showCamera draw what a camera of the robot sees
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
  * @property {(colour: string) => void} setBackground empty: that of the theme
