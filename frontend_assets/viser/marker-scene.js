@@ -37,6 +37,8 @@ const NEAR = { Points: { threshold: 0.02 }, Line: { threshold: 0.02 }, Line2: { 
 export class MarkerScene {
   /** Whether all controls are seen; else only those that always are. */
   all = true;
+  /** The one marker whose controls are seen, while it is dragged; null: all. @type {string | null} */
+  only = null;
   /** By the name of their reference frame. @type {Map<string, Known>} */
   known = new Map();
   /** The control that lights up, and how much. @type {{ handle: Handle, strength: number } | null} */
@@ -274,10 +276,12 @@ export class MarkerScene {
     return after(reference.turn, about(turned(control.wxyz, [1, 0, 0]), rad));
   }
 
-  /** Hidden while another tool is chosen, unless it is always visible. @param {Known} known */
+  /** Hidden while another tool is chosen or another marker is dragged, unless it is always visible.
+   * @param {Known} known */
   #show({ root, marker }) {
+    const isActive = this.all && (this.only ?? root) === root;
     const hidden = new Set(
-      this.all ? [] : marker.controls.filter((one) => !one.always_visible).map((one) => one.number),
+      isActive ? [] : marker.controls.filter((one) => !one.always_visible).map((one) => one.number),
     );
     for (const [name, number] of this.#shapes.get(root) ?? []) {
       const node = this.#door.node(name);

@@ -64,6 +64,7 @@ export class Interact extends Tool {
 
   /** @param {Spot} spot */
   down(spot) {
+    for (const one of this.handles) one.values = this.values;
     this.#held = this.handles.find((one) => one.down(spot)) ?? null;
     if (this.#held) return true;
     if (!super.wants(spot)) return false;

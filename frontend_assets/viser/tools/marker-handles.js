@@ -193,6 +193,7 @@ export class MarkerHandles extends Tool {
     this.#press = { spot, handle, drag, moved: false, menu, timer, start, startRad };
     this.#lightUp();
     if (menu) return;
+    if (this.values["Hide Inactive Objects"] !== false) this.#scene.only = known.root;
     if (drag) this.#scene.keep(known, start, control, startRad);
     setCursor(drag ? "grabbing" : "pointer");
     this.#say("press");
@@ -232,6 +233,7 @@ export class MarkerHandles extends Tool {
   #drop() {
     clearTimeout(this.#press?.timer);
     this.#press = null;
+    this.#scene.only = null;
     this.#point(null);
     setCursor("");
     this.#door.redraw();
