@@ -76,8 +76,9 @@ function startDock(element) {
   if (new URLSearchParams(location.search).has("fullscreen")) beginAlone(dock);
 }
 
-/** The 3D view alone, as `studio open --fullscreen` asks. @param {ReturnType<typeof createDock>} dock */
+/** The 3D view alone, once, as `studio open --fullscreen` asks. @param {ReturnType<typeof createDock>} dock */
 function beginAlone(dock) {
+  window.history.replaceState(null, "", location.pathname + location.hash);
   dock.show("scene");
   const alone = commandById("fullscreen");
   if (alone) alone.run();
