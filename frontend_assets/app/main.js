@@ -25,15 +25,7 @@ import {
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
 import { addTools } from "../model/tools.js";
-import {
-  activePanel,
-  dialog,
-  fullView,
-  isFree,
-  languageChoice,
-  size,
-  theme,
-} from "../model/view.js";
+import { activePanel, dialog, fullView, isFree, languageChoice, theme } from "../model/view.js";
 import { addViewCommands } from "../model/views.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
