@@ -25,7 +25,7 @@ import {
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
 import { addTools } from "../model/tools.js";
-import { activePanel, dialog, isFree, languageChoice, size, theme } from "../model/view.js";
+import { activePanel, dialog, fullView, isFree, languageChoice, theme } from "../model/view.js";
 import { addViewCommands } from "../model/views.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
@@ -73,15 +73,8 @@ function startDock(element) {
   });
   arrangement = followSize(dock, element, PANELS);
   addLayoutCommands(dock, element);
-  if (new URLSearchParams(location.search).has("fullscreen")) beginAlone(dock);
-}
-
-/** The 3D view alone, as `studio open --fullscreen` asks. @param {ReturnType<typeof createDock>} dock */
-function beginAlone(dock) {
-  dock.show("scene");
-  const alone = commandById("fullscreen");
-  if (alone) alone.run();
-  else if (size.peek() !== "phone") dock.toggleMaximized();
+  // `--fullscreen` is said in the address, and once.
+  if (fullView.peek()) window.history.replaceState(null, "", location.pathname + location.hash);
 }
 
 function addPageCommands() {

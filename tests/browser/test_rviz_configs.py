@@ -57,6 +57,7 @@ def test_a_config_file_is_opened_changed_saved_and_undone(
     page.get_by_role("treeitem", name="Background Color").get_by_role("button").click()
     wait_until("the theme's own", lambda: page.evaluate(BEHIND) == theme)
     open_another_and_go_back(page)
+    begin_with_the_view_alone(page)
     assert tab.errors == []
 
 
@@ -112,3 +113,11 @@ def open_another_and_go_back(page: Page) -> None:
     report = page.get_by_role("dialog", name="rover.rviz is open")
     report.get_by_role("button", name="Back to the view before").click()
     page.get_by_role("treeitem", name="Planning").first.wait_for()
+
+
+def begin_with_the_view_alone(page: Page) -> None:
+    """As the address says that `--fullscreen` opens; it is said once."""
+    page.evaluate("location.assign('/?fullscreen=1')")
+    page.get_by_role("button", name="Leave full screen").click()
+    page.locator(".top-bar").wait_for()
+    assert "fullscreen" not in page.url
