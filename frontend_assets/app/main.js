@@ -25,7 +25,15 @@ import {
 import { mayMove } from "../model/ros.js";
 import { selected } from "../model/selection.js";
 import { addTools } from "../model/tools.js";
-import { activePanel, dialog, isFree, languageChoice, size, theme } from "../model/view.js";
+import {
+  activePanel,
+  dialog,
+  fullView,
+  isFree,
+  languageChoice,
+  size,
+  theme,
+} from "../model/view.js";
 import { addViewCommands } from "../model/views.js";
 import { connect } from "../model/wire.js";
 import { followMissing } from "./dialogs.js";
@@ -139,7 +147,8 @@ function addPageCommands() {
       id: "deselect",
       icon: "close",
       keys: ["Escape"],
-      enabled: () => selected.value !== null && isFree(),
+      // The key leaves the full screen first, as in RViz.
+      enabled: () => selected.value !== null && isFree() && !fullView.value,
       run: clearSelection,
     },
     { id: "keys", icon: "keyboard", keys: ["?"], run: () => show({ kind: "keys" }) },
