@@ -132,7 +132,8 @@ function addPageCommands() {
       id: "deselect",
       icon: "close",
       keys: ["Escape"],
-      enabled: () => selected.value !== null && isFree(),
+      // The key leaves the full screen first, as in RViz.
+      enabled: () => selected.value !== null && isFree() && !fullView.value,
       run: clearSelection,
     },
     { id: "keys", icon: "keyboard", keys: ["?"], run: () => show({ kind: "keys" }) },

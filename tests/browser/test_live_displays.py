@@ -162,6 +162,7 @@ def drag_to_the_top(tab: StudioPage, name: str) -> None:
     """Drag a row by the mouse, as slowly as a hand does, above the first display."""
     mouse, first = tab.page.mouse, tab.page.locator("[id^='row-display:']").first
     first.scroll_into_view_if_needed()
+    row(tab, name).scroll_into_view_if_needed()  # right below it, perhaps out of sight
     grip, goal = row(tab, name).bounding_box(), first.bounding_box()
     assert grip is not None
     assert goal is not None

@@ -65,6 +65,7 @@ def received(tab: StudioPage) -> int:
     return int((text or "").split(", ")[1].split()[0].replace(",", ""))
 
 
+@pytest.mark.sweep
 def test_time_follows_the_clock_stands_in_a_pause_and_begins_anew_with_a_reset(
     browser: Browser, tmp_path: Path
 ):

@@ -79,9 +79,21 @@ export function DisplaysPanel() {
   </section>`;
 }
 
+/** After a click: what comes and goes below the tree must not move it between press and release. */
+const HELP_AFTER_MS = 200;
+const NO_HELP = { title: "", text: "" };
+
 /** What the current row is, as RViz says it below its tree. @param {{row: Row | undefined}} props */
 function RowHelp({ row }) {
-  const { title, text } = row?.help ?? { title: "", text: "" };
+  const said = useSignal(NO_HELP);
+  const help = row?.help ?? NO_HELP;
+  useEffect(() => {
+    const later = setTimeout(() => {
+      said.value = help;
+    }, HELP_AFTER_MS);
+    return () => clearTimeout(later);
+  }, [row?.id, help.text]);
+  const { title, text } = said.value;
   if (text === "") return null;
   return html`<aside class="row-help" aria-live="polite" aria-label=${t("displays.help")}><strong>${title}</strong><p>${text}</p></aside>`;
 }
