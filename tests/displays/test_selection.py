@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Shape
 
 STAMP: Final = {"sec": 12, "nanosec": 500}
+GHOSTS: Final = {"DisplayTrajectory", "JointTrajectory"}
+"""They draw a robot that is given to them, and is not where it is drawn yet."""
 
 
 def display_of(sample: Sample) -> Display:
@@ -32,7 +34,7 @@ def display_of(sample: Sample) -> Display:
         buffer = TransformBuffer(clock=HandClock())
         for parent, child, xyz, wxyz in FRAMES:
             buffer.put(columns(Told(parent, child, S, xyz, wxyz)), static=True)
-        display.show(buffer.all_in("odom"))
+        display.see(buffer.all_in("odom"))
         return display
     roles = {role.topic(sample.topic): role.name for role in display.roles()}
     for topic, (type_name, fields) in sample.messages().items():
@@ -89,7 +91,11 @@ def sample(name: str) -> Sample:
     return next(one for one in SAMPLES if one.name == name)
 
 
-HEADED: Final = [one for one in SAMPLES if display_of_kind(one.kind).item is not Display.item]
+HEADED: Final = [
+    one
+    for one in SAMPLES
+    if display_of_kind(one.kind).item is not Display.item and one.kind not in GHOSTS
+]
 """Of displays that say what their shapes are; others are selected group by group."""
 
 
