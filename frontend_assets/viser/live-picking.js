@@ -23,6 +23,8 @@ import { pixelsToLine } from "./screen.js";
 
 /** Rows looked at, until somebody else has a turn. */
 const AT_ONCE = 16_384;
+/** Of points that lie beside each other, as far away but for this share, the nearest to the mouse is meant. */
+const AS_NEAR = 0.02;
 /** What is thinner is met as if it were so wide to either side. */
 const LEAST_PX = 3;
 /** The numbers of half precision by their bits. @type {Float32Array | null} */
@@ -89,13 +91,17 @@ export function pointAt(lens, props, rows, spot, reach_px) {
   const read = reading(points);
   /** @type {Met | null} */
   let best = null;
+  let best_px = 0;
   for (let at = 0; at < points.length; at += 3) {
     if (!lens.at(read(at), read(at + 1), read(at + 2))) continue;
     const radius_px = Math.max(px > 0 ? px / 2 : radius_m * lens.perMetre, LEAST_PX);
-    const away_px = Math.hypot(lens.x - spot.x, lens.y - spot.y) - radius_px;
+    const middle_px = Math.hypot(lens.x - spot.x, lens.y - spot.y);
+    const away_px = middle_px - radius_px;
     if (away_px > reach_px) continue;
     const met = { row: at / 3, depth_m: lens.depth_m, miss_px: Math.max(away_px, 0), place: null };
-    if (isBetter(met, best)) best = met;
+    const isAsNear = best !== null && Math.abs(best.depth_m / met.depth_m - 1) < AS_NEAR;
+    if (isAsNear ? middle_px >= best_px : !isBetter(met, best)) continue;
+    [best, best_px] = [met, middle_px];
   }
   if (best && rows) best.row = /** @type {number} */ (rows[best.row]);
   return best;

@@ -26,7 +26,8 @@ _FULL: Final = 65535
 def surface_of(shape: Triangles, stream: str) -> dict[str, Node]:
     """Return a node, or None without triangles; those without all their corners are skipped."""
     vertices = np.ascontiguousarray(shape.vertices, np.float32)
-    faces = np.ascontiguousarray(shape.faces, np.uint32)[drawn_faces(shape)]
+    faces, drawn = np.ascontiguousarray(shape.faces, np.uint32), drawn_faces(shape)
+    faces = faces if len(drawn) == len(faces) else faces[drawn]
     if len(faces) == 0:
         return {}
     if shape.colors.ndim == 1:
@@ -44,8 +45,11 @@ def surface_of(shape: Triangles, stream: str) -> dict[str, Node]:
 
 def drawn_faces(shape: Triangles) -> NDArray[np.intp]:
     """Return the rows of the triangles that have all their corners, ascending."""
-    known = np.flatnonzero((shape.faces < len(shape.vertices)).all(axis=1))
-    somewhere: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(shape.vertices), axis=1)
+    finite = np.isfinite(shape.vertices)
+    if len(shape.faces) and int(shape.faces.max()) < len(finite) and finite.all():
+        return np.arange(len(shape.faces))
+    known = np.flatnonzero((shape.faces < len(finite)).all(axis=1))
+    somewhere: NDArray[np.bool_] = np.logical_and.reduce(finite, axis=1)
     return known[somewhere[shape.faces[known]].all(axis=1)]
 
 

@@ -246,7 +246,7 @@ def select_in_a_rectangle(view: Selecting) -> None:
     view.item("PointCloud2").get_by_role("button").first.click()
     expect(points.first).to_be_visible()
     view.panel.get_by_role("button", name="Focus the camera on the selection").click()
-    wait_until("the camera is near", lambda: view.eye()[1] < 4)
+    wait_until("the camera shows all of the map", lambda: view.eye()[1] > 7)
     view.look_down()
     cube = view.place("cubes", "g0", -1.0, 0.0, 0.6)
     view.click(cube)

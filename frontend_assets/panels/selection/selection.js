@@ -147,7 +147,7 @@ function Item({ row: { id, item } }) {
   return html`<div class=${`selection-item ${gone ? "gone" : ""}`} role="treeitem" aria-level="2" aria-expanded=${open} aria-label=${name}>
     <div class="selection-row">
       <button type="button" class="entry-main selection-button" data-id=${id} aria-expanded=${open} onClick=${() => openItem(id, !open)}>
-        <${Icon} name=${open ? "chevronDown" : "chevronRight"} size=${13} /><span class="selection-name">${name}</span>
+        <${Icon} name=${open ? "chevronDown" : "chevronRight"} size=${13} /><span class="selection-name" title=${name}>${name}</span>
         ${gone ? html`<span class="selection-gone">${t("selection.gone")}</span>` : view?.place && html`<span class="selection-place"><${Numbers} values=${view.place} /></span>`}
       </button>
       <${RemoveButton} name=${name} refs=${[item.ref]} />
