@@ -108,6 +108,7 @@ export class CameraPictures {
   #read(message) {
     const { type, name } = message;
     this.#changed_ms = performance.now();
+    for (const sight of this.#sights.keys()) this.#sights.set(sight, true);
     if (!name?.startsWith(ROOT)) return;
     if (type === "RemoveSceneNodeMessage") this.#forget(name);
     const values = message.props ?? message.updates;
@@ -158,7 +159,9 @@ export class CameraPictures {
     if (waiting.length === 0) return;
     const left_ms = this.#drawn_ms + EVERY_MS - now_ms;
     if (left_ms > 0) {
-      this.#later ??= setTimeout(() => this.#drawLater(waiting), left_ms);
+      // What only settles is drawn with a picture of the scene that comes by itself, or not at all.
+      if ([...this.#sights.values()].includes(true))
+        this.#later ??= setTimeout(() => this.#drawLater(), left_ms);
       return;
     }
     this.#drawn_ms = now_ms;
@@ -168,10 +171,8 @@ export class CameraPictures {
     }
   }
 
-  /** @param {readonly Sight[]} waiting */
-  #drawLater(waiting) {
+  #drawLater() {
     this.#later = undefined;
-    for (const sight of waiting) if (this.#sights.has(sight)) this.#sights.set(sight, true);
     this.#door.redraw();
   }
 
