@@ -232,7 +232,7 @@ function Offers({ offers, by, chosen, label, onPoint, onAdd }) {
   }, [chosen]);
   return html`<div class="add-display-list scroll" role="listbox" tabindex="0" aria-label=${label} ref=${list}>
     <${LongList} items=${offers} keyOf=${(/** @type {Offer} */ { key }) =>
-      key} row="36px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
+      key} row="40px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
       draw=${(
         /** @type {Offer} */ offer,
         /** @type {number} */ n,

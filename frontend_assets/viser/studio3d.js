@@ -209,22 +209,19 @@ class Studio3d {
     return this.#camera.turn;
   }
 
-  /** Whether something is under the mouse. */
+  /** Whether the mouse is over the picture. */
   isPointing() {
-    return this.#pointedAnything() !== null;
+    return this.#hands.over !== null;
   }
 
-  /** Turn to what is under the mouse. */
+  /** Turn to what is under the mouse; whether anything is. */
   lookAtPointed() {
-    const point = this.#pointedAnything();
-    if (point) this.#camera.lookAt(point);
-  }
-
-  #pointedAnything() {
     const over = this.#hands.over;
     const found = over && this.#surfaces.at(over.x, over.y);
     // A line of the floor is nothing to look at.
-    return found && (found.link ?? found.display) !== null ? found.point : null;
+    const point = found && (found.link ?? found.display) !== null ? found.point : null;
+    if (point) this.#camera.lookAt(point);
+    return point !== null;
   }
 
   /** Whether this browser draws lightly, by software, and with what. */

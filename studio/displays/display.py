@@ -245,13 +245,12 @@ class Display(ABC):
         """Return the keys of the items that were pointed at in the last drawing, each once.
 
         None of a display whose shapes stand for nothing that can be selected, as the lines of a
-        grid.
+        grid. A display that has no `item` of its own is selected group by group, by their paths.
         """
-        del picked
-        return ()
+        return (picked.path,)
 
     def item(self, key: str) -> Item | None:
-        """Return an item as it is now; None when it is gone. Keys may be any text."""
+        """Return an item as it is now; None when it is gone, or a group. Keys may be any text."""
         del key
         return None
 

@@ -46,12 +46,6 @@ PANELS_WINDOW = (1060, 940)
 DIALOGS_WINDOW = (720, 640)
 CLASS_WINDOW = (800, 760)
 _CLASS_ADDRESS = "http://robots.example:8765/"
-_SAVE_VIEW = """async ([how, name, pitch]) => {
-  const script = document.querySelector('script[type="module"]').src;
-  const views = await import(new URL("../model/views.js", script));
-  if (how === "sharedCount") return views.sharedViews.value.length;
-  await views[how]({ kind: "Orbit", name, values: { Distance: 1.2, Pitch: pitch } });
-}"""
 _NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
 OF_CLASSES = ("people", "class", "own_nodes")
 """The panel and the windows about a class, of which the demo has none."""
@@ -145,7 +139,7 @@ _HAS_MARKERS = """() => {
   return Object.keys(nodes).filter(isPart).length > 20;
 }"""
 _LOOK = "(pose) => document.querySelector('iframe').contentWindow.studio3d.setCamera(pose, false)"
-_AT_MARKER = {"position": [-2.6, -0.9, 1.7], "target": [-1.5, 1.5, 0.1]}
+_AT_MARKER = {"position": [-2.6, 0.3, 1.5], "target": [-1.4, 1.5, 0.4]}
 
 
 def path_of(page: str, theme: Theme) -> Path:
@@ -194,10 +188,6 @@ def wanted(name: str) -> bool:
 
 def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
-    if wanted("views"):
-        camera.page.evaluate(_SAVE_VIEW, ["saveOwn", "From above", 1.4])
-        if camera.page.evaluate(_SAVE_VIEW, ["sharedCount", "", 0.0]) == 0:
-            camera.page.evaluate(_SAVE_VIEW, ["saveShared", "Gripper", 0.2])
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in GROUP_OF:
         if wanted(panel) and panel not in NOT_OF_THE_DEMO:
@@ -313,6 +303,16 @@ def select_some(page: Page) -> None:
     page.locator(".selection-facts").first.wait_for()
 
 
+def show_tool(page: Page) -> None:
+    """What is set of one."""
+    tool = page.get_by_role("region", name="2D Goal Pose", exact=True)
+    fold = tool.get_by_role("button", name="2D Goal Pose", exact=True)
+    if fold.get_attribute("aria-expanded") == "false":
+        fold.click()
+    tool.get_by_role("button", name="Topic", exact=True).click()
+    tool.evaluate("one => one.scrollIntoView()")
+
+
 def show_camera(page: Page) -> None:
     """What the rover's camera sees; of the picture in the other theme the display is there."""
     page.evaluate(_ADD_CAMERA)
@@ -326,6 +326,7 @@ READY: dict[str, Callable[[Page], None]] = {
     "interfaces": show_type,
     "lessons": show_lesson,
     "selection": select_some,
+    "tools": show_tool,
 }
 """What a panel has to show before its picture is taken."""
 
