@@ -108,6 +108,7 @@ export class CameraPictures {
   #read(message) {
     const { type, name } = message;
     this.#changed_ms = performance.now();
+    for (const sight of this.#sights.keys()) this.#sights.set(sight, true);
     if (!name?.startsWith(ROOT)) return;
     if (type === "RemoveSceneNodeMessage") this.#forget(name);
     const values = message.props ?? message.updates;
@@ -158,7 +159,9 @@ export class CameraPictures {
     if (waiting.length === 0) return;
     const left_ms = this.#drawn_ms + EVERY_MS - now_ms;
     if (left_ms > 0) {
-      this.#later ??= setTimeout(() => this.#drawLater(waiting), left_ms);
+      // What only settles is drawn with a picture of the scene that comes by itself, or not at all.
+      if ([...this.#sights.values()].includes(true))
+        this.#later ??= setTimeout(() => this.#drawLater(), left_ms);
       return;
     }
     this.#drawn_ms = now_ms;
@@ -168,10 +171,8 @@ export class CameraPictures {
     }
   }
 
-  /** @param {readonly Sight[]} waiting */
-  #drawLater(waiting) {
+  #drawLater() {
     this.#later = undefined;
-    for (const sight of waiting) if (this.#sights.has(sight)) this.#sights.set(sight, true);
     this.#door.redraw();
   }
 
@@ -220,7 +221,7 @@ export class CameraPictures {
     const [width, height] = [Math.floor(canvas.width * share), Math.floor(canvas.height * share)];
     const camera = /** @type {Camera} */ (eye.clone(false));
     aim(camera, view, frame);
-    project(camera, view, picture, canvas);
+    project(camera, view, picture, canvas, renderer.capabilities.reversedDepthBuffer);
     const restore = this.#prepare(view, (camera.projectionMatrix.elements[5] ?? 1) * height, whole, eye);
     const { onBeforeRender, onAfterRender } = scene;
     const before = { x: 0, y: 0, z: 0, w: 0 };
@@ -305,17 +306,27 @@ function aim(camera, view, frame) {
 }
 
 /**
- * @param {Camera} camera its projection is replaced, but for the depths, which viser has reversed
- * @param {CameraView} view @param {Size} picture @param {Size} canvas
+ * @param {Camera} camera its projection is replaced, and stays: three.js would work out its own as
+ *   soon as it notices that depths are reversed
+ * @param {CameraView} view @param {Size} picture @param {Size} canvas @param {boolean} isReversed near is 1 and far is 0
  */
-function project(camera, view, picture, canvas) {
-  camera.near = view.near_m;
-  camera.far = Math.min(view.far_m, FAREST_M);
-  camera.updateProjectionMatrix();
+function project(camera, view, picture, canvas, isReversed) {
   const [x, y, left, up] = projectionOf(view, picture, canvas);
+  const [scale, shift] = depthsOf(view.near_m, Math.min(view.far_m, FAREST_M), isReversed);
   const { elements } = camera.projectionMatrix;
-  Object.assign(elements, { 0: x, 5: y, 8: left, 9: up });
+  elements.fill(0);
+  Object.assign(elements, { 0: x, 5: y, 8: left, 9: up, 10: scale, 11: -1, 14: shift });
   camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
+  camera.updateProjectionMatrix = nothing;
+}
+
+/**
+ * The two numbers of a projection that make depths of distances, elements 10 and 14.
+ * @param {number} near @param {number} far m @param {boolean} isReversed @returns {[number, number]}
+ */
+export function depthsOf(near, far, isReversed) {
+  const span = far - near;
+  return isReversed ? [near / span, (far * near) / span] : [-(far + near) / span, (-2 * far * near) / span];
 }
 
 /**

@@ -185,6 +185,7 @@ export interface Renderer {
   getViewport(into: { copy(of: { x: number; y: number; z: number; w: number }): unknown }): unknown;
   setViewport(x: number, y: number, width: number, height: number): void;
   shadowMap: { autoUpdate: boolean };
+  capabilities: { reversedDepthBuffer: boolean };
   render(scene: Scene, camera: Camera): void;
 }
 

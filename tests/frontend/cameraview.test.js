@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { sizeFor } from "../../frontend_assets/panels/cameraview/cameraview.js";
 import {
   CameraPictures,
+  depthsOf,
   placeOfPicture,
   projectionOf,
 } from "../../frontend_assets/viser/camera-pictures.js";
@@ -60,6 +61,18 @@ for (const [name, canvas] of Object.entries({
           assert.ok(Math.abs((ours[axis] ?? 0) - (theirs[axis] ?? 0)) < 1e-9, `${ours} ${theirs}`);
       }
     });
+
+test("depths go from near to far, or the other way round where they are reversed", () => {
+  /** @param {number} distance @param {boolean} isReversed */
+  const depth = (distance, isReversed) => {
+    const [scale, shift] = depthsOf(0.5, 100, isReversed);
+    return (scale * -distance + shift) / distance;
+  };
+  assert.ok(Math.abs(depth(0.5, true) - 1) < 1e-9);
+  assert.ok(Math.abs(depth(100, true)) < 1e-9);
+  assert.ok(Math.abs(depth(0.5, false) + 1) < 1e-9);
+  assert.ok(Math.abs(depth(100, false) - 1) < 1e-9);
+});
 
 test("pixels that are square in front of the lens are square on the canvas", () => {
   const at = placeOfPicture(viewWith({}), PICTURE, { width: 1000, height: 300 });
