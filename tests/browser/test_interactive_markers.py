@@ -36,7 +36,9 @@ ADD = """async () => {
   const { addDisplay, setFixedFrame } = await import(at("../model/live-displays.js"));
   await setFixedFrame("base_link");
   await addDisplay("InteractiveMarkers", "/basic_controls/update");
-  (await import(at("../lib/commands.js"))).commandById("maximize").run();
+  const { commandById } = await import(at("../lib/commands.js"));
+  commandById("panel.scene").run();
+  commandById("maximize").run();
 }"""
 IN_VIEW = """(script) => {
   const view = document.querySelector("iframe").contentWindow;
@@ -73,12 +75,14 @@ class View:
     def show(self) -> None:
         """Wait for the markers."""
         nodes = lambda: self.page.evaluate(IN_VIEW, NODES)  # noqa: E731
-        wait_until("the markers to be drawn", lambda: nodes() > 30)
+        wait_until("the markers to be drawn", lambda: nodes() > 20)
 
     def look(self, x: float, y: float) -> None:
         """Look at a marker on the floor from before it and above."""
         self.page.evaluate(LOOK, {"position": [x - 0.8, y - 2.2, 1.9], "target": [x, y, 0.0]})
-        self.tab.stand_still()
+        box = self.page.locator("iframe").bounding_box() or {"x": 0, "width": 0}
+        middle = box["x"] + box["width"] / 2  # the picture never stands still: a frame moves
+        wait_until("the camera to be there", lambda: abs(self.at(x, y, 0.0)[0] - middle) < 2)
 
     def at(self, *point: float) -> tuple[float, float]:
         """Where a point of the fixed frame is on the page."""
