@@ -126,7 +126,7 @@ function LevelChip({ level, count, filter }) {
     filter.value = { ...filter.value, hidden: now };
   };
   const label = `${t(`doctor.level.${level}`)}: ${count}`;
-  return html`<button type="button" class=${`chip doctor-chip ${level}`} aria-pressed=${!hidden.has(level)} aria-label=${label}
+  return html`<button type="button" class=${`chip doctor-chip is-${level}`} aria-pressed=${!hidden.has(level)} aria-label=${label}
     title=${t("doctor.hide", { level: t(`doctor.level.${level}`) })} onClick=${toggle}><${Icon} name=${ICONS[level]} size=${13} />${count}</button>`;
 }
 
@@ -151,7 +151,7 @@ function Verdict({ answer, shown }) {
 /** @param {{level: Level, findings: readonly Finding[]}} props */
 function OfLevel({ level, findings }) {
   if (findings.length === 0) return null;
-  return html`<section class=${`doctor-level ${level}`} aria-label=${t(`doctor.level.${level}`)}>
+  return html`<section class=${`doctor-level is-${level}`} aria-label=${t(`doctor.level.${level}`)}>
     <h3><${Icon} name=${ICONS[level]} size=${14} />${t(`doctor.level.${level}`)}<span class="muted numbers">${findings.length}</span></h3>
     ${keyed(findings).map(([key, finding]) => html`<${Card} key=${key} finding=${finding} />`)}</section>`;
 }
@@ -159,7 +159,7 @@ function OfLevel({ level, findings }) {
 /** @param {{finding: Finding}} props */
 function Card({ finding }) {
   const { code, level, sentence, talk } = finding;
-  return html`<article class=${`doctor-card ${level}`} data-code=${code}>
+  return html`<article class=${`doctor-card is-${level}`} data-code=${code}>
     <h4><${Icon} name=${ICONS[level]} size=${15} /><span>${t(`doctor.code.${code}`)}</span><span class="doctor-subject">${t(`doctor.subject.${finding.subject}`)}</span></h4>
     <p>${sentence}</p>
     ${talk && html`<${Drawing} talk=${talk} />`}

@@ -151,7 +151,7 @@ def test_a_member_with_own_nodes_is_told_of_their_system_alone(endpoint: str):
                 with open_test_session(endpoint, domain=23) as wire:
                     shown = show_hostile_graph(wire, 1)
                     assert await asyncio.to_thread(
-                        own.graph.wait_for, lambda: own.graph.token_count > 2, 30.0
+                        own.graph.wait_for, lambda: bool(own.graph.publishers("/t0")), 30.0
                     )
                     mine = await made.examine(ExamineSystem(document="copy"), ME)
                     theirs = await made.examine(ExamineSystem(), ME)
