@@ -17,6 +17,11 @@ XACRO_MEMORY_BYTES = 1 << 30
 SHARED_MEMORY_BYTES = 256 << 20
 """Of each evaluator that the copies of a class share."""
 ROBOT_MEMORY_BYTES = 4 << 30
+PLUGIN_MEMORY_BYTES = 2 << 30
+"""Of the process of one display of the user's own."""
+PLUGIN_LOAD_S = 10.0
+PLUGIN_STEP_S = 1.0
+"""Time that such a display has to take in messages and to draw."""
 EXPANSION_TIMEOUT_S = 2.8
 """The parent's time for a run of short files; the evaluator's own of 2 s ends sooner."""
 MESH_TIMEOUT_S = 60.0
@@ -75,6 +80,8 @@ class Settings:
     package_paths: tuple[Path, ...] = ()
     lesson_folders: tuple[Path, ...] = ()
     """Each a lesson, or with a lesson in each folder of it."""
+    display_folders: tuple[Path, ...] = ()
+    """Each Python file in one is a display of the owner's own, which is run."""
     trusted: bool = False
     open_browser: bool = True
     wire: WireChoice = WireChoice()

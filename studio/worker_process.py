@@ -61,14 +61,20 @@ class Codec:
         return self._decoders[bytes(body[1:end])].decode(memoryview(body)[end:])
 
 
-def serve(codec: Codec, handle: Callable[[Any], object], memory_limit_bytes: int) -> None:
+def serve(
+    codec: Codec,
+    handle: Callable[[Any], object],
+    memory_limit_bytes: int,
+    answers_fd: int | None = None,
+) -> None:
     """Answer requests from stdin until it closes: all that a worker does.
 
     What libraries print goes to stderr; only answers go to the pipe. An error that `handle` does
-    not turn into an answer ends the process, and the parent reports it.
+    not turn into an answer ends the process, and the parent reports it. `answers_fd` is the pipe,
+    if it is not stdout any more.
     """
     ignore_interrupt()
-    requests, answers = _take_over_pipes()
+    requests, answers = _take_over_pipes(answers_fd)
     limit_memory(memory_limit_bytes)
     gc.set_threshold(_OBJECTS_WITHIN_REQUEST)
     try:
@@ -88,8 +94,10 @@ def _clean_up() -> None:
         gc.collect()
 
 
-def _take_over_pipes() -> tuple[BinaryIO, BinaryIO]:
+def _take_over_pipes(answers_fd: int | None) -> tuple[BinaryIO, BinaryIO]:
     """Keep the real stdout for answers, and point fd 1 at stderr for everyone else."""
+    if answers_fd is not None:
+        return sys.stdin.buffer, os.fdopen(answers_fd, "wb")
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     return sys.stdin.buffer, answers

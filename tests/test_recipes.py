@@ -39,7 +39,6 @@ FILES_MAX = {"panel": 9, "display": 4, "command": 2, "CLI verb": 2, "check of ro
 NAMES_OF_A_LIST = 3
 """Of panels: one or two words in a file may be other things, or panels that a button opens."""
 DISPLAYS_NAMED = {
-    ("studio/live/displays/drawing_room.py", "TfDisplay"): "one buffer serves all of them",
     ("studio/live/displays/marker_servers.py", "InteractiveMarkersDisplay"): "a client feeds it",
     ("studio/live/displays/robot_models.py", "RobotModelDisplay"): "its meshes are read there",
 }

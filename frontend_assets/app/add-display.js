@@ -10,13 +10,13 @@ import { remembered } from "../lib/remembered.js";
 import { Dialog, Icon, SearchBox } from "../lib/ui.js";
 import { askedWhenChanged, useTold } from "../model/asking.js";
 import { mayEdit, mayManage } from "../model/connection.js";
-import { addDisplay, kinds, needKinds, topicsNow } from "../model/live-displays.js";
+import { addDisplay, kinds, needKinds, pluginFaults, topicsNow } from "../model/live-displays.js";
 import { ask } from "../model/requests.js";
 import { connectRos, ros } from "../model/ros.js";
 import { ageWords, flowWords, useTopicRates } from "../model/topics.js";
 
 /** @typedef {"topic" | "kind"} By */
-/** @typedef {{key: string, icon: string, kind: string, topic: string, types: string, doc: string, publishers: number, off: string}} Offer `off`: why it cannot be added */
+/** @typedef {{key: string, icon: string, kind: string, topic: string, types: string, doc: string, publishers: number, off: string, file: string}} Offer `off`: why it cannot be added; `file`: of the owner's own display */
 
 const TABS = /** @type {const} */ (["topic", "kind"]);
 /** The demo that publishes what displays show. */
@@ -107,18 +107,39 @@ function topicOffers({ name, types, publishers, kinds: fitting }) {
     doc: kinds.value.get(kind)?.doc ?? "",
     publishers,
     off,
+    file: kinds.value.get(kind)?.plugin ?? "",
   }));
 }
 
-/** @param {string} words @returns {Offer[]} */
+/** @param {string} kind @returns {string} without what the owner's own have before their names */
+const kindName = (kind) => kind.slice(kind.lastIndexOf("/") + 1);
+
+/** @param {string} words @returns {Offer[]} those of the owner's own that are switched off come last */
 function kindOffers(words) {
-  return [...kinds.value.values()]
-    .filter(({ kind, doc, types }) => includesAll([kind, doc, ...types].join(" "), words))
-    .map(kindOffer);
+  const known = [...kinds.value.values()].map(kindOffer);
+  const broken = Object.entries(pluginFaults.value).filter(
+    ([file]) => !known.some((one) => one.file === file),
+  );
+  return [...known, ...broken.map(brokenOffer)].filter(({ kind, doc, types, file }) =>
+    includesAll([kind, doc, types, file].join(" "), words),
+  );
 }
 
+/** @param {readonly [string, string]} fault @returns {Offer} */
+const brokenOffer = ([file, fault]) => ({
+  key: `off ${file}`,
+  icon: "alert",
+  kind: "",
+  topic: "",
+  types: "",
+  doc: fault,
+  publishers: 0,
+  off: `${t("live.add.plugin_off")} ${fault}`,
+  file,
+});
+
 /** @param {DisplayKindView} kind @returns {Offer} */
-const kindOffer = ({ kind, doc, icon, types }) => ({
+const kindOffer = ({ kind, doc, icon, types, plugin }) => ({
   key: kind,
   icon,
   kind,
@@ -127,6 +148,7 @@ const kindOffer = ({ kind, doc, icon, types }) => ({
   doc,
   publishers: 0,
   off: "",
+  file: plugin,
 });
 
 /** @param {Offer | undefined} offer @returns {string} what the chosen one draws, or why it cannot be added */
@@ -134,7 +156,7 @@ function descriptionOf(offer) {
   if (!offer) return "";
   const { kind, doc, off, topic, publishers } = offer;
   const who = topic ? t("live.publishers", { count: publishers }) : "";
-  return [off, kind && `${kind}: ${doc}`, who].filter(Boolean).join(" · ");
+  return [off, kind && `${kindName(kind)}: ${doc}`, who].filter(Boolean).join(" · ");
 }
 
 /** @param {{by: By}} props the names of the columns; each row says them to screen readers by itself */
@@ -210,7 +232,7 @@ function Offers({ offers, by, chosen, label, onPoint, onAdd }) {
   }, [chosen]);
   return html`<div class="add-display-list scroll" role="listbox" tabindex="0" aria-label=${label} ref=${list}>
     <${LongList} items=${offers} keyOf=${(/** @type {Offer} */ { key }) =>
-      key} row="36px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
+      key} row="40px" isKept=${(/** @type {Offer} */ offer) => offer === offers[chosen]}
       draw=${(
         /** @type {Offer} */ offer,
         /** @type {number} */ n,
@@ -233,14 +255,15 @@ function topicsInView(list) {
 
 /** @param {{offer: Offer, by: By, chosen: boolean, rate: TopicRate | undefined, onPoint: () => void, onAdd: () => void}} props */
 function OfferRow({ offer, by, chosen, rate, onPoint, onAdd }) {
-  const { icon, kind, topic, types, doc, off } = offer;
+  const { icon, kind, topic, types, doc, off, file } = offer;
+  const name = html`<span>${kindName(kind) || file}${file && html` <span class="offer-mark" title=${t("live.add.plugin", { file })}>${t("live.add.own")}</span>`}</span>`;
   return html`<div role="option" class=${`display-offer of-${by}`} aria-selected=${chosen} aria-disabled=${off === "" ? null : "true"} data-topic=${topic || null}
     title=${off || doc} onClick=${onPoint} onDblClick=${onAdd}>
     <${Icon} name=${icon} size=${18} />
     ${
       by === "topic"
-        ? html`<span>${topic}</span><span class="offer-more offer-wide" title=${types}>${types}</span><span>${kind}</span><${Flow} rate=${rate} />`
-        : html`<span>${kind}</span><span class="offer-more">${doc}</span><span class="offer-more offer-wide" title=${types}>${types}</span>`
+        ? html`<span>${topic}</span><span class="offer-more offer-wide" title=${types}>${types}</span>${name}<${Flow} rate=${rate} />`
+        : html`${name}<span class="offer-more">${doc}</span><span class="offer-more offer-wide" title=${types}>${types}</span>`
     }
   </div>`;
 }

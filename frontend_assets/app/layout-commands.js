@@ -38,16 +38,23 @@ export function addLayoutCommands(dock, element) {
 /** The 3D view alone, as RViz's full screen, and the browser's with it where it may be had. @param {Dock} dock */
 function followFullView(dock) {
   let wasOn = false;
+  /** Whether the browser's full screen is that of the view: one that just ends says so late. */
+  let isOurs = false;
+  const enter = async () => {
+    await document.documentElement.requestFullscreen?.();
+    isOurs = fullView.value;
+  };
   effect(() => {
     const on = fullView.value && size.value !== "phone";
     if (on === wasOn) return;
     wasOn = on;
     dock.showAlone(on ? "scene" : null);
-    if (on) document.documentElement.requestFullscreen?.().catch(() => {});
-    else if (document.fullscreenElement) document.exitFullscreen();
+    if (on) return void enter().catch(() => {}); // without it the view is alone on the page
+    isOurs = false;
+    if (document.fullscreenElement) document.exitFullscreen();
   });
   document.addEventListener("fullscreenchange", () => {
-    if (!document.fullscreenElement) fullView.value = false;
+    if (!document.fullscreenElement && isOurs) fullView.value = false;
   });
 }
 

@@ -9,7 +9,7 @@
 
 /**
  * A window of tabs over the others: its place and size are shares of the room of all panels.
- * @typedef {{tabs: string[], shown?: string, left: number, top: number, width: number, height: number}} Floating
+ * @typedef {{tabs: string[], shown?: string, home?: string, left: number, top: number, width: number, height: number}} Floating `home`: a panel beside which it is docked again
  */
 
 /**
@@ -64,8 +64,8 @@ export function readArrangement(stored, isKnown) {
 
 /** @param {unknown} stored @param {(id: string) => boolean} admit @returns {Floating[]} one or none */
 function readFloating(stored, admit) {
-  const { left, top, width, height, ...part } =
-    /** @type {Record<"left" | "top" | "width" | "height", unknown>} */ (stored ?? {});
+  const { left, top, width, height, home, ...part } =
+    /** @type {Record<"left" | "top" | "width" | "height" | "home", unknown>} */ (stored ?? {});
   const [read] = readPart(part, admit, DEPTH_MOST);
   if (!read || "split" in read) return [];
   const { size: _, ...tabs } = read;
@@ -73,6 +73,7 @@ function readFloating(stored, admit) {
   return [
     {
       ...tabs,
+      ...(typeof home === "string" && { home }),
       left: Math.min(share(left, 0, 0.3), 1 - across.width),
       top: Math.min(share(top, 0, 0.2), 1 - across.height),
       ...across,

@@ -4,6 +4,7 @@
  */
 
 /** @import { DockviewApi, IDockviewPanel } from "vendor/dockview.js" */
+/** @import { Arrangement } from "./arrangement.js" */
 
 import { TAB, tabOfPanel } from "./dock-tabs.js";
 
@@ -103,22 +104,49 @@ function placeFloating(api, group, frame, [x, y, wider, higher]) {
   });
 }
 
+/** @typedef {{width: number, height: number}} Room px */
+
+/** @param {HTMLElement} element @returns {Room} */
+const roomOf = ({ clientWidth: width, clientHeight: height }) => ({ width, height });
+
+/** So many pictures a page may take to stand as before; a window may have another size since. */
+const PICTURES_MOST = 60;
+
+/**
+ * Once an element has its size back: what is arranged in a larger room does not fit into it.
+ *
+ * @param {HTMLElement} element @param {Room} room @param {() => void} run @param {number} [left] pictures until it runs all the same
+ */
+export function whenAsLarge(element, room, run, left = PICTURES_MOST) {
+  requestAnimationFrame(() => {
+    const { width, height } = roomOf(element);
+    if (left === 0 || (width === room.width && height === room.height)) run();
+    else whenAsLarge(element, room, run, left - 1);
+  });
+}
+
 /** @param {DockviewApi} api @param {HTMLElement} element that holds the dock */
 export function aloneIn(api, element) {
   /** @type {IDockviewPanel | undefined} */
   let shown;
   let wasMaximized = false;
+  /** @type {{arrangement: Arrangement, room: Room} | null} */
+  let before = null;
   return {
     isOn: () => shown !== undefined,
-    /** @param {string | null} id */
-    show(id) {
+    /** How the panels stood, and in what room; null: no panel is alone. */
+    before: () => before,
+    /** @param {string | null} id @param {() => Arrangement} arrangement as it is now */
+    show(id, arrangement) {
       const panel = id === null ? undefined : api.getPanel(id);
       element.classList.toggle("alone", panel !== undefined);
       if (panel && !shown) {
+        before = { arrangement: arrangement(), room: roomOf(element) };
         wasMaximized = api.hasMaximizedGroup();
         panel.api.maximize();
       } else if (!panel && shown && !wasMaximized) api.exitMaximizedGroup();
       shown = panel;
+      if (!panel) before = null;
     },
   };
 }

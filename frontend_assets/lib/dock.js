@@ -14,6 +14,7 @@ import {
   isFloating,
   isInGrid,
   moveFloatingByKey,
+  whenAsLarge,
 } from "./dock-floating.js";
 import { headerActions, keepTabsWhole, TAB, tabOfPanel } from "./dock-tabs.js";
 
@@ -102,6 +103,8 @@ export function createDock(element, panels, options) {
   /** @param {Arrangement} arrangement */
   function arrange(arrangement) {
     quiet = true;
+    for (const { tabs, home } of arrangement.floating ?? [])
+      if (tabs[0] && home) homes.set(tabs[0], home);
     const room = { width: element.clientWidth || 1200, height: element.clientHeight || 800 };
     const layout = toDockview(arrangement, room, (id) => described(id, panels));
     api.fromJSON(layout, { reuseExistingPanels: true });
@@ -111,6 +114,14 @@ export function createDock(element, panels, options) {
       quiet = false;
     }, 200);
     applySingle();
+  }
+
+  /** @returns {Arrangement} as it is now, or as it was before one panel was shown alone */
+  function arrangement() {
+    const { floating, ...rest } = fromDockview(api.toJSON());
+    if (!floating) return rest;
+    const known = floating.map((one) => ({ ...one, home: homes.get(one.tabs[0]) }));
+    return { ...rest, floating: known.map(({ home, ...one }) => (home ? { ...one, home } : one)) };
   }
 
   function applySingle() {
@@ -143,9 +154,11 @@ export function createDock(element, panels, options) {
       tabOfPanel(api, id)?.focus();
     },
     showAlone: (id) => {
+      const before = alone.before();
       if (id !== null) show(api, panels, id);
-      alone.show(id);
-      applySingle();
+      alone.show(id, arrangement);
+      if (id === null && before)
+        whenAsLarge(element, before.room, () => arrange(before.arrangement));
     },
     close: (id) => api.getPanel(id)?.api.close(),
     places: (id) => placesFor(api, id),
@@ -156,7 +169,7 @@ export function createDock(element, panels, options) {
     tab: (id) => tabOfPanel(api, id),
     panelOfTab: (target) => panelOfTab(api, target),
     arrange,
-    arrangement: () => fromDockview(api.toJSON()),
+    arrangement,
     setSingle(on) {
       single = on;
       applySingle();

@@ -22,6 +22,7 @@ const state = signal({
   displays: [],
   groups_off: [],
   fixed_frame: "",
+  kinds: 0,
   paused: false,
   background: "",
   frame_rate: 0,
@@ -36,6 +37,8 @@ const fares = signal({
 
 /** Kinds of displays, once somebody asked for them. @type {Signal<ReadonlyMap<string, DisplayKindView>>} */
 export const kinds = signal(new Map());
+/** Why files of the owner's own displays are switched off. @type {Signal<Readonly<Record<string, string>>>} */
+export const pluginFaults = signal({});
 /** In the order in which they are listed. */
 export const liveDisplays = computed(() => state.value.displays);
 /** Behind the 3D view, as `#rrggbb`; empty: that of the theme. */
@@ -68,7 +71,10 @@ export const settingOf = ({ id, values }, name) =>
   (Object.hasOwn(values, name) ? values[name] : undefined);
 
 subscribe("live_displays", (event) => {
+  const isOther = event.kinds !== state.peek().kinds;
   state.value = event;
+  // A file of the owner's own displays came, changed or went: who knew the kinds asks again.
+  if (isOther && kinds.peek().size > 0) askForKinds();
 });
 
 subscribe("display_states", (event) => {
@@ -172,10 +178,14 @@ export function mendDisplay({ mend }) {
 
 /** Have the kinds of displays be known; asked for once. */
 export async function needKinds() {
-  if (kinds.value.size > 0) return;
+  if (kinds.value.size === 0) await askForKinds();
+}
+
+async function askForKinds() {
   const answer = await ask({ type: "get_display_kinds" });
-  if (answer?.type === "display_kinds")
-    kinds.value = new Map(answer.kinds.map((one) => [one.kind, one]));
+  if (answer?.type !== "display_kinds") return;
+  kinds.value = new Map(answer.kinds.map((one) => [one.kind, one]));
+  pluginFaults.value = answer.plugin_faults;
 }
 
 /** @returns {Promise<readonly TopicView[] | null>} null: the studio does not answer */
@@ -204,4 +214,14 @@ export async function markerServersNow() {
 export async function framesNow() {
   const answer = await ask({ type: "get_tf" });
   return answer?.type === "tf_frames" ? answer.frames : [];
+}
+
+/** @param {string} frame @param {string} fixed @returns {Promise<{pose: import("../types/wire.d.ts").TfPose | null, trouble: string}>} where a frame is in another; or why that is not known */
+export async function poseNow(frame, fixed) {
+  try {
+    const answer = await send({ type: "get_tf", frame, seen_from: fixed, pose_only: true });
+    return answer.type === "tf_frames" ? answer : { pose: null, trouble: "" };
+  } catch {
+    return { pose: null, trouble: "" }; // the connection says itself elsewhere what is in the way
+  }
 }

@@ -192,7 +192,7 @@ function tell(view) {
   const ends = [
     effect(() => view.setTool(toolInHand.value?.kind ?? "Interact")),
     effect(() => {
-      for (const tool of inForce()) view.setToolProperties(tool.kind, tool.values);
+      for (const tool of oneOfEach()) view.setToolProperties(tool.kind, tool.values);
     }),
     effect(() => {
       const displays = Object.fromEntries(liveDisplays.value.map(({ id, name }) => [id, name]));
@@ -206,7 +206,7 @@ function tell(view) {
 }
 
 /** @returns {ToolView[]} one of each kind: that in hand, or the first */
-function inForce() {
+function oneOfEach() {
   const all = [...tools.value].reverse().map((one) => /** @type {const} */ ([one.kind, one]));
   const byKind = new Map(all);
   if (toolInHand.value) byKind.set(toolInHand.value.kind, toolInHand.value);

@@ -109,12 +109,13 @@ function askFor(frame) {
  * @property {(direction: Triple) => void} seeFrom the same point from another side
  * @property {(dx: number, dy: number) => void} turnBy as a drag of so many px
  * @property {() => readonly [number, number, number, number]} getTurn of the camera: x, y, z, w
- * @property {() => boolean} isPointing something is under the mouse
- * @property {() => void} lookAtPointed turn to it
+ * @property {() => boolean} isPointing the mouse is over the picture
+ * @property {() => boolean} lookAtPointed turn to what is under it; whether anything is
  * @property {() => [number, number, number] | null} pointedPlace where the mouse points on the robot, in the root frame
  * @property {(place: readonly [number, number, number] | null) => void} setGuide a mark at what somebody else points at
  * @property {(frame: string) => void} follow the camera goes with a frame, with it in the middle; empty: with none
  * @property {(scale: number, transparent: boolean) => Promise<Blob | null>} picture a PNG; null: too large
+ * @property {(sight: {display: string, canvas: HTMLCanvasElement, told: (seen: boolean) => void}) => {renew: () => void, leave: () => void}} showCamera draw what a camera of the robot sees
  * @property {(theme: "dark" | "light") => void} setTheme
  * @property {(mode: "rviz" | "trackpad") => void} setMouse
  * @property {(colour: string) => void} setBackground empty: that of the theme

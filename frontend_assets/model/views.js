@@ -184,7 +184,7 @@ export function addViewCommands() {
       icon: "target",
       keys: ["F"],
       enabled: () => isThere() && viewport.value?.isPointing() === true,
-      run: () => viewport.value?.lookAtPointed(),
+      run: () => viewport.value?.lookAtPointed() || viewport.value?.fit(),
     },
     {
       id: "fit",

@@ -38,21 +38,29 @@ export function PropertyEditor({ label, property, value, disabled, set, topics }
     case "frame":
       return html`<${PickBox} label=${label} text=${String(value) || FIXED_FRAME} disabled=${disabled} onWrite=${set} none=${t("live.frame.none")}
         choices=${async () => [FIXED_FRAME, ...(await framesNow()).map(({ name }) => name)]} />`;
+    case "topic":
+      return html`<${PickBox} label=${label} text=${String(value)} disabled=${disabled} onWrite=${set} placeholder=${t("live.topic.none")}
+        choices=${() => topicsOf(property.choices)} none=${t("live.topic.nothing", { type: property.choices[0] ?? "" })} />`;
+    case "fact":
+      return html`<output class="fact" aria-label=${label} title=${String(value)}>${String(value)}</output>`;
     case "marker_server":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${disabled} onWrite=${set} none=${t("live.marker_servers.none")}
         choices=${markerServersNow} />`;
     case "text":
       return html`<${PickBox} label=${label} text=${String(value)} disabled=${disabled} onWrite=${set} placeholder=""
-        ...${topics && { choices: () => topicsOf(topics), none: t("live.topic.nothing", { type: topics }) }} />`;
+        ...${property.choices.length > 0 && { choices: async () => property.choices }}
+        ...${topics && { choices: () => topicsOf([topics]), none: t("live.topic.nothing", { type: topics }) }} />`;
     default:
       return html`<${NumberEditor} label=${label} property=${property} value=${Number(value)} disabled=${disabled} set=${set} />`;
   }
 }
 
-/** @param {string} type @returns {Promise<string[]>} */
-async function topicsOf(type) {
+/** @param {readonly string[]} wanted types @returns {Promise<string[]>} */
+async function topicsOf(wanted) {
   const topics = (await topicsNow()) ?? [];
-  return topics.filter(({ types }) => types.includes(type)).map(({ name }) => name);
+  return topics
+    .filter(({ types }) => types.some((type) => wanted.includes(type)))
+    .map(({ name }) => name);
 }
 
 /** @param {{label: string, property: PropertyView, value: number, disabled: boolean, set: (value: number) => void}} props */

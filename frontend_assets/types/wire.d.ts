@@ -609,6 +609,7 @@ export interface DisplayKindView {
   doc: string;
   icon: string;
   types: string[];
+  plugin: string;
   properties: PropertyView[];
 }
 
@@ -617,6 +618,7 @@ export interface DisplayKinds {
   type: "display_kinds";
   request: number;
   kinds: DisplayKindView[];
+  plugin_faults: Record<string, string>;
 }
 
 /** State of a display. */
@@ -1929,6 +1931,7 @@ export interface LiveDisplays {
   paused: boolean;
   background: string;
   frame_rate: number;
+  kinds: number;
 }
 
 /** Set what a parameter file has for a node, one parameter after another. */
@@ -2588,7 +2591,7 @@ export interface Progress {
 /** A property of a kind of display. */
 export interface PropertyView {
   name: string;
-  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame" | "marker_server";
+  kind: "switch" | "whole" | "number" | "colour" | "choice" | "text" | "frame" | "topic" | "fact" | "marker_server";
   default: boolean | number | string;
   doc: string;
   low: number | null;

@@ -165,8 +165,8 @@ export function axesEnds({
   return ends;
 }
 
-/** The matrix of a turn, row by row. @param {Numbers} turns @param {number} row @returns {number[]} */
-function matrixOf(turns, row) {
+/** The matrix of a turn, row by row; without numbers, of none. @param {Numbers} turns @param {number} row @returns {number[]} */
+export function matrixOf(turns, row) {
   const [w = 1, x = 0, y = 0, z = 0] = [0, 1, 2, 3].map((at) => turns[4 * row + at]);
   return [
     1 - 2 * (y * y + z * z),

@@ -19,7 +19,7 @@ const VISER_POINT = "vec4(col, 1.0)";
 const OUR_POINT = "vec4(col, studioOpacity)";
 const VISER_POINT_SIZE = "(scale / -world_pos.z)";
 const OUR_POINT_SIZE =
-  "(studioPixels > 0.0 ? studioPixels : max(scale / gl_Position.w, studioLeastPixels))";
+  "(studioPixels > 0.0 ? studioPixels : max(scale * (studioByZ > 0.0 ? abs(position.z) : 1.0) / gl_Position.w, studioLeastPixels))";
 /** Of points with a size in metres: from afar they would be too small to be seen. */
 const LEAST_POINT_PX = 3;
 
@@ -32,6 +32,7 @@ const LEAST_POINT_PX = 3;
  * @property {boolean} behind drawn before all else
  * @property {"screen" | "scene" | null} words in colour, and what their size is measured in
  * @property {number} point_px size of points on the screen; 0: they have one in the scene
+ * @property {boolean} by_z the size of a point is for each metre of its z
  */
 
 /**
@@ -196,7 +197,7 @@ export class Live {
 }
 
 /** As viser makes it. @type {Readonly<Look>} */
-const PLAIN = { kind: "", opacity: 1, sharp: false, behind: false, words: null, point_px: 0 };
+const PLAIN = { kind: "", opacity: 1, sharp: false, behind: false, words: null, point_px: 0, by_z: false };
 
 /** @param {string} kind @param {Record<string, unknown>} props @returns {Look} */
 export function lookOf(kind, props) {
@@ -208,12 +209,13 @@ export function lookOf(kind, props) {
     behind: props.studio_behind === true,
     words: Array.isArray(rgb) ? (props.font_size_mode === "screen" ? "screen" : "scene") : null,
     point_px: typeof px === "number" ? px : 0,
+    by_z: props.studio_size_by_z === true,
   };
 }
 
 /** @param {Look} look */
-export const isPlain = ({ opacity, sharp, behind, words, point_px: px }) =>
-  opacity >= 1 && !sharp && !behind && !words && px <= 0;
+export const isPlain = ({ opacity, sharp, behind, words, point_px: px, by_z: byZ }) =>
+  opacity >= 1 && !sharp && !behind && !words && px <= 0 && !byZ;
 
 /** @param {string} name @returns {Message | undefined} */
 const messageOf = (name) => window.__viserSceneTree?.getState()[name]?.message;
@@ -234,16 +236,17 @@ function pictureOf(props) {
 }
 
 /** @param {Material} material @param {Look} look @param {number} ratio of the picture's pixels to the page's */
-function dressPoints(material, { opacity, point_px: px }, ratio) {
+function dressPoints(material, { opacity, point_px: px, by_z: byZ }, ratio) {
   const { uniforms } = material;
   if (!uniforms.studioOpacity) {
     const [points, sizes] = [material.fragmentShader, material.vertexShader];
     material.fragmentShader = `uniform float studioOpacity;\n${points.replace(VISER_POINT, OUR_POINT)}`;
-    material.vertexShader = `uniform float studioPixels;\nuniform float studioLeastPixels;\n${sizes.replace(VISER_POINT_SIZE, OUR_POINT_SIZE)}`;
+    material.vertexShader = `uniform float studioPixels;\nuniform float studioLeastPixels;\nuniform float studioByZ;\n${sizes.replace(VISER_POINT_SIZE, OUR_POINT_SIZE)}`;
     material.needsUpdate = true;
   }
   uniforms.studioOpacity = { value: opacity };
   uniforms.studioPixels = { value: px * ratio };
+  uniforms.studioByZ = { value: byZ ? 1 : 0 };
   uniforms.studioLeastPixels = { value: LEAST_POINT_PX * ratio };
   setTransparent(material, opacity < 1);
   material.depthWrite = opacity >= 1;

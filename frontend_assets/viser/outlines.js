@@ -4,7 +4,7 @@
 
 import { isSeen } from "./extent.js";
 import { inside, lensOf } from "./lens.js";
-import { boxSeen } from "./live-picking.js";
+import { boxSeen, matrixOf } from "./live-picking.js";
 import { groupName, meshName } from "./live-nodes.js";
 import { boxCorners, RobotView } from "./robot.js";
 
@@ -151,15 +151,8 @@ function stroke(paint, style, many) {
   paint.stroke();
 }
 
-/** The matrix of the turn of a box, row by row. @param {readonly number[]} box */
-function turnOf(box) {
-  const [w = 1, x = 0, y = 0, z = 0] = box.slice(6);
-  return [
-    ...[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-    ...[2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-    ...[2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-  ];
-}
+/** The matrix of the turn of a box, which may have none. @param {readonly number[]} box */
+const turnOf = (box) => matrixOf(box.slice(6), 0);
 
 /** @param {readonly number[]} box @returns {[number, number, number][]} */
 function cornersOf(box) {

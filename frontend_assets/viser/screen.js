@@ -111,7 +111,8 @@ function labelOf({ place: [x, y], text, kind }) {
   element.className = `studio-label ${kind}`;
   element.textContent = text;
   const isRight = x > innerWidth * 0.6;
-  const beside = isRight ? "translate(calc(-100% - 14px), 14px)" : "translate(14px, 14px)";
+  const isLow = y > innerHeight - 2 * LINE_PX;
+  const beside = `translate(${isRight ? "calc(-100% - 14px)" : "14px"}, ${isLow ? "calc(-100% - 14px)" : "14px"})`;
   const away = kind === "aim" ? beside : "translate(-50%, -50%)";
   element.style.transform = `translate(${round(x)}px, ${round(y)}px) ${away}`;
   return element;

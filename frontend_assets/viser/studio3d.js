@@ -3,6 +3,7 @@
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
 
 import { Aim, Measuring } from "./measuring.js";
+import { CameraPictures } from "./camera-pictures.js";
 import { CameraView } from "./camera.js";
 import { ChainLine, Guide, Marks } from "./marks.js";
 import { CloudDetail } from "./cloud-detail.js";
@@ -55,6 +56,7 @@ class Studio3d {
   #light = new Light(this.#door);
   #still = new Still(this.#door);
   #picture = new Picture(this.#door);
+  #cameras = new CameraPictures(this.#door);
   #theme = new Theme(this.#door, () => this.#camera.distance());
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #marks = new Marks(this.#door, this.#robot);
@@ -207,22 +209,19 @@ class Studio3d {
     return this.#camera.turn;
   }
 
-  /** Whether something is under the mouse. */
+  /** Whether the mouse is over the picture. */
   isPointing() {
-    return this.#pointedAnything() !== null;
+    return this.#hands.over !== null;
   }
 
-  /** Turn to what is under the mouse. */
+  /** Turn to what is under the mouse; whether anything is. */
   lookAtPointed() {
-    const point = this.#pointedAnything();
-    if (point) this.#camera.lookAt(point);
-  }
-
-  #pointedAnything() {
     const over = this.#hands.over;
     const found = over && this.#surfaces.at(over.x, over.y);
     // A line of the floor is nothing to look at.
-    return found && (found.link ?? found.display) !== null ? found.point : null;
+    const point = found && (found.link ?? found.display) !== null ? found.point : null;
+    if (point) this.#camera.lookAt(point);
+    return point !== null;
   }
 
   /** Whether this browser draws lightly, by software, and with what. */
@@ -263,6 +262,12 @@ class Studio3d {
   /** A PNG of the view. @param {number} scale @param {boolean} transparent */
   picture(scale, transparent) {
     return this.#picture.take(scale, transparent);
+  }
+
+  /** Draw what a camera of the robot sees onto a canvas of the page; `leave` ends it.
+   * @param {import("./camera-pictures.js").Sight} sight */
+  showCamera(sight) {
+    return this.#cameras.show(sight);
   }
 
   /** @param {"dark" | "light"} name */

@@ -181,6 +181,10 @@ export interface Renderer {
   toneMappingExposure: number;
   getPixelRatio(): number;
   setPixelRatio(ratio: number): void;
+  /** Into an object with a method `copy`. */
+  getViewport(into: { copy(of: { x: number; y: number; z: number; w: number }): unknown }): unknown;
+  setViewport(x: number, y: number, width: number, height: number): void;
+  shadowMap: { autoUpdate: boolean };
   render(scene: Scene, camera: Camera): void;
 }
 

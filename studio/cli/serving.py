@@ -49,6 +49,14 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="show the lessons of this folder; may be given again",
     )
+    parser.add_argument(
+        "--displays",
+        action="append",
+        type=Path,
+        default=[],
+        metavar="FOLDER",
+        help="run each .py file in this folder as a display of your own; may be given again",
+    )
     add_read_options(parser)
 
 
@@ -144,10 +152,24 @@ def server_settings(options: argparse.Namespace) -> Settings:
         data_folder=data_folder(options.data_dir),
         package_paths=package_paths(options),
         lesson_folders=tuple(one.expanduser().absolute() for one in options.lessons),
+        display_folders=_display_folders(options.displays),
         trusted=options.trust,
         open_browser=not options.no_browser,
         wire=WireChoice(options.router, tuple(options.connect), options.domain),
     )
+
+
+def _display_folders(given: Sequence[Path]) -> tuple[Path, ...]:
+    """Return the folders of `--displays`.
+
+    Raises:
+        SettingsError: One is no folder.
+    """
+    folders = tuple(one.expanduser().absolute() for one in given)
+    for folder in folders:
+        if not folder.is_dir():
+            raise SettingsError(f"--displays takes a folder, and {folder} is none.")
+    return folders
 
 
 def _public_url(text: str) -> str:

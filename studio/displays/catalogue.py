@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.axes import AxesDisplay
+from studio.displays.camera import CameraDisplay
+from studio.displays.depth_cloud import DepthCloudDisplay
 from studio.displays.effort import EffortDisplay
 from studio.displays.grid import GridDisplay
 from studio.displays.grid_cells import GridCellsDisplay
@@ -23,6 +25,7 @@ from studio.displays.measurement import (
 from studio.displays.odometry import OdometryDisplay
 from studio.displays.path import PathDisplay
 from studio.displays.point import PointStampedDisplay
+from studio.displays.point_cloud import PointCloudDisplay
 from studio.displays.point_cloud2 import PointCloud2Display
 from studio.displays.polygon import PolygonDisplay
 from studio.displays.pose import PoseDisplay
@@ -31,6 +34,7 @@ from studio.displays.pose_with_covariance import PoseWithCovarianceDisplay
 from studio.displays.range import RangeDisplay
 from studio.displays.robot_model import RobotModelDisplay
 from studio.displays.tf import TfDisplay
+from studio.displays.trajectory import DisplayTrajectoryDisplay, JointTrajectoryDisplay
 from studio.displays.vectors import AccelDisplay, TwistDisplay, WrenchDisplay
 from studio.errors import DisplayError
 
@@ -40,14 +44,18 @@ if TYPE_CHECKING:
 DISPLAYS: Final[tuple[type[Display], ...]] = (
     AccelDisplay,
     AxesDisplay,
+    DisplayTrajectoryDisplay,
     EffortDisplay,
     FluidPressureDisplay,
     GridCellsDisplay,
     GridDisplay,
     IlluminanceDisplay,
     ImageDisplay,
+    CameraDisplay,
+    DepthCloudDisplay,
     ImuDisplay,
     InteractiveMarkersDisplay,
+    JointTrajectoryDisplay,
     LaserScanDisplay,
     MapDisplay,
     MarkerArrayDisplay,
@@ -55,6 +63,7 @@ DISPLAYS: Final[tuple[type[Display], ...]] = (
     OdometryDisplay,
     PathDisplay,
     PointCloud2Display,
+    PointCloudDisplay,
     PointStampedDisplay,
     PolygonDisplay,
     PoseArrayDisplay,

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 import numpy as np
 
+from studio.displays.display import Status
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from studio.displays.display import Status
     from studio.displays.drawing import Sweep
 
 # Multiples of the golden ratio, taken modulo 1, fill the circle evenly however many there are, and
@@ -130,6 +131,16 @@ def kept(
     elif available > limit:
         chosen = evenly(available, limit)
     return (positions if chosen is None else positions.take(chosen, axis=0)), chosen, available
+
+
+def nothing_of(count: int, shown: NDArray[np.float32]) -> Status | None:
+    """Return a status if none of so many points is shown."""
+    if len(shown):
+        return None
+    if not count:
+        return Status("warn", "no_points", "The cloud has no points.")
+    sentence = f"None of the {count:,} points has a place: all are NaN or infinite."
+    return Status("warn", "not_finite", sentence)
 
 
 def listed(names: tuple[str, ...]) -> str:

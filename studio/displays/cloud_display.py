@@ -144,7 +144,7 @@ _WITHOUT_COLOUR: Final = {"Style", _SIZE, "Size (Pixels)", "Alpha", "Decay Time"
 def points_of(
     cloud: Cloud, colours: NDArray[np.uint8], values: Mapping[str, Value], *, precise: bool
 ) -> Points:
-    """Return the shape of a cloud in its colours."""
+    """Return the shape of a cloud in its colours, in the size that is set."""
     style = str(values["Style"])
     return Points(
         cloud.positions,
@@ -432,6 +432,26 @@ class CloudDisplay(Display):
         found = [newest.cloud.nothing, newest.remark, self._transparent(), *self._thinned(), bodies]
         return tuple(one for one in found if one is not None)
 
+    @property
+    def newest_cloud(self) -> Cloud | None:
+        """The points of the newest message."""
+        return self._kept[-1].cloud if self._kept else None
+
+    def read_again(self) -> None:
+        """Read the kept messages again: what they are read with is another."""
+        self._read_anew(self.limits.points)
+        self.colour_again()
+
+    def colour_again(self) -> None:
+        """Draw the kept messages in other colours."""
+        for one in self._kept:
+            one.placed = one.colours = None
+        self._drawing = None
+
+    def shape_of(self, cloud: Cloud, colours: NDArray[np.uint8], *, precise: bool) -> Points:
+        """Return the shape of a cloud in its colours."""
+        return points_of(cloud, colours, self.values, precise=precise)
+
     def _placed(self, one: _Kept) -> Placed | None:
         if not one.cloud.count:
             return None
@@ -440,7 +460,7 @@ class CloudDisplay(Display):
                 one.colours, one.remark = colours_of(one.cloud, self.values)
             # Once needed it stays: a cloud near the limit would otherwise be sent again and again.
             self._precise |= needs_precision(one.cloud.positions, float(self.values[_SIZE]))
-            shape = points_of(one.cloud, one.colours, self.values, precise=self._precise)
+            shape = self.shape_of(one.cloud, one.colours, precise=self._precise)
             cloud = one.cloud
             one.placed = Placed(cloud.frame, cloud.stamp_ns, {_SHAPE: shape}, sweep=cloud.sweep)
         return one.placed

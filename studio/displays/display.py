@@ -16,14 +16,17 @@ from studio.ros.duration import NANOSECONDS
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping, Sequence
 
+    from studio.displays.posed_robot import PosedRobot
     from studio.displays.properties import Property, Value
     from studio.displays.selection import Fact, Item, Picked
     from studio.ros.types.library import TypeLibrary
+    from studio.tf.frames import FramesNow
 
 Reason: TypeAlias = Literal[
     "no_points", "not_finite", "out_of_range", "transparent", "empty", "bad_message",
-    "no_mesh", "unknown_field", "no_camera_info", "unsupported", "thinned", "not_connected_frame",
-    "no_server",
+    "no_mesh", "unknown_field", "no_camera_info", "no_picture", "unsupported", "thinned",
+    "not_connected_frame", "unknown_joint", "other_robot", "plugin", "distorted",
+    "not_here", "no_server",
 ]  # fmt: skip
 """Why nothing, or not everything, is seen, as far as the display itself knows."""
 _TRANSPORTS: Final = {"compressed", "compressedDepth", "ffmpeg", "theora", "zstd"}
@@ -68,10 +71,13 @@ class TopicRole:
         types: Of messages that it takes.
         beside: Suffix to the name of the main topic, as `_updates`; a leading slash replaces the
             last part of that name, as `/camera_info`.
+        elsewhere: The topic itself, when it is not beside the main one.
+        transport: How a picture is packed, as `compressed`: the last part of its topic.
         newest_only: Whether only the newest message counts; else every one does.
         reliable: Whether the first subscription asks for reliable delivery.
         latched: Whether the first subscription is transient local: it asks for earlier messages.
         depth: Number of messages kept for a display that is slow.
+        chosen_reliable: Reliability that a property of the display chooses; None: as fits.
     """
 
     name: str
@@ -81,6 +87,9 @@ class TopicRole:
     reliable: bool = True
     latched: bool = False
     depth: int = 5
+    elsewhere: str = ""
+    transport: str = ""
+    chosen_reliable: bool | None = None
 
     def topic(self, main: str) -> str:
         """Return the topic of this role beside a main one.
@@ -88,6 +97,10 @@ class TopicRole:
         Pictures of a transport are one name deeper, as `/camera/image/compressed`; the topic is
         beside the picture itself.
         """
+        if self.elsewhere or self.transport:
+            base = self.elsewhere or main
+            packed = not self.transport or base.rpartition("/")[2] in _TRANSPORTS
+            return base if packed else f"{base}/{self.transport}"
         if not self.beside.startswith("/"):
             return main + self.beside
         above, _, last = main.rpartition("/")
@@ -131,6 +144,8 @@ class Display(ABC):
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         self._types = types
+        self.topic = ""
+        """Its main topic, once it is subscribed to."""
         self._codecs: dict[str, Codec] = {}
         self.limits = Limits()
         self.values: dict[str, Value] = {one.name: one.default for one in self.PROPERTIES}
@@ -185,6 +200,23 @@ class Display(ABC):
         """Apply these limits to all messages from now on."""
         self.limits = limits
 
+    @property
+    def wants_frames(self) -> bool:
+        """Whether it is told by `see` where all frames are, before each drawing."""
+        return False
+
+    def see(self, frames: FramesNow) -> None:
+        """Take where all frames are now."""
+        del frames
+
+    def beside(self, names: Mapping[str, str], own: str) -> None:
+        """Take the names of all displays by their ids, and its own id, before each drawing."""
+        del names, own
+
+    def stand(self, robot: PosedRobot) -> None:
+        """Take the document's robot as it stands now, before each drawing."""
+        del robot
+
     def take(self, received: Received, role: str = "") -> None:
         """Take in a message of one of the topics.
 
@@ -205,17 +237,20 @@ class Display(ABC):
         """Return what the user should know; empty when all is well."""
         return ()
 
+    def close(self) -> None:
+        """Let go of what it holds: it is taken away, and is asked for nothing more."""
+        self.limits = Limits()
+
     def picked(self, picked: Picked) -> Sequence[str]:
         """Return the keys of the items that were pointed at in the last drawing, each once.
 
         None of a display whose shapes stand for nothing that can be selected, as the lines of a
-        grid.
+        grid. A display that has no `item` of its own is selected group by group, by their paths.
         """
-        del picked
-        return ()
+        return (picked.path,)
 
     def item(self, key: str) -> Item | None:
-        """Return an item as it is now; None when it is gone. Keys may be any text."""
+        """Return an item as it is now; None when it is gone, or a group. Keys may be any text."""
         del key
         return None
 

@@ -54,6 +54,7 @@ class LinkParts:
         mass: Whether its mass is, as a ball of lead.
         inertia: Whether its inertia is, as a box.
         opacity: 1 is opaque.
+        rgb: Colour of its visuals; None: their own.
     """
 
     link: Link
@@ -63,6 +64,7 @@ class LinkParts:
     mass: bool = False
     inertia: bool = False
     opacity: float = 1.0
+    rgb: Rgb | None = None
 
     def mesh_uris(self) -> frozenset[str]:
         """URIs of the meshes that it is drawn with."""
@@ -88,6 +90,8 @@ class Points:
         opacity: 1 is opaque.
         precise: Whether half precision would be seen: 8 mm at 8 m and more, 62 mm at 64 m.
         size_px: Of "points", on the screen; 0: `size_m` counts.
+        size_by_z: Whether the size of each is `size_m` for each metre of its z, as a pixel of a
+            depth camera grows with its distance.
         items: Shape (N,): the number by which its display knows what each belongs to; None: its
             row. The same for the other shapes with `items`.
     """
@@ -99,6 +103,7 @@ class Points:
     opacity: float = 1.0
     precise: bool = False
     size_px: float = 0.0
+    size_by_z: bool = False
     items: Items | None = None
 
 
@@ -275,6 +280,32 @@ class Frustum:
     opacity: float = 1.0
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class CameraView:
+    """The scene as a camera sees it, over its picture; nothing of it is in the scene itself.
+
+    Attributes:
+        image: Shape (H, W, 3), uint8, row 0 on top.
+        lens: Focal lengths and principal point along x and y as shares of the width and the
+            height, and where the eye is beside the frame along its x and y, m; None: unknown.
+        rendering: Where the picture is: `background`, `overlay`, or `background and overlay`.
+        overlay_alpha: Opacity of the picture in front of the scene.
+        zoom: 1 shows all of the picture.
+        near_m: What is nearer is not drawn.
+        far_m: What is farther away is not drawn.
+        hidden: Ids of displays that are not seen in it, and `robot` and `grid`.
+    """
+
+    image: NDArray[np.uint8]
+    lens: tuple[float, float, float, float, float, float] | None
+    rendering: str
+    overlay_alpha: float
+    zoom: float
+    near_m: float
+    far_m: float
+    hidden: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, slots=True)
 class GridLines:
     """A grid of lines centred on the origin; `plane` names the two axes that it spans."""
@@ -290,7 +321,7 @@ class GridLines:
 
 Shape: TypeAlias = (
     Points | Lines | Arrows | Axes | Solids | Triangles | MeshFile | Text | Picture | Frustum
-    | GridLines | LinkParts
+    | CameraView | GridLines | LinkParts
 )  # fmt: skip
 
 

@@ -11,8 +11,11 @@ from studio.displays.drawing import FIXED_FRAME, NOTHING, GridLines, Lines, Plac
 from studio.displays.properties import Property, rgb_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from studio.displays.drawing import Drawing, Shape, Xyz
     from studio.displays.properties import Value
+    from studio.displays.selection import Picked
 
 _CELLS_MAX: Final = 1000
 _LAYERS_MAX: Final = 100
@@ -107,6 +110,11 @@ class GridDisplay(StillDisplay):
     def _width_m(self) -> float:
         is_thin = self.values["Line Style"] == "Lines"
         return 0.0 if is_thin else float(self.values["Line Width"])
+
+    def picked(self, picked: Picked) -> Sequence[str]:
+        """Return nothing: lines of a grid are in the way of whoever selects something else."""
+        del picked
+        return ()
 
     def _drawn(self) -> Drawing:
         if not self.values["Alpha"]:

@@ -44,16 +44,31 @@ class _View(NamedTuple):
     skewed: bool
 
 
+IMAGE_TOPICS: Final = (
+    TopicRole("", ("sensor_msgs/msg/Image", _COMPRESSED), reliable=False),
+    TopicRole(_INFO, ("sensor_msgs/msg/CameraInfo",), beside="/camera_info", reliable=False),
+)
+SHADE_PROPERTIES: Final = (
+    Property(
+        "Normalize Range", "switch", True,  # noqa: FBT003 - its first value
+        "Whether depths reach from black to white between the least and the greatest.",
+    ),
+    Property("Min Value", "number", 0.0, "What is black.", when=("Normalize Range", (False,))),
+    Property("Max Value", "number", 1.0, "What is white.", when=("Normalize Range", (False,))),
+    Property(
+        "Median window", "whole", 5, "Over how many pictures the range is evened out.",
+        low=1, high=_WINDOW_MAX, when=("Normalize Range", (True,)),
+    ),
+)  # fmt: skip
+
+
 class ImageDisplay(StillDisplay):
     """Draws the newest picture where the camera is, as wide as it sees."""
 
     KIND: ClassVar[str] = "Image"
     DOC: ClassVar[str] = "The picture of a camera, in front of the camera in 3D."
     ICON: ClassVar[str] = "camera"
-    TOPICS: ClassVar[tuple[TopicRole, ...]] = (
-        TopicRole("", ("sensor_msgs/msg/Image", _COMPRESSED), reliable=False),
-        TopicRole(_INFO, ("sensor_msgs/msg/CameraInfo",), beside="/camera_info", reliable=False),
-    )
+    TOPICS: ClassVar[tuple[TopicRole, ...]] = IMAGE_TOPICS
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
         Property(
             "Far clip", "number", 1.0, "How far in front of the camera the picture is.",
@@ -61,20 +76,7 @@ class ImageDisplay(StillDisplay):
         ),
         Property("Alpha", "number", 1.0, "How opaque the picture is.", low=0.0, high=1.0),
         Property("Edge color", "colour", "#7d7d7d", "Of the edges of what the camera sees."),
-        Property(
-            "Normalize Range", "switch", True,  # noqa: FBT003 - its first value
-            "Whether depths reach from black to white between the least and the greatest.",
-        ),
-        Property(
-            "Min Value", "number", 0.0, "What is black.", when=("Normalize Range", (False,))
-        ),
-        Property(
-            "Max Value", "number", 1.0, "What is white.", when=("Normalize Range", (False,))
-        ),
-        Property(
-            "Median window", "whole", 5, "Over how many pictures the range is evened out.",
-            low=1, high=_WINDOW_MAX, when=("Normalize Range", (True,)),
-        ),
+        *SHADE_PROPERTIES,
     )  # fmt: skip
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
@@ -83,9 +85,12 @@ class ImageDisplay(StillDisplay):
 
     def reset(self) -> None:
         """Forget the picture and the camera info."""
-        self._pixels: NDArray[Any] | None = None
+        self.pixels: NDArray[Any] | None = None
+        """The picture as it was read; None before one came."""
         self._shaded: NDArray[np.uint8] | None = None
-        self._frame, self._stamp_ns = "", 0
+        self.size: tuple[int, int] | None = None
+        """Width and height of the picture as it was sent."""
+        self.frame, self.stamp_ns = "", 0
         self._size: tuple[int, int] | None = None
         self._encoding = ""
         self._view: _View | None = None
@@ -121,11 +126,11 @@ class ImageDisplay(StillDisplay):
         if key != NEWEST or self._drawing is None or _PATH not in self._drawing:
             return None
         box = box_of(self._drawing[_PATH].shapes)
-        return Item("image", "", _PATH, self._frame, self._stamp_ns, box)
+        return Item("image", "", _PATH, self.frame, self.stamp_ns, box)
 
     def facts(self, key: str) -> tuple[Fact, ...]:
         """Return size and field of view."""
-        if key != NEWEST or self._pixels is None:
+        if key != NEWEST or self.pixels is None:
             return ()
         found = [Fact("encoding", self._encoding[:300])]
         if self._size is not None:
@@ -137,9 +142,11 @@ class ImageDisplay(StillDisplay):
     def _take_picture(self, type_name: str, message: Any) -> None:  # noqa: ANN401
         read = read_compressed if type_name == _COMPRESSED else read_image
         pixels, stamp_ns = read(message, self.limits.pixels), stamp_ns_of(message.header)
-        self._pixels, self._frame, self._stamp_ns = pixels, message.header.frame_id, stamp_ns
+        self.pixels, self.frame, self.stamp_ns = pixels, message.header.frame_id, stamp_ns
+        rows, columns = pixels.shape[:2]
         # Of a compressed picture fewer pixels may have been read than it has.
         is_packed = type_name == _COMPRESSED
+        self.size = (columns, rows) if is_packed else (int(message.width), int(message.height))
         self._size = None if is_packed else (int(message.height), int(message.width))
         self._encoding = str(message.format if is_packed else message.encoding)
         self._shaded = None
@@ -149,9 +156,9 @@ class ImageDisplay(StillDisplay):
 
     def statuses(self) -> tuple[Status, ...]:
         """Return why no picture is seen, or not where the camera points."""
-        if self._pixels is None:
+        if self.pixels is None:
             return ()
-        if not self._pixels.size:
+        if not self.pixels.size:
             return (Status("warn", "empty", "The picture has no pixels."),)
         found = (self._unseen(), self._no_view(), self._transparent())
         return tuple(one for one in found if one is not None)
@@ -163,25 +170,28 @@ class ImageDisplay(StillDisplay):
             self.redraw()
 
     def _drawn(self) -> Drawing:
-        pixels = self._pixels
+        pixels = self.pixels
         if pixels is None or not pixels.size:
             return NOTHING
         aspect = pixels.shape[1] / pixels.shape[0]
-        if self._shaded is None:
-            self._shaded = self._shades(pixels)
         view = self._view or _View(_GUESSED_FOV_Y_RAD, aspect, skewed=False)
         shape = Frustum(
             fov_y_rad=view.fov_y_rad,
             aspect=view.aspect,
             far_m=float(self.values["Far clip"]),
-            image=self._shaded,
+            image=self.shades(pixels),
             rgb=rgb_of(self.values["Edge color"]),
             opacity=float(self.values["Alpha"]),
         )
-        return {_PATH: Placed(self._frame, self._stamp_ns, {"picture": shape})}
+        return {_PATH: Placed(self.frame, self.stamp_ns, {"picture": shape})}
+
+    def shades(self, pixels: NDArray[Any]) -> NDArray[np.uint8]:
+        """Return the picture in colours; numbers become shades of grey."""
+        if self._shaded is None:
+            self._shaded = self._shades(pixels)
+        return self._shaded
 
     def _shades(self, pixels: NDArray[Any]) -> NDArray[np.uint8]:
-        """Return the picture in colours; numbers become shades of grey."""
         if pixels.ndim == 3:
             return pixels
         if pixels.dtype == np.uint8:
@@ -199,7 +209,7 @@ class ImageDisplay(StillDisplay):
         return median(low for low, _ in recent), median(high for _, high in recent)
 
     def _unseen(self) -> Status | None:
-        pixels = self._pixels
+        pixels = self.pixels
         if pixels is None or pixels.dtype.kind != "f" or np.isfinite(pixels).any():
             return None
         return Status("warn", "not_finite", "All depths are NaN or infinite: the picture is black.")

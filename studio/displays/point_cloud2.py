@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 
-from studio.displays.cloud import Cloud, kept, listed
+from studio.displays.cloud import Cloud, kept, listed, nothing_of
 from studio.displays.cloud_display import CloudDisplay
-from studio.displays.display import Status, TopicRole, stamp_ns_of
+from studio.displays.display import TopicRole, stamp_ns_of
 from studio.displays.selection import FACTS_MAX, Fact, number_fact, numbers_fact
 from studio.errors import DisplayMessageError
 
@@ -265,7 +265,7 @@ class PointCloud2Display(CloudDisplay):
             available = available * fields.count // len(read_rows)
         return Cloud(
             message.header.frame_id, stamp_ns_of(message.header), shown, chosen, available, fields,
-            _nothing(fields.count, shown),
+            nothing_of(fields.count, shown),
         )  # fmt: skip
 
     def channel_facts(self, cloud: Cloud, index: int) -> tuple[Fact, ...]:
@@ -274,12 +274,3 @@ class PointCloud2Display(CloudDisplay):
         if isinstance(channels, CloudFields):
             return channels.facts(index)
         return super().channel_facts(cloud, index)
-
-
-def _nothing(count: int, shown: NDArray[np.float32]) -> Status | None:
-    if len(shown):
-        return None
-    if not count:
-        return Status("warn", "no_points", "The cloud has no points.")
-    sentence = f"None of the {count:,} points has a place: all are NaN or infinite."
-    return Status("warn", "not_finite", sentence)

@@ -17,7 +17,16 @@ if TYPE_CHECKING:
 
 Value: TypeAlias = bool | int | float | str
 PropertyKind: TypeAlias = Literal[
-    "switch", "whole", "number", "colour", "choice", "text", "frame", "marker_server"
+    "switch",
+    "whole",
+    "number",
+    "colour",
+    "choice",
+    "text",
+    "frame",
+    "topic",
+    "fact",
+    "marker_server",
 ]
 
 _COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
@@ -34,13 +43,14 @@ class Property:
     Attributes:
         name: RViz's; parts of a group are named with slashes, as `Covariance/Position/Alpha`.
         kind: Type of its value: a colour is written `#rrggbb`, a frame by its name on /tf, a server
-            of interactive markers by the namespace of its topics.
+            of interactive markers by the namespace of its topics; a fact is shown and cannot be
+            set.
         default: The first value.
         doc: One sentence for the user.
         low: Least number.
         high: Greatest number.
         unit: Of a number: m, s, px, or empty.
-        choices: Values of a choice.
+        choices: Values of a choice; of a topic its message types.
         when: Another property, and those of its values with which this one has an effect.
     """
 
@@ -60,6 +70,8 @@ class Property:
         Raises:
             DisplayPropertyError: It is of another kind.
         """
+        if self.kind == "fact":
+            raise DisplayPropertyError(self.name, "is shown and cannot be set", value)
         if self.kind == "switch":
             return self._switch(value)
         if self.kind in ("whole", "number"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from itertools import islice
 from typing import TYPE_CHECKING, ClassVar, Final, Literal, NamedTuple, cast
@@ -9,17 +10,23 @@ from typing import TYPE_CHECKING, ClassVar, Final, Literal, NamedTuple, cast
 import numpy as np
 
 from studio.displays.display import Received, Status, StillDisplay, TopicRole, reading_fields
-from studio.displays.drawing import NO_TURN, Axes, LinkParts, Placed, link_frame
+from studio.displays.drawing import NO_TURN, Arrows, Axes, LinkParts, Placed, link_frame
 from studio.displays.properties import UPDATE_INTERVAL, Property
 from studio.displays.selection import Fact, Item, number_fact, numbers_fact
+from studio.displays.trails import Trails
 from studio.errors import DisplayError, DisplayMessageError
-from studio.robot.values import Robot
+from studio.robot.rotations import matrix_from_rpy, wxyz_from_matrices
+from studio.robot.values import JointType, Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-    from studio.displays.drawing import Drawing, Shape
+    from studio.displays.drawing import Drawing, Lines, Shape
+    from studio.displays.properties import Value
     from studio.displays.selection import Picked
+    from studio.robot.values import Joint
+    from studio.ros.types.library import TypeLibrary
+    from studio.tf.frames import FramesNow
 
 LINKS_MAX: Final = 2000
 PARTS_MAX: Final = 10_000
@@ -33,6 +40,10 @@ _LINKS: Final = "Links/"
 _ALL_LINKS: Final = "Links/All Links Enabled"
 _ALPHA: Final = "/Alpha"
 _SHOW_AXES: Final = "/Show Axes"
+_SHOW_TRAIL: Final = "/Show Trail"
+_JOINTS: Final = "Joints/"
+_SHOW_AXIS: Final = "/Show Joint Axis"
+_JOINT: Final = "/Joint"
 _SOURCE: Final = "Description Source"
 _PARTS: Final = (
     "Visual Enabled",
@@ -43,6 +54,12 @@ _PARTS: Final = (
 # RViz's own, of each link.
 _AXIS_LENGTH_M: Final = 0.1
 _AXIS_RADIUS_M: Final = 0.01
+_TRAIL_M: Final = 2.0
+_TRAIL_RGB: Final = (0, 128, 128)
+_ARROW_RGB: Final = np.array([0, 204, 0], np.uint8)
+_ARROW_M: Final = 0.2
+_TURNING: Final = (JointType.REVOLUTE, JointType.CONTINUOUS)
+_WITH_AXIS: Final = (*_TURNING, JointType.PRISMATIC, JointType.PLANAR)
 
 
 class DescriptionSource(NamedTuple):
@@ -99,21 +116,69 @@ class RobotModelDisplay(StillDisplay):
         ),
         Property(_ALL_LINKS, "switch", default=True, doc="Shows the links that are on, or none."),
     )  # fmt: skip
-    SETTINGS_MAX = 4 * LINKS_MAX
+    SETTINGS_MAX = 8 * LINKS_MAX
 
     description = ""
     robot = Robot("")
     _fault = ""
     _left_out = 0
 
+    def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
+        super().__init__(types, values)
+        self._trails = Trails(length_m=_TRAIL_M)
+        self._trailing: tuple[str, ...] = ()
+        """Links whose trails are shown."""
+        self._fixed = ""
+        self._both: tuple[Drawing, Lines | None, Drawing] = ({}, None, {})
+        """The links, the trails, and both together as they were drawn last."""
+
     def properties(self) -> tuple[Property, ...]:
-        """Properties of the robot, and three of each link that is known."""
+        """Properties of the robot, four of each link and some of each joint that is known."""
         of_links = (
             self._property(f"{_LINKS}{link}{part}")
             for link in self.robot.links
-            for part in ("", _ALPHA, _SHOW_AXES)
+            for part in ("", _ALPHA, _SHOW_AXES, _SHOW_TRAIL)
         )
-        return (*self.PROPERTIES, *of_links)
+        of_joints = (
+            self._property(f"{_JOINTS}{joint.name}{part}")
+            for joint in self.robot.joints.values()
+            for part in (_JOINT, _SHOW_AXES, _SHOW_AXIS)
+            if part != _SHOW_AXIS or joint.type in _WITH_AXIS
+        )
+        return (*self.PROPERTIES, *of_links, *of_joints)
+
+    @property
+    def wants_frames(self) -> bool:
+        """While a trail of a link is shown."""
+        return bool(self._trailing)
+
+    def see(self, frames: FramesNow) -> None:
+        """Go on with the trails."""
+        self._fixed = frames.fixed
+        places = {self.frame_of(link): link for link in self._trailing}
+        self._trails.keep(places, frames.fixed)
+        for frame in places:
+            pose = frames.pose_of(frame)
+            if pose is not None:
+                self._trails.add(frame, pose[4:], 0)
+
+    def draw(self, now_ns: int) -> Drawing:
+        """Return the links, and the trails of some."""
+        drawing = super().draw(now_ns)
+        lines = self._trails.lines(_TRAIL_RGB) if self._trailing else None
+        if lines is None:
+            return drawing
+        if self._both[0] is not drawing or self._both[1] is not lines:
+            trails = Placed(self._fixed, 0, {"lines": lines}, follows=True)
+            self._both = drawing, lines, {**drawing, " trails": trails}
+        return self._both[2]
+
+    def changed(self, name: str) -> None:
+        """Draw again."""
+        self._trailing = tuple(
+            link for link in self.robot.links if self.values.get(f"{_LINKS}{link}{_SHOW_TRAIL}")
+        )
+        super().changed(name)
 
     def roles(self) -> tuple[TopicRole, ...]:
         """Return its topic, while the description comes from one."""
@@ -144,7 +209,7 @@ class RobotModelDisplay(StillDisplay):
             links = dict(islice(robot.links.items(), LINKS_MAX))
             robot = replace(robot, links=links)
         self.robot = robot
-        self.redraw()
+        self.changed("")
 
     def fail(self, sentence: str) -> None:
         """Why the newest description is not shown, or not as it is; empty when it is."""
@@ -216,10 +281,30 @@ class RobotModelDisplay(StillDisplay):
         return ()
 
     def _drawn(self) -> Drawing:
-        return {
+        links = {
             link: Placed(self.frame_of(link), 0, self._shapes_of(link), follows=True)
             for link in self._shown()
         }
+        return {**links, **self._joints()}
+
+    def _joints(self) -> dict[str, Placed]:
+        """Return the axes of joints where they are mounted on their parent links."""
+        drawn: dict[str, Placed] = {}
+        for joint in self.robot.joints.values():
+            shapes: dict[str, Shape] = {}
+            if self.values.get(f"{_JOINTS}{joint.name}{_SHOW_AXES}"):
+                shapes["axes"] = _cross()
+            if self.values.get(f"{_JOINTS}{joint.name}{_SHOW_AXIS}") and (arrow := _arrow(joint)):
+                shapes["axis"] = arrow
+            if shapes:
+                turn: list[float] = wxyz_from_matrices(
+                    matrix_from_rpy(np.nan_to_num(np.array(joint.origin.rpy, np.float64)))
+                ).tolist()
+                offset = (turn[0], turn[1], turn[2], turn[3]), joint.origin.xyz
+                drawn[f" joints/{joint.name}"] = Placed(
+                    self.frame_of(joint.parent), 0, shapes, follows=True, offset=offset
+                )
+        return drawn
 
     def _shapes_of(self, link: str) -> dict[str, Shape]:
         shapes: dict[str, Shape] = {}
@@ -229,12 +314,7 @@ class RobotModelDisplay(StillDisplay):
             made = self.robot.links[link]
             shapes["link"] = LinkParts(made, self.robot, visual, collision, mass, inertia, opacity)
         if self.values.get(f"{_LINKS}{link}{_SHOW_AXES}"):
-            shapes["axes"] = Axes(
-                np.zeros((1, 3), np.float32),
-                np.array([NO_TURN], np.float32),
-                _AXIS_LENGTH_M,
-                _AXIS_RADIUS_M,
-            )
+            shapes["axes"] = _cross()
         return shapes
 
     def _shown(self) -> tuple[str, ...]:
@@ -246,6 +326,8 @@ class RobotModelDisplay(StillDisplay):
         return float(self.values.get(f"{_LINKS}{link}{_ALPHA}", 1.0))
 
     def _property(self, name: str) -> Property:
+        if name.startswith(_JOINTS):
+            return self._of_joint(name)
         if name == _ALL_LINKS or not name.startswith(_LINKS):
             return super()._property(name)
         if name.removeprefix(_LINKS) not in self.robot.links:
@@ -254,7 +336,48 @@ class RobotModelDisplay(StillDisplay):
             if name.endswith(_SHOW_AXES):
                 doc = "Shows the axes of this link."
                 return Property(name, "switch", default=False, doc=doc)
+            if name.endswith(_SHOW_TRAIL):
+                doc = "Shows the last two metres of its way."
+                return Property(name, "switch", default=False, doc=doc)
         return Property(name, "switch", default=True, doc="Shows this link.")
+
+    def _of_joint(self, name: str) -> Property:
+        if name.endswith(_SHOW_AXIS):
+            doc = "Shows the axis that this joint turns about or slides along."
+            return Property(name, "switch", default=False, doc=doc)
+        if name.endswith(_SHOW_AXES):
+            return Property(name, "switch", default=False, doc="Shows the axes of this joint.")
+        joint = self.robot.joints.get(name.removeprefix(_JOINTS).removesuffix(_JOINT))
+        if joint is None or not name.endswith(_JOINT):
+            return super()._property(name)
+        return Property(name, "fact", words_of(joint), "Its type, its axis and its limits.")
+
+
+def words_of(joint: Joint) -> str:
+    """Return the type, the axis and the limits of a joint, as URDF has them."""
+    if joint.type not in _WITH_AXIS:
+        return str(joint.type)
+    axis = " ".join(f"{one:.4g}" for one in joint.axis)
+    words = f"{joint.type}, axis {axis}"
+    if joint.limit is None or joint.type in (JointType.CONTINUOUS, JointType.PLANAR):
+        return words
+    unit = "rad" if joint.type in _TURNING else "m"
+    return f"{words}, {joint.limit.lower:.4g} to {joint.limit.upper:.4g} {unit}"
+
+
+def _cross() -> Axes:
+    places, turns = np.zeros((1, 3), np.float32), np.array([NO_TURN], np.float32)
+    return Axes(places, turns, _AXIS_LENGTH_M, _AXIS_RADIUS_M)
+
+
+def _arrow(joint: Joint) -> Arrows | None:
+    axis = np.array(joint.axis, np.float64)
+    length = float(np.linalg.norm(axis))
+    if joint.type not in _WITH_AXIS or not 0.0 < length < math.inf:
+        return None
+    tip = (axis / length * _ARROW_M).astype(np.float32)
+    ends = np.stack((np.zeros(3, np.float32), tip))[None]
+    return Arrows(ends, _ARROW_RGB, 0.05, 0.08, 0.05)
 
 
 def link_facts(robot: Robot, name: str) -> tuple[Fact, ...]:

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
 import numpy as np
 
 from studio.displays.display import Display, Status
 from studio.displays.drawing import NOTHING, Axes, Placed, Rgb, Solids, Text
-from studio.displays.name_pattern import PatternProperty, pattern_of
+from studio.displays.frame_choice import (
+    BLACKLIST,
+    FILTER_PROPERTIES,
+    FRAMES,
+    WHITELIST,
+    FrameChoice,
+)
 from studio.displays.properties import UPDATE_INTERVAL, Property
 from studio.displays.selection import (
     Fact,
@@ -20,6 +27,7 @@ from studio.displays.selection import (
     wxyz_of,
     xyz_of,
 )
+from studio.displays.trails import TRAILS_MAX, Trails
 from studio.displays.turning import product, products, turned, turns_from_z
 
 if TYPE_CHECKING:
@@ -27,27 +35,16 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.displays.drawing import Drawing, Shape
+    from studio.displays.drawing import Drawing, Lines, Shape
     from studio.displays.properties import Value
     from studio.displays.selection import Picked
     from studio.displays.turning import Flags, Floats
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames import FramesNow
 
-FRAMES: Final = "Frames"
-WHITELIST: Final = "Filter (whitelist)"
-BLACKLIST: Final = "Filter (blacklist)"
+TRAILS: Final = "Trails"
+SHOW_AGES: Final = "Show Ages"
 
-FILTER_PROPERTIES: Final = (
-    PatternProperty(
-        WHITELIST, "text", "", "Only frames in whose names this pattern is found are shown."
-    ),
-    PatternProperty(
-        BLACKLIST, "text", "", "Frames in whose names this pattern is found are not shown."
-    ),
-    Property(FRAMES, "switch", default=True, doc="Shows all frames, or none."),
-)
-_NAMES_KEPT_MAX: Final = 50_000
 # At a scale of 1, m.
 _AXIS_LENGTH_M: Final = 0.2
 _AXIS_RADIUS_M: Final = 0.01
@@ -69,53 +66,13 @@ _ALONG_AXES: Final = np.array(
 NAMES_MAX: Final = 1000
 """Limit: each name is a node of the scene, and nobody could read more."""
 _PARTS: Final = ("Show Names", "Show Axes", "Show Arrows")
+_TRAIL_RGB: Final = (240, 180, 60)
+_FRESH: Final = np.array([90, 220, 130], np.float64)
+_OLD: Final = np.array([255, 70, 50], np.float64)
 _FRAMES_PATH: Final = "frames"
 _NAME_PATH: Final = "names/"
 _STILL: Final = 1e-6
 """A frame whose position in m or parts of a quaternion changed less did not move."""
-
-
-class FrameChoice:
-    """Checks each name once, until a setting changes."""
-
-    def __init__(self, values: Mapping[str, Value]) -> None:
-        self._values = values
-        self._passes: dict[str, bool] = {}
-        self._last: tuple[tuple[str, ...], Flags] | None = None
-        self.changed()
-
-    def changed(self) -> None:
-        """Start again after a change of the settings."""
-        self._only = self._pattern(WHITELIST)
-        self._without = self._pattern(BLACKLIST)
-        self._passes.clear()
-        self._last = None
-
-    def of(self, names: tuple[str, ...]) -> Flags:
-        """Return which of the names, (F,), are chosen."""
-        if self._last is None or self._last[0] is not names:
-            if len(self._passes) > _NAMES_KEPT_MAX:
-                self._passes.clear()
-            self._last = names, np.array([self._is_chosen(name) for name in names], np.bool_)
-        return self._last[1]
-
-    def _is_chosen(self, name: str) -> bool:
-        passes = self._passes.get(name)
-        if passes is None:
-            passes = self._passes[name] = self._is_checked(name) and self._is_let_through(name)
-        return passes
-
-    def _is_checked(self, name: str) -> bool:
-        return bool(self._values.get(f"{FRAMES}/{name}", self._values[FRAMES]))
-
-    def _is_let_through(self, name: str) -> bool:
-        if self._only is not None and not self._only.is_in(name):
-            return False
-        return self._without is None or not self._without.is_in(name)
-
-    def _pattern(self, name: str):  # noqa: ANN202 - as pattern_of gives it, or None
-        text = str(self._values[name])
-        return pattern_of(name, text) if text else None
 
 
 class Shades(NamedTuple):
@@ -264,7 +221,7 @@ class _Seen(NamedTuple):
 
 
 class TfDisplay(Display):
-    """Draws the frames given to `show`; it takes no messages, since one buffer serves all displays.
+    """Draws the frames given to `see`; it takes no messages, since one buffer serves all displays.
 
     Crosses and arrows are few nodes in the fixed frame. Each name is a group of its own that
     follows its frame, so that it is sent once.
@@ -307,6 +264,23 @@ class TfDisplay(Display):
             unit="s",
         ),
         UPDATE_INTERVAL,
+        Property(
+            SHOW_AGES,
+            "switch",
+            default=False,
+            doc="Writes how old the transforms of a frame are, from green to red.",
+            when=("Show Names", (True,)),
+        ),
+        Property(TRAILS, "switch", default=False, doc="Shows the ways of all frames, or of none."),
+        Property(
+            "Trail Time",
+            "number",
+            5.0,
+            "How long a way is shown.",
+            low=0.1,
+            high=600.0,
+            unit="s",
+        ),
         *FILTER_PROPERTIES,
     )
     SETTINGS_MAX = 25_000
@@ -318,25 +292,36 @@ class TfDisplay(Display):
         self._seen: _Seen | None = None
         self._drawing: Drawing = NOTHING
         self._drawn_ns = 0
+        self._drawn_trails: Lines | None = None
         self._names: dict[str, Placed] = {}
-        self._checks: tuple[tuple[str, ...], Value, tuple[Property, ...]] = ((), True, ())
+        self._checks: tuple[object, tuple[Property, ...]] = ((), ())
+        self._trails = Trails(width_m=0.005)
+        self._ages: tuple[int, ...] = ()
+        """Of each frame in whole seconds, while they are shown."""
 
-    def show(self, frames: FramesNow) -> None:
+    @property
+    def wants_frames(self) -> bool:
+        """All of them: they are what it draws."""
+        return True
+
+    def see(self, frames: FramesNow) -> None:
         """Draw these from now on."""
         self._frames = frames
 
     def properties(self) -> tuple[Property, ...]:
-        """Properties of all frames, and a switch for each frame."""
+        """Properties of all frames, and two switches for each frame."""
         names = () if self._frames is None else self._frames.names
-        if self._checks[0] is not names or self._checks[1] != self.values[FRAMES]:
-            checks = tuple(self._property(f"{FRAMES}/{name}") for name in sorted(names))
-            self._checks = names, self.values[FRAMES], checks
-        return (*self.PROPERTIES, *self._checks[2])
+        key = names, self.values[FRAMES], self.values[TRAILS], self._ages
+        if self._checks[0] != key:
+            every = sorted(names)
+            made = [self._property(f"{kind}/{name}") for kind in (FRAMES, TRAILS) for name in every]
+            self._checks = key, tuple(made)
+        return (*self.PROPERTIES, *self._checks[1])
 
     def changed(self, name: str) -> None:
         """Draw again; switching all is switching each, as in RViz."""
-        if name == FRAMES:
-            for each in [one for one in self.values if one.startswith(f"{FRAMES}/")]:
+        if name in (FRAMES, TRAILS):
+            for each in [one for one in self.values if one.startswith(f"{name}/")]:
                 del self.values[each]
         self._choice.changed()
         self._names = {}
@@ -345,6 +330,7 @@ class TfDisplay(Display):
     def reset(self) -> None:
         """Forget what was shown."""
         self._frames = None
+        self._trails = Trails(width_m=0.005)
         super().reset()
 
     def draw(self, now_ns: int) -> Drawing:
@@ -352,6 +338,7 @@ class TfDisplay(Display):
         if self._frames is None or not self.values["Marker Alpha"]:
             self._seen = None
             return NOTHING
+        self._go_on(self._frames, now_ns)
         if self._rests(self._frames.fixed, now_ns):
             return self._drawing
         self._drawn_ns = now_ns
@@ -360,7 +347,14 @@ class TfDisplay(Display):
         is_same = before is not None and seen.shows_what(before)
         if not is_same:
             self._names = self._written(seen) if self.values["Show Names"] else {}
-        if before is None or not is_same or not seen.equals(before):
+        trails = self._trails.lines(_TRAIL_RGB)
+        if (
+            before is None
+            or not is_same
+            or not seen.equals(before)
+            or trails is not self._drawn_trails
+        ):
+            self._drawn_trails = trails
             self._drawing = self._drawn(seen)
         else:
             # A slow frame is drawn again once it is far enough from where it was drawn.
@@ -464,9 +458,28 @@ class TfDisplay(Display):
             shapes |= self._axes(seen)
         if self.values["Show Arrows"]:
             shapes |= self._arrows(seen)
+        if self._drawn_trails is not None:
+            shapes["trails"] = self._drawn_trails
         if not shapes:
             return self._names
         return {_FRAMES_PATH: Placed(seen.frames.fixed, 0, shapes, follows=True), **self._names}
+
+    def _go_on(self, frames: FramesNow, now_ns: int) -> None:
+        """Take where the frames are for their trails, and how old they are."""
+        shown = self._choice.of(frames.names) & frames.connected
+        rows = [row for row in _rows(shown) if self._is_trailed(frames.names[row])][:TRAILS_MAX]
+        self._trails.keep([frames.names[row] for row in rows], frames.fixed)
+        for row in rows:
+            place: list[float] = frames.wxyz_xyz[row, 4:].tolist()
+            self._trails.add(frames.names[row], place, now_ns)
+        self._trails.forget_before(now_ns - round(float(self.values["Trail Time"]) * 1e9))
+        ages = tuple(np.nan_to_num(frames.ages_s, posinf=0.0).astype(int).tolist())
+        wanted = ages if self.values[SHOW_AGES] else ()
+        if wanted != self._ages:
+            self._ages, self._seen = wanted, None
+
+    def _is_trailed(self, name: str) -> bool:
+        return bool(self.values.get(f"{TRAILS}/{name}", self.values[TRAILS]))
 
     def _axes(self, seen: _Seen) -> dict[str, Shape]:
         poses, fresh = seen.frames.wxyz_xyz, seen.shown & seen.shades.fresh
@@ -494,6 +507,8 @@ class TfDisplay(Display):
             name = seen.frames.names[row]
             opacity = alpha * float(seen.shades.opacity[row])
             text = name_text(name, float(seen.shades.grey[row]), opacity, height_m)
+            if self._ages:
+                text = self._with_age(text, self._ages[row])
             path = f"{_NAME_PATH}{name}"
             before = self._names.get(path)
             is_same = before is not None and before.shapes["name"] == text
@@ -502,17 +517,34 @@ class TfDisplay(Display):
             )
         return written
 
+    def _with_age(self, text: Text, age_s: int) -> Text:
+        """Write how old a frame is behind its name, the redder the nearer it is to its timeout."""
+        share = min(1.0, age_s / float(self.values["Frame Timeout"]))
+        red, green, blue = (_FRESH + share * (_OLD - _FRESH)).astype(int).tolist()
+        words = f"{text.text} ({age_s} s)" if age_s else text.text
+        return replace(text, text=words, rgb=(red, green, blue))
+
     @property
     def _size(self) -> tuple[float, float]:
         """Scale and opacity."""
         return float(self.values["Marker Scale"]), float(self.values["Marker Alpha"])
 
     def _property(self, name: str) -> Property:
+        if name.startswith(f"{TRAILS}/"):
+            default = self.values.get(TRAILS, False)
+            return Property(name, "switch", default=default, doc="Shows the way of this frame.")
         if not name.startswith(f"{FRAMES}/"):
             return super()._property(name)
         # While an instance is made, the switch of all may not have come yet.
         default = self.values.get(FRAMES, True)
-        return Property(name, "switch", default=default, doc="Shows this frame.")
+        return Property(name, "switch", default=default, doc=self._doc_of(name))
+
+    def _doc_of(self, name: str) -> str:
+        frames = getattr(self, "_frames", None)
+        row = frames.rows.get(name.removeprefix(f"{FRAMES}/")) if frames is not None else None
+        if row is None or row >= len(self._ages):
+            return "Shows this frame."
+        return f"Shows this frame; its oldest transform came {self._ages[row]} s ago."
 
 
 def _hung(seen: _Seen) -> Flags:

@@ -166,6 +166,7 @@ class Document:
             services.wire,
             audience,
         )
+        self.live.use(services.plugins)
         self.selecting = Selecting(self.live.drawn)
         self.feed.is_held = lambda: self.live.is_paused
         self.configs = RvizConfigs(self.live, workspace, data_folder, audience)

@@ -27,7 +27,7 @@ from studio.documents.library import Library
 from studio.documents.links import found_again, link_to, place_edits, read_link
 from studio.documents.services import Services
 from studio.documents.uploads import Uploads
-from studio.errors import CommandError, OutsideRootsError, UnknownDocumentError
+from studio.errors import CommandError, OutsideRootsError, StudioError, UnknownDocumentError
 from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import ConnectionCommands
@@ -104,6 +104,7 @@ class Engine:
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
         self.ros.doctor.document_of = self._seen_document
+        self.ros.doctor.own_link = self._own_link
         self.classroom = classroom or Classroom()
         self.classroom.robot = self.ros
         self.classroom.on_control = self._lent
@@ -236,6 +237,15 @@ class Engine:
     def _seen_document(self, name: str) -> SeenDocument | None:
         document = self.open_now(name)
         return None if document is None else seen_document(document)
+
+    async def _own_link(self, document: str, person: str) -> WireLink | None:
+        """Return the system of a member's own nodes, which a copy of theirs is about."""
+        if not person or owner_of(document) != person:
+            return None
+        try:
+            return await self.classroom.nodes.link(person)
+        except StudioError:  # their nodes may not join now
+            return None
 
     def _lent(self, document: str) -> None:
         """A member has control of a document now."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.description.client import DescriptionWorker
 from studio.live.connection.ros_connection import RosConnection
+from studio.live.displays.plugins import Plugins
 from studio.robot.meshes.library import MeshLibrary
 from studio.robot.worker_client import UrdfValidator, mesh_pool
 
@@ -23,6 +24,7 @@ USED_LATER: Final = (
     "studio.live.displays.marker_servers",
     *("studio.displays.robot_model", "studio.scene.picked_rows"),
     *("studio.live.displays.catalogue_views", "studio.live.displays.topic_views"),
+    "studio.live.displays.plugin_display",
     *("studio.rviz.config", "studio.live.connection.followed_joints"),
     *("studio.live.panels.goal_work", "studio.live.panels.parameter_work"),
     *("studio.live.panels.publication_work", "studio.live.panels.requests"),
@@ -49,6 +51,7 @@ class Services:
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
         self.wire = RosConnection(settings.wire)
+        self.plugins = Plugins(settings.display_folders)
         self._spare = DescriptionWorker()
         self._keeps_warm = False
         """Whether processes are started before they are needed."""
@@ -57,6 +60,7 @@ class Services:
     async def start(self) -> None:
         """Warm the workers in the background, and a spare one after each that is taken."""
         self._keeps_warm = True
+        self.plugins.start()
         self._warm(self._spare.warm())
         self._warm(self._pool.warm())
 
@@ -98,7 +102,7 @@ class Services:
             task.cancel()
         await asyncio.gather(*warming, return_exceptions=True)
         workers = (self._pool.close(), self._spare.close(), self.validator.close())
-        await asyncio.gather(*workers, self.wire.close())
+        await asyncio.gather(*workers, self.wire.close(), self.plugins.close())
 
 
 def _import_rest() -> None:

@@ -144,6 +144,8 @@ class DisplayKindView(Message):
     icon: str
     types: tuple[str, ...]
     """Message types that it shows; none: it subscribes to no topic."""
+    plugin: str
+    """The file that it comes from, if it is the owner's own."""
     properties: tuple[PropertyView, ...]
 
 
@@ -153,13 +155,18 @@ class DisplayKinds(Event):
     type: Literal["display_kinds"] = "display_kinds"
     request: int
     kinds: tuple[DisplayKindView, ...]
+    plugin_faults: dict[str, str]
+    """Why files of the owner's own displays are switched off, by their names."""
 
 
 class PropertyView(Message):
     """A property of a kind of display."""
 
     name: str
-    kind: Literal["switch", "whole", "number", "colour", "choice", "text", "frame", "marker_server"]
+    kind: Literal[
+        "switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact",
+        "marker_server",
+    ]  # fmt: skip
     default: PropertyValue
     doc: str
     low: float | None
@@ -215,6 +222,8 @@ class LiveDisplays(Event):
     """Colour behind the 3D view, as `#rrggbb`; empty: that of the theme."""
     frame_rate: int = 0
     """Pictures of the 3D view per second at most; 0: as many as there can be."""
+    kinds: int = 0
+    """Another number whenever the kinds of displays are others."""
 
 
 class Mend(Message):

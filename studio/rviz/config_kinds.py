@@ -74,14 +74,15 @@ LISTS: Final = {
     "MarkerArray": "Namespaces",
 }
 """Where kinds have a property for each name that messages bring."""
-LINK_PARTS: Final = ("Alpha", "Show Axes")
+LINK_PARTS: Final = ("Alpha", "Show Axes", "Show Trail")
 """What can be set of each link."""
 
 _OURS_ONLY: Final = frozenset({
     ("Axes", "Alpha"), ("Camera", "Max Value"), ("Camera", "Median window"),
     ("Camera", "Min Value"), ("Camera", "Normalize Range"), ("Image", "Alpha"),
     ("Image", "Far clip"), ("Image", "Edge color"),
-    ("TF", "Marker Alpha"), ("TF", "Name Height"), ("Marker", "Namespaces"),
+    ("TF", "Marker Alpha"), ("TF", "Name Height"), ("TF", "Show Ages"), ("TF", "Trails"),
+    ("TF", "Trail Time"), ("Marker", "Namespaces"),
     ("MarkerArray", "Namespaces"), ("RobotModel", "Description Node"),
     ("RobotModel", "Description Parameter"),
 })  # fmt: skip

@@ -171,6 +171,8 @@ class LinkContext:
     joint: Joint | None
     robot: Robot
     shelf: MeshShelf
+    rgb: Rgb | None = None
+    """Of all visuals; None: their own colours."""
 
 
 def visual_nodes(context: LinkContext) -> Nodes:
@@ -185,6 +187,9 @@ def visual_nodes(context: LinkContext) -> Nodes:
 def _visual_node(visual: Visual, context: LinkContext) -> Node | None:
     """Return a visual with its image, if any; until that comes, in its material's colour."""
     geometry, origin, material = visual.geometry, visual.origin, visual.material
+    if context.rgb is not None:
+        style = Style(context.rgb, shadow=False)
+        return geometry_node(geometry, origin, style, context.shelf, own_colors=False)
     if material is not None and material.texture_uri:
         textured = context.shelf.get(textured_uri(geometry, material))
         if textured is not None:
@@ -264,7 +269,7 @@ LAYERS: dict[str, Callable[[LinkContext], Nodes]] = {
 
 def link_nodes(shape: LinkParts, shelf: MeshShelf) -> dict[str, Node]:
     """Return all nodes of a link, flat; meshes that are not loaded yet are left out."""
-    context = LinkContext(shape.link, None, shape.robot, shelf)
+    context = LinkContext(shape.link, None, shape.robot, shelf, shape.rgb)
     shown = {
         "visual": shape.visual,
         "collision": shape.collision,

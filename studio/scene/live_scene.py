@@ -133,6 +133,11 @@ class LiveDisplay:
             self._put(path, name, self._draw(self._groups[path].shapes.get(name), shape))
         return True
 
+    @property
+    def has_waiting(self) -> bool:
+        """Whether pictures have to wait for another tick."""
+        return bool(self._waiting)
+
     def _changed(self, drawing: Drawing) -> tuple[dict[str, dict[str, _Drawn]], _Waiting]:
         """Return what to put now, by path and name, and what has to wait; change nothing."""
         changed: dict[str, dict[str, _Drawn]] = {}
@@ -250,6 +255,8 @@ class LiveScene:
         self._displays: dict[str, LiveDisplay] = {}
         self._hidden: set[str] = set()
         self._removed = 0
+        self._has_encoded = False
+        """Whether as many pictures were encoded since the last tick as one has time for."""
 
     def apply(self, display_id: str, drawing: Drawing, poses: Poses) -> None:
         """Draw another state of a display in one atomic batch; ask for missing meshes afterwards.
@@ -271,6 +278,7 @@ class LiveScene:
                 display = LiveDisplay(self._graph, display_id, self._shelves, visible=visible)
                 self._displays[display_id] = display
             self._forget(display.apply(drawing, poses))
+        self._has_encoded |= display.has_waiting
         self._tidy_meshes()
 
     def place(self, display_id: str, poses: Poses) -> None:
@@ -279,8 +287,13 @@ class LiveScene:
             display.place(poses)
 
     def draw_waiting(self) -> None:
-        """Draw one more of the pictures that had to wait; call it every tick."""
-        any(display.draw_waiting() for display in self._displays.values())
+        """Draw one more of the pictures that had to wait; call it every tick.
+
+        Not in a tick in which others were drawn: to encode one takes 20 ms.
+        """
+        if not self._has_encoded:
+            any(display.draw_waiting() for display in self._displays.values())
+        self._has_encoded = False
 
     def drop(self, display_id: str) -> None:
         """Remove a display; it need not be there."""

@@ -190,10 +190,11 @@ def grid(cell_m: float, extent_m: float, height_m: float, *, shadow: bool, visib
 
 @dataclass
 class PointCloudProps(_messages.PointCloudProps):
-    """Points that may be see-through, and of one size on the screen: in pixels, if not 0."""
+    """Points, see-through or of a size in pixels (if not 0), or larger the larger their z is."""
 
     studio_opacity: float = 1.0
     studio_point_px: float = 0.0
+    studio_size_by_z: bool = False
 
 
 @dataclass
@@ -226,9 +227,10 @@ class GlbProps(_messages.GlbProps):
 
 @dataclass
 class CameraFrustumProps(_messages.CameraFrustumProps):
-    """A frustum whose picture may be see-through."""
+    """A frustum whose picture may be see-through; or the view of a camera, of a page's own."""
 
     studio_opacity: float = 1.0
+    studio_camera: dict[str, Any] | None = None
 
 
 @dataclass

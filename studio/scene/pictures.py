@@ -18,7 +18,7 @@ from studio.tf.rotations import turned
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from studio.displays.drawing import Frustum, Picture
+    from studio.displays.drawing import CameraView, Frustum, Picture
 
 _SIGNATURE: Final = b"\x89PNG\r\n\x1a\n"
 _DEPTH, _INDEXED = 8, 3
@@ -168,6 +168,34 @@ def frustum_of(shape: Frustum, stream: str) -> Node:
         return Node(_messages.CameraFrustumMessage, {**props, "_image_data": None})
     data: dict[str, NDArray[Any]] = {"_image_data": _jpeg(shape.image)}
     return Node(_messages.CameraFrustumMessage, props, stream=stream, flowing=data)
+
+
+def camera_of(shape: CameraView, stream: str) -> Node:
+    """Return the view of a camera: the page takes its picture out, and nothing else is seen."""
+    props: dict[str, Any] = {
+        "fov": 1.0,
+        "aspect": 1.0,
+        "thickness": _EDGE_PX,
+        "thickness_units": "screen",
+        "color": (0, 0, 0),
+        "_format": "jpeg",
+        "cast_shadow": False,
+        "receive_shadow": False,
+        "variant": "wireframe",
+        "scale": 1e-6,
+        "studio_camera": {
+            "lens": None if shape.lens is None else list(shape.lens),
+            "rendering": shape.rendering,
+            "overlay_alpha": shape.overlay_alpha,
+            "zoom": shape.zoom,
+            "near_m": shape.near_m,
+            "far_m": shape.far_m,
+            "hidden": list(shape.hidden),
+        },
+    }
+    data: dict[str, NDArray[Any]] = {"_image_data": _jpeg(shape.image)}
+    kind = _messages.CameraFrustumMessage
+    return Node(kind, props, visible=False, stream=stream, flowing=data)
 
 
 def _jpeg(image: NDArray[np.uint8]) -> NDArray[np.uint8]:

@@ -12,6 +12,7 @@ from studio.displays.drawing import (
     BODIES_MAX,
     Arrows,
     Axes,
+    CameraView,
     Frustum,
     GridLines,
     Lines,
@@ -28,7 +29,7 @@ from studio.errors import SceneError
 from studio.scene import node
 from studio.scene.link_nodes import MISSING_SIZE_M, MISSING_STYLE, MeshShelf, link_nodes
 from studio.scene.node import Node, Style
-from studio.scene.pictures import EncodedShelf, frustum_of, tiles_of
+from studio.scene.pictures import EncodedShelf, camera_of, frustum_of, tiles_of
 from studio.scene.solids import arrows_of, linear, many_of
 from studio.scene.surfaces import surface_of
 
@@ -75,8 +76,10 @@ def nodes_of(shape: Shape, stream: str, shelves: Shelves) -> dict[str, Node]:
             return _text(shape)
         case Picture():
             return tiles_of(shape, shelves.encoded)
-        case Frustum():
-            return {"frustum": frustum_of(shape, stream)}
+        case Frustum() | CameraView():
+            is_view = isinstance(shape, CameraView)
+            made = camera_of(shape, stream) if is_view else frustum_of(shape, stream)
+            return {"camera" if is_view else "frustum": made}
         case GridLines():
             return _grid(shape)
         case _:
@@ -153,6 +156,7 @@ def _points(shape: Points, stream: str) -> dict[str, Node]:
         "point_shape": "circle" if shape.style == "spheres" else "square",
         "point_shading": "gradient" if shape.style in {"spheres", "squares"} else "flat",
         "studio_point_px": shape.size_px,
+        "studio_size_by_z": shape.size_by_z,
         "precision": "float32" if shape.precise else "float16",
         "scale": 1.0,
         "studio_opacity": shape.opacity,
@@ -177,6 +181,8 @@ def _as_bodies(shape: Points) -> Solids:
     upright = np.zeros((count, 4), np.float32)
     upright[:, 0] = 1
     sizes = np.full((count, 3), shape.size_m, np.float32)
+    if shape.size_by_z:
+        sizes *= np.abs(shape.positions[:, 2:3])
     sizes[:, 2] *= _THICKNESS[shape.style]
     return Solids("box", shape.positions, upright, sizes, shape.colors, shape.opacity)
 

@@ -37,6 +37,7 @@ from studio.server.credentials import Credentials, cookie_key
 from studio.server.front import Front
 from studio.server.origin import KnownHosts, is_loopback
 from studio.server.ports import (
+    FULL_SCREEN,
     bind,
     lan_addresses,
     page_address,
@@ -378,7 +379,7 @@ class _Visit:
         opening, one = self._opening, self._engine.document(document)
         if opening.view is not None:
             opened = await one.configs.open_path(opening.view)
-            kept = ", ".join(dict.fromkeys(each.what for each in opened.losses if not each.names))
+            kept = ", ".join(each.what for each in opened.losses if each.reason in _SAID_OF_A_VIEW)
             if kept:
                 _warn(f"{opened.name} is shown; what is not here is only kept: {kept}.")
         if opening.fixed_frame:
@@ -399,8 +400,8 @@ class _Visit:
         self._window.show(f"{address}&{FULL_SCREEN}" if self._opening.fullscreen else address)
 
 
-FULL_SCREEN: Final = "fullscreen=1"
-"""Has the page begin with the 3D view alone; `app/main.js` reads it."""
+_SAID_OF_A_VIEW: Final = ("no_display", "no_tool", "no_view", "no_panel")
+"""What of an `.rviz` file a terminal names; the page tells all."""
 
 
 def invitation(classroom: Classroom) -> list[str]:

@@ -12,6 +12,8 @@ from studio.settings import DEFAULT_PORT, LOOPBACK_HOSTS
 
 CODE: Final = "code"
 """The part of an address that holds a one-time code."""
+FULL_SCREEN: Final = "fullscreen=1"
+"""Has the page begin with the 3D view alone; `app/main.js` reads it."""
 _PORTS_TRIED: Final = 100
 
 

@@ -22,6 +22,7 @@ from studio.server.commands import ControlLane
 from studio.server.data_lane import DataLane
 from studio.server.pages import studio_page
 from studio.server.policy import SCENE_POLICY, WORKER_POLICY
+from studio.server.ports import FULL_SCREEN
 from studio.server.surface import OpenDocuments, OpenScene
 from studio.server.websocket import Lane
 
@@ -98,12 +99,14 @@ class Site:
         app.add_api_websocket_route("/data", self.data)
         app.add_api_websocket_route("/d/{document}/viser", self.scene)
 
-    async def home(self) -> Response:
+    async def home(self, request: Request) -> Response:
         """Redirect to the default document; serve the page itself while there is none."""
         document = self._engine.default_document
         if document is None:
             return studio_page(self._assets.current(), self._base)
-        return RedirectResponse(f"{self._base}/d/{document}", HTTPStatus.SEE_OTHER)
+        name, _, value = FULL_SCREEN.partition("=")
+        more = f"?{FULL_SCREEN}" if request.query_params.get(name) == value else ""
+        return RedirectResponse(f"{self._base}/d/{document}{more}", HTTPStatus.SEE_OTHER)
 
     async def page(self, document: str) -> Response:
         """Return the studio's page for one document."""

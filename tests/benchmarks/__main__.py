@@ -18,6 +18,7 @@ from tests.benchmarks import (
     edit_to_websocket,
     evaluator,
     fan_out,
+    large,
     line,
     live_clouds,
     live_scene,
@@ -25,6 +26,7 @@ from tests.benchmarks import (
     memory,
     meshes_to_websocket,
     page,
+    rounds,
     start,
     tf,
     wire,
@@ -47,6 +49,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "line": line.run,
     "live": live_scene.run,
     "clouds": live_clouds.run,
+    "large": large.run,
     "meshes": meshes_to_websocket.run,
     "tf": tf.run,
     "wire": wire.run,
@@ -60,7 +63,8 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
 
 def main(arguments: list[str]) -> int:
     """Run the named ones; answers the exit code."""
-    names, minutes = _read(arguments)
+    options = _read(arguments)
+    names, minutes = options.names, options.minutes
     unknown = [name for name in names if name not in BENCHMARKS]
     if unknown:
         say(f"There is no benchmark {unknown[0]}: choose of {', '.join(BENCHMARKS)}.")
@@ -71,16 +75,21 @@ def main(arguments: list[str]) -> int:
         say(f"\n[{name}]")
         runs[name]()
     say_verdicts()
+    rounds.say_beside_last(rounds.figures())
+    if options.keep:
+        say(f"\nkept in {rounds.keep(options.keep, rounds.figures())}")
     return 0
 
 
-def _read(arguments: list[str]) -> tuple[list[str], float]:
-    """The names, and for how many minutes memory is watched."""
+def _read(arguments: list[str]) -> argparse.Namespace:
+    """The names, for how many minutes memory is watched, and the round to keep the figures as."""
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks")
     parser.add_argument("names", nargs="*")
     parser.add_argument("--minutes", type=float, default=1.0, help="for which memory is watched")
-    options = parser.parse_args(arguments)
-    return options.names, options.minutes
+    parser.add_argument(
+        "--keep", default="", metavar="ROUND", help="write the figures as a round's"
+    )
+    return parser.parse_args(arguments)
 
 
 if __name__ == "__main__":

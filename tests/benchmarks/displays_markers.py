@@ -46,7 +46,7 @@ def run() -> None:
 def _measure(title: str, markers: list[Any], moves: int = _MOVES) -> float:
     """Take and draw messages one after another; the median in ms."""
     display, codec = MarkerArrayDisplay(TYPES), MarkerCodec()
-    messages = cycle(_moved(array_of(*markers), moves))
+    messages = cycle(moved(array_of(*markers), moves))
     display.take(next(messages))
     display.draw(0)
     whole, decode = Timings(title), Timings("decode")
@@ -62,7 +62,8 @@ def _measure(title: str, markers: list[Any], moves: int = _MOVES) -> float:
     return whole.median_ms
 
 
-def _moved(first: Received, moves: int) -> Iterable[Received]:
+def moved(first: Received, moves: int) -> Iterable[Received]:
+    """Yield the same markers again, each time a step further."""
     codec = MarkerCodec()
     columns = codec.decode(first.cdr)
     for move in range(moves):

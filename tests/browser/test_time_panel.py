@@ -107,5 +107,6 @@ def pause_and_go_on(tab: StudioPage, teller: Teller) -> None:
     before = received(tab)
     wait_until("messages of the pause", lambda: received(tab) > before + 5)
     assert shows(tab, "ros", "512.00")()
-    notice.get_by_role("button", name="Continue").click()
+    notice.get_by_role("button", name="Continue").wait_for()
+    tab.page.locator(".time-panel").get_by_role("button", name="Continue").click()
     wait_until("the time of now", shows(tab, "ros", "530.00"))

@@ -142,12 +142,11 @@ def use_the_cube(views: Views) -> None:
 
 
 def use_the_keys(views: Views) -> None:
-    flat = views.page.get_by_role("button", name="Orthographic: without perspective")
-    views.page.locator(".views-kind").click(position={"x": 4, "y": 4})
+    words = "Orthographic: without perspective"
+    views.page.locator(".views-shelf h3").first.click()  # out of all boxes
     views.page.keyboard.press("5")
     wait_until("no perspective", lambda: views.page.evaluate(TURN)["flat"])
-    assert flat.get_attribute("aria-pressed") == "true"
-    flat.click()
+    views.page.get_by_role("button", name=words, pressed=True).click()
     wait_until("perspective", lambda: not views.page.evaluate(TURN)["flat"])
     views.page.keyboard.press("z")
     views.until("Distance", 10.0)

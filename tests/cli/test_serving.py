@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.cli.serving import add_server_options, server_settings
+from studio.errors import SettingsError
 from studio.settings import WireChoice
 from tests.support.command_line import studio
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from pathlib import Path
 
 
 def parsed(*words: str) -> Namespace:
@@ -43,3 +45,13 @@ def test_a_domain_that_is_none_is_a_wrong_command_line(
         parsed("--domain", domain)
     assert ended.value.code == 2
     assert "--domain" in capsys.readouterr().err
+
+
+def test_folders_of_displays_come_from_the_command_line_alone(tmp_path: Path):
+    folder = tmp_path / "own"
+    folder.mkdir()
+    words = ("--displays", str(folder), "--displays", str(tmp_path))
+    assert server_settings(parsed(*words)).display_folders == (folder, tmp_path)
+    assert server_settings(parsed()).display_folders == ()
+    with pytest.raises(SettingsError, match="gone is none"):
+        server_settings(parsed("--displays", str(tmp_path / "gone")))

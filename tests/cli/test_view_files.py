@@ -92,6 +92,8 @@ def test_a_view_is_shown_with_its_robot_in_the_frame_of_the_command_line(tmp_pat
         assert running.line.endswith("&fullscreen=1")
         wait_until("the losses", lambda: "MotionPlanning" in running.stderr)
         with running.client() as client:
+            assert client.get("/?fullscreen=1&more=2").url.query == b"fullscreen=1"
+            assert client.get("/?more=2").url.query == b""
             (document,) = client.get("/api/documents").json()["documents"]
             assert document["title"] == "arm.urdf"
             asked = {"type": "get_rviz_text", "document": document["id"], "request": 1}

@@ -15,6 +15,7 @@ from studio.ros.cdr import Codec
 from tests.support.display_messages import NOW_NS, STAMP, TYPES, encoded
 from tests.support.display_samples import SAMPLES, Sample, headed
 from tests.support.drawn import assert_drawable, plain
+from tests.support.posed import Posed, seen_arm
 from tests.support.ros_values import values_of
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -54,7 +55,7 @@ def test_its_messages_are_known_and_its_properties_are_told_in_sentences(display
     for one in display.PROPERTIES:
         assert SENTENCE.fullmatch(one.doc), one.name
         assert one.checked(one.default) == one.default
-        assert one.kind == "choice" or not one.choices
+        assert one.kind in ("choice", "topic", "text") or not one.choices
 
 
 @pytest.mark.parametrize("display", DISPLAYS, ids=lambda one: one.KIND)
@@ -93,6 +94,7 @@ def test_every_display_has_a_sample_of_all_its_types(display: type[Display]):
 def drawn_from(sample: Sample, *, little: bool) -> object:
     """What is drawn of a sample, as plain values; of a robot its description, as it was read."""
     made = display_of_kind(sample.kind)(TYPES, sample.values)
+    made.stand(Posed(seen_arm()))
     role_of = {role.topic(sample.topic): role.name for role in made.roles()}
     for topic, (type_name, fields) in sample.messages().items():
         cdr = encoded(type_name, headed(type_name, fields, sample.frame, STAMP), little=little)
@@ -123,7 +125,7 @@ def test_whatever_comes_is_drawn_with_finite_numbers_or_told(
 ):
     """Messages of any values, with numbers anywhere that cannot be drawn, and any properties."""
     settings_of = {one.name: data.draw(st.sampled_from([*one.choices, one.default]))
-                   for one in display.PROPERTIES if one.choices}  # fmt: skip
+                   for one in display.PROPERTIES if one.kind == "choice"}  # fmt: skip
     switches = {one.name: data.draw(st.booleans())
                 for one in display.PROPERTIES if one.kind == "switch"}  # fmt: skip
     made = display(TYPES, settings_of | switches)

@@ -1,16 +1,19 @@
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from studio.displays import robot_model
 from studio.displays.display import Received
-from studio.displays.drawing import NOTHING, Axes, LinkParts
+from studio.displays.drawing import NOTHING, Arrows, Axes, Lines, LinkParts
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import CdrError, DisplayError, DisplayMessageError, DisplayPropertyError
 from studio.robot.urdf_text import robot_from_urdf
 from studio.robot.values import Link, Origin, Robot, Sphere, Visual
 from studio.ros.cdr import Codec
+from studio.tf.buffer import TransformBuffer
 from tests.support.display_messages import TYPES
+from tests.support.transforms import Told, columns
 
 STRING = "std_msgs/msg/String"
 BALL = Visual(Origin(), Sphere(0.1))
@@ -131,12 +134,16 @@ def test_each_link_that_is_known_has_properties():
     )
     display = rover()
     names = [one.name for one in display.properties()]
-    assert names[-9:-6] == ["Links/base", "Links/base/Alpha", "Links/base/Show Axes"]
+    links = [one for one in names if one.startswith("Links/base")]
+    assert links == [f"Links/base{part}" for part in ("", "/Alpha", "/Show Axes", "/Show Trail")]
+    joints = [one for one in names if one.startswith("Joints/")]
+    assert joints == [f"Joints/{name}" for name in
+                      ("a/Joint", "a/Show Axes", "b/Joint", "b/Show Axes")]  # fmt: skip
     for one in display.properties():
-        assert one.checked(one.default) == one.default
+        assert one.kind == "fact" or one.checked(one.default) == one.default
     names = [f"link{number}" for number in range(5000)]
     display.show(Robot("large", {name: Link(name) for name in names}))
-    assert len(display.properties()) == len(display.PROPERTIES) + 3 * robot_model.LINKS_MAX
+    assert len(display.properties()) == len(display.PROPERTIES) + 4 * robot_model.LINKS_MAX
     assert display.statuses()[0].sentence == "3,000 links are left out: 2,000 are shown at most."
 
 
@@ -233,3 +240,65 @@ def test_settings_that_hide_the_robot_are_told_with_what_shows_it(
     assert status.mend == mend
     display.set(*mend)
     assert display.statuses() == ()
+
+
+ARM = robot_from_urdf(
+    """<robot name="arm"><link name="base"/><link name="hand"/><link name="pole"/>
+    <joint name="turn" type="revolute"><parent link="base"/><child link="hand"/>
+      <origin xyz="1 2 3" rpy="0 0 1.5707963"/><axis xyz="0 2 0"/>
+      <limit lower="-0.5" upper="1.25" effort="1" velocity="1"/></joint>
+    <joint name="mount" type="fixed"><parent link="base"/><child link="pole"/></joint></robot>"""
+)
+
+
+def test_a_joint_says_what_it_is_and_shows_its_axis_where_it_is_mounted():
+    display = RobotModelDisplay(TYPES)
+    display.show(ARM)
+    facts = {one.name: one.default for one in display.properties() if one.kind == "fact"}
+    assert facts == {
+        "Joints/turn/Joint": "revolute, axis 0 2 0, -0.5 to 1.25 rad",
+        "Joints/mount/Joint": "fixed",
+    }
+    assert "Joints/mount/Show Joint Axis" not in {one.name for one in display.properties()}
+    display.set("Joints/turn/Show Joint Axis", value=True)
+    display.set("Joints/turn/Show Axes", value=True)
+    placed = display.draw(0)[" joints/turn"]
+    assert (placed.frame, placed.follows) == ("base", True)
+    assert placed.offset is not None
+    assert placed.offset[1] == (1.0, 2.0, 3.0)
+    assert placed.offset[0] == pytest.approx((2**-0.5, 0, 0, 2**-0.5))
+    arrow, cross = placed.shapes["axis"], placed.shapes["axes"]
+    assert isinstance(arrow, Arrows)
+    assert isinstance(cross, Axes)
+    np.testing.assert_allclose(arrow.ends, [[[0, 0, 0], [0, 0.2, 0]]], atol=1e-6)
+    with pytest.raises(DisplayPropertyError, match="cannot be set"):
+        display.set("Joints/turn/Joint", "prismatic")
+
+
+def test_a_link_leaves_a_trail_of_two_metres():
+    display = RobotModelDisplay(TYPES, {"TF Prefix": "r1"})
+    display.show(ARM)
+    display.set("Links/hand/Show Trail", value=True)
+    assert display.wants_frames
+    buffer = TransformBuffer()
+
+    def go_to(x: float) -> Lines | None:
+        buffer.put(columns(Told("map", "r1/hand", 0, (x, 0.0, 0.0))), static=True)
+        display.see(buffer.all_in("map"))
+        drawing = display.draw(0)
+        assert display.draw(0) is drawing
+        found = drawing[" trails"].shapes["lines"] if " trails" in drawing else None
+        assert found is None or isinstance(found, Lines)
+        return found
+
+    assert go_to(0.0) is None
+    for at in range(1, 40):
+        go_to(at / 10)
+    way = go_to(4.0)
+    assert way is not None
+    assert way.ends[0, 0, 0] == pytest.approx(2.0, abs=1e-5)
+    assert (way.ends[-1, 1, 0], way.width_m) == (4.0, 0.01)
+    assert go_to(4.001) is way
+    display.set("Links/hand/Show Trail", value=False)
+    assert not display.wants_frames
+    assert " trails" not in display.draw(0)

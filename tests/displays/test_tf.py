@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from studio.displays.drawing import Axes, Placed, Solids, Text
+from studio.displays.drawing import Axes, Lines, Placed, Solids, Text
 from studio.displays.tf import NAMES_MAX, TfDisplay
 from studio.errors import DisplayPropertyError
 from studio.tf.buffer import TransformBuffer
@@ -38,7 +38,7 @@ def shown(robot: Robot, **values: Value) -> TfDisplay:
     display = TfDisplay(TYPES)
     for name, value in values.items():
         display.set(name.replace("_", " "), value)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     return display
 
 
@@ -102,7 +102,7 @@ def test_frames_stay_where_they_are_for_as_long_as_is_chosen():
     display = shown(robot, Update_Interval=0.5)
     first = display.draw(S)
     robot.turn(0.0)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     assert display.draw(S + S // 4) is first
     assert sorted(axes_of(display.draw(S + S // 2)).positions.round(6).tolist())[1:] == [
         [2.0, 1.0, 0.0],
@@ -116,10 +116,10 @@ def test_another_setting_fixed_frame_or_a_clock_put_back_is_not_waited_for():
     display.draw(S)
     display.set("Show Names", value=False)
     assert not names_in(display.draw(S))
-    display.show(robot.buffer.all_in("base"))
+    display.see(robot.buffer.all_in("base"))
     assert frames_of(display.draw(S)).frame == "base"
     robot.turn(0.0)
-    display.show(robot.buffer.all_in("base"))
+    display.see(robot.buffer.all_in("base"))
     still = display.draw(S)
     assert display.draw(0) is not still
 
@@ -130,7 +130,7 @@ def test_arrows_of_any_length_are_as_long_as_the_way(distance_m: float, scale: f
     buffer = TransformBuffer()
     buffer.put(columns(Told("a", "b", S, (0.0, 0.0, distance_m))))
     display = TfDisplay(TYPES, {"Marker Scale": scale})
-    display.show(buffer.all_in("a"))
+    display.see(buffer.all_in("a"))
     drawing = display.draw(0)
     assert_drawable(drawing)
     if distance_m < 0.001:
@@ -177,10 +177,10 @@ def test_frames_that_stand_still_are_the_same_drawing_and_names_the_same_objects
     first = display.draw(0)
     robot.clock.now_ns += S
     robot.turn(math.pi / 2)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     assert display.draw(1) is first
     robot.turn(1.0)
-    display.show(robot.buffer.all_in("odom"))
+    display.see(robot.buffer.all_in("odom"))
     moved = display.draw(2)
     assert moved["frames"] is not first["frames"]
     assert moved["names/wheel"] is first["names/wheel"]
@@ -193,7 +193,7 @@ def test_who_creeps_is_drawn_anew_when_he_has_come_far_enough():
     for step in range(1, 101):
         robot.clock.now_ns += S // 100
         robot.turn(math.pi / 2 + step * 1e-7)
-        display.show(robot.buffer.all_in("odom"))
+        display.see(robot.buffer.all_in("odom"))
         drawings[id(display.draw(0))] = display.draw(0)
     assert 3 < len(drawings) < 30
 
@@ -204,7 +204,7 @@ def test_a_frame_without_news_turns_grey_then_fades_then_is_gone():
     def after(age_s: float) -> Drawing:
         display = TfDisplay(TYPES)
         now_ns = robot.clock.now_ns + round(age_s * S)
-        display.show(robot.buffer.all_in("odom", now_ns=now_ns))
+        display.see(robot.buffer.all_in("odom", now_ns=now_ns))
         return display.draw(0)
 
     assert "old_axes" not in after(5.0)["frames"].shapes
@@ -225,7 +225,7 @@ def test_a_frame_without_news_turns_grey_then_fades_then_is_gone():
 def test_an_axis_of_a_faded_cross_lies_along_its_frame():
     robot = Robot()
     display = TfDisplay(TYPES)
-    display.show(robot.buffer.all_in("odom", now_ns=robot.clock.now_ns + 9 * S))
+    display.see(robot.buffer.all_in("odom", now_ns=robot.clock.now_ns + 9 * S))
     old = solids_of(display.draw(0), "old_axes")
     base = [row for row in range(6) if abs(float(old.positions[row, 0]) - 2.0) < 0.15
             and abs(float(old.positions[row, 1]) - 1.0) < 0.15]  # fmt: skip
@@ -255,12 +255,61 @@ def test_frames_are_chosen_by_patterns_and_by_name():
 def test_each_frame_has_a_check_from_when_it_is_there():
     display = TfDisplay(TYPES, {"Frames/base": False})
     fixed = len(display.properties())
-    display.show(Robot().buffer.all_in("odom"))
+    display.see(Robot().buffer.all_in("odom"))
     added = [one.name for one in display.properties()[fixed:]]
-    assert added == [f"Frames/{name}" for name in ("base", "camera", "lens", "odom", "wheel")]
+    every = ("base", "camera", "lens", "odom", "wheel")
+    assert added == [f"{kind}/{name}" for kind in ("Frames", "Trails") for name in every]
     assert names_in(display.draw(0)) == {"odom", "wheel"}
     display.set("Frames", value=False)
-    assert [one.default for one in display.properties()[fixed:]] == [False] * 5
+    assert [one.default for one in display.properties()[fixed:]] == [False] * 10
+
+
+def test_frames_leave_trails_for_as_long_as_is_set():
+    robot = Robot()
+    display = TfDisplay(TYPES, {"Trails/base": True, "Trail Time": 2.0})
+
+    def go_to(x: float, at_s: int) -> Lines | None:
+        told = Told("odom", "base", robot.clock.now_ns, (x, 1.0, 0.0))
+        robot.clock.now_ns += S
+        robot.buffer.put(columns(told))
+        display.see(robot.buffer.all_in("odom"))
+        found = frames_of(display.draw(at_s * S)).shapes.get("trails")
+        assert found is None or isinstance(found, Lines)
+        return found
+
+    assert go_to(2.0, 10) is None
+    way = go_to(3.0, 11)
+    assert way is not None
+    np.testing.assert_allclose(way.ends, [[[2, 1, 0], [3, 1, 0]]])
+    way = go_to(4.0, 12)
+    assert way is not None
+    assert len(way.ends) == 2
+    assert go_to(4.001, 12) is way
+    way = go_to(5.0, 14)
+    assert way is not None
+    np.testing.assert_allclose(way.ends, [[[4, 1, 0], [5, 1, 0]]])
+    display.see(robot.buffer.all_in("base"))
+    assert "trails" not in frames_of(display.draw(14 * S)).shapes
+    display.set("Trails", value=False)
+    assert go_to(6.0, 15) is None
+
+
+def test_ages_are_written_and_coloured_from_green_to_red():
+    robot = Robot()
+    display = shown(robot, Show_Ages=True)
+
+    def name_of(frame: str) -> Text:
+        text = display.draw(0)[f"names/{frame}"].shapes["name"]
+        assert isinstance(text, Text)
+        return text
+
+    assert (name_of("base").text, name_of("base").rgb) == ("base", (90, 220, 130))
+    display.see(robot.buffer.all_in("odom", now_ns=robot.clock.now_ns + 9 * S))
+    fresh, old = name_of("odom"), name_of("base")
+    assert (fresh.text, old.text) == ("odom", "base (9 s)")
+    assert old.rgb[0] > 150 > old.rgb[1]
+    docs = {one.name: one.doc for one in display.properties()}
+    assert docs["Frames/base"] == "Shows this frame; its oldest transform came 9 s ago."
 
 
 def test_a_pattern_that_is_none_is_refused_and_the_former_stays():
@@ -286,7 +335,7 @@ def test_why_no_frame_is_seen_is_told_with_what_mends_it(
     values: dict[str, Value], status: tuple[str, str]
 ):
     display = TfDisplay(TYPES, values)
-    display.show(Robot().buffer.all_in("odom"))
+    display.see(Robot().buffer.all_in("odom"))
     assert display.draw(0) == {}
     assert said(display) == [status]
     (told,) = display.statuses()
@@ -310,7 +359,7 @@ def test_before_any_transform_came_that_is_told():
     display = TfDisplay(TYPES)
     assert display.draw(0) == {}
     assert said(display) == [("warn", "empty")]
-    display.show(Robot().buffer.all_in("odom"))
+    display.see(Robot().buffer.all_in("odom"))
     assert display.draw(0)
     display.reset()
     assert display.draw(0) == {}
@@ -321,7 +370,7 @@ def test_many_frames_are_drawn_and_so_many_names_are_written():
     count = 3 * NAMES_MAX
     buffer.put(columns(*(Told("map", f"f{at}", S, (float(at), 0.0, 0.0)) for at in range(count))))
     display = TfDisplay(TYPES)
-    display.show(buffer.all_in("map"))
+    display.see(buffer.all_in("map"))
     drawing = display.draw(0)
     assert len(axes_of(drawing).positions) == count + 1
     assert len(names_in(drawing)) == NAMES_MAX
@@ -333,7 +382,7 @@ def test_places_at_the_end_of_the_world_are_drawn_or_left_out():
     for at in range(3):
         buffer.put(columns(Told(f"f{at}", f"f{at + 1}", S, (1e12, -1e12, 1e12))))
     display = TfDisplay(TYPES)
-    display.show(buffer.all_in("f0"))
+    display.see(buffer.all_in("f0"))
     assert_drawable(display.draw(0))
 
 

@@ -101,7 +101,7 @@ test("points of a size in metres are three pixels wide at least, on a fine scree
   hooks.read({ type: "PointCloudMessage", name: "/live/1/scan/a.points", props: {} });
   hooks.draw();
   const { uniforms, vertexShader } = /** @type {any} */ (points);
-  assert.match(vertexShader, /max\(scale \/ gl_Position\.w, studioLeastPixels\)/);
+  assert.match(vertexShader, /max\(scale \* .* \/ gl_Position\.w, studioLeastPixels\)/);
   assert.deepEqual([uniforms.studioPixels.value, uniforms.studioLeastPixels.value], [0, 6]);
 });
 

@@ -38,6 +38,13 @@ test("twenty-five pictures a second are enough", () => {
   assert.deepEqual(draw(begun(), { from: 0, every: 40, lasting: 20_000 }), []);
 });
 
+test("ten pictures a second are enough where no more than that are wanted", () => {
+  const pace = begun();
+  pace.slowBelow_hz = 6;
+  assert.deepEqual(draw(pace, { from: 0, every: 100, lasting: 9000 }), []);
+  assert.equal(draw(pace, { from: 10_000, every: 250, lasting: 9000 }).length, 1);
+});
+
 test("two slow seconds are not long enough", () => {
   const pace = begun();
   assert.deepEqual(draw(pace, { from: 0, every: 100, lasting: 2000 }), []);

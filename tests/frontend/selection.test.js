@@ -55,9 +55,17 @@ test("what is not described any more is gone, and comes back with its next messa
 test("items stand by their display, and their middle is that of all whose place is known", () => {
   const items = [item("d2", "a"), item("d1", "b"), item("d2", "c", { gone: true })];
   assert.deepEqual(
-    rowsOf(items).map(({ id }) => id),
+    rowsOf(items, new Map()).map(({ id }) => id),
     ["d2 ", "d2 a", "d2 c", "d1 ", "d1 b"],
   );
+  const closed = rowsOf(items, new Map([["d2", false]]));
+  assert.deepEqual(
+    closed.map(({ id }) => id),
+    ["d2 ", "d1 ", "d1 b"],
+  );
+  const many = Array.from({ length: 51 }, (_, at) => item("d3", String(at)));
+  assert.equal(rowsOf(many, new Map()).length, 1, "of many the name alone, until it is opened");
+  assert.equal(rowsOf(many, new Map([["d3", true]])).length, 52);
   const moved = item("d1", "b", { view: view("d1", "b", { place: [3, 4, 5] }) });
   assert.deepEqual(middleOf([...items, moved]), [5 / 3, 8 / 3, 11 / 3]);
   assert.equal(middleOf([item("d1", "x", { view: null })]), null);

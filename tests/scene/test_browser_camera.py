@@ -262,16 +262,31 @@ def test_without_perspective_what_is_seen_under_the_mouse_is_what_is_picked(view
     assert view.run("studio3d.linkAt(5, 5)") is None
 
 
+def test_a_joint_is_dragged_without_perspective_as_far_as_the_mouse(view: ScenePage):
+    view.run("(name) => studio3d.setViewValue(name, true)", ORTHOGRAPHIC)
+    view.run("studio3d.view('front')")
+    view.pictures(2)
+    start = view.place_of("finger%2Fleft/visual/0")
+    view.draw_mouse(start, (9, 0))
+    view.page.mouse.up()
+    drag = view.heard("drag")[-1]
+    assert drag["joint"] == "grip"
+    view.pose({"grip": drag["value"]})
+    view.pictures(3)
+    moved = view.place_of("finger%2Fleft/visual/0")
+    assert moved[0] - start[0] == pytest.approx(9, abs=1.0)
+
+
 def test_f_turns_to_what_is_under_the_mouse_and_fits_where_nothing_is(view: ScenePage):
     place = view.place_of("camera/visual/0")
     eye = camera(view)["eye"]
     view.page.mouse.move(*place)
     view.until("studio3d.isPointing()")
-    view.run("studio3d.lookAtPointed()")
+    assert view.run("studio3d.lookAtPointed()")
     assert camera(view)["eye"] == pytest.approx(eye, abs=1e-3)
     assert view.place_of("camera/visual/0") == pytest.approx((WIDTH / 2, HEIGHT / 2), abs=12)
     view.page.mouse.move(5, 5)
-    view.until("!studio3d.isPointing()")
+    view.until("!studio3d.lookAtPointed()")
 
 
 def test_zero_is_rvizs(view: ScenePage):

@@ -305,11 +305,13 @@ def test_of_a_large_map_one_tile_after_the_other_is_drawn_and_none_that_is_outda
             return {name.rpartition("/")[2] for name in told if name.count("/") == 4}
 
         scene.live.apply("1", map_of(a=1, b=1, c=1), {"map": UPRIGHT})
+        scene.live.draw_waiting()  # in the same tick there is no time for another one
         assert tiles_told() == {"a.0-0"}
         scene.live.draw_waiting()
         assert tiles_told() == {"b.0-0"}
         # Of another map all are new, and what waited of the one before is not drawn any more.
         scene.live.apply("1", map_of(b=2, d=2), {"map": UPRIGHT})
+        scene.live.draw_waiting()
         assert tiles_told() == {"a.0-0", "b.0-0"}
         scene.live.draw_waiting()
         assert tiles_told() == {"d.0-0"}

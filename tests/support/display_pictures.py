@@ -60,13 +60,17 @@ class DisplayCommands:
         answer = self._client.post("/api/commands", json={"document": self._document, **command})
         assert answer.is_success, answer.text
 
-    def show(self, sample: Sample) -> list[list[str]]:
-        """Add its display, wait until it is seen or says why not; gives what it says."""
+    def add(self, sample: Sample) -> None:
+        """Add its display behind those that are there."""
         self.ask(type="add_display", kind=sample.kind, topic=sample.topic)
-        (made,) = self._displays()
+        made = self._displays()[-1]
         self.ask(type="arrange_display", display=made, name=sample.name)
         for name, value in sample.values.items():
             self.ask(type="set_display_property", display=made, name=name, value=value)
+
+    def show(self, sample: Sample) -> list[list[str]]:
+        """Add its display, wait until it is seen or says why not; gives what it says."""
+        self.add(sample)
         said: list[list[str]] = []
 
         def is_shown() -> bool:

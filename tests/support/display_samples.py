@@ -147,6 +147,16 @@ def _cloud(*, coloured: bool) -> Fields:
     }
 
 
+def _channels() -> Fields:
+    """A spiral, as an old driver sends it."""
+    angles = np.linspace(0, 6 * math.pi, 900)
+    rows = np.stack([np.cos(angles), np.sin(angles), angles / 20], axis=1)
+    return {
+        "points": [point(*row) for row in rows.tolist()],
+        "channels": [{"name": "intensity", "values": (50 * angles).tolist()}],
+    }
+
+
 def _map() -> Fields:
     """A room with a wall, a round obstacle with a slope around it, and a corner nobody saw."""
     x, y = np.meshgrid(np.linspace(-1.5, 1.5, 120), np.linspace(-1.5, 1.5, 120))
@@ -188,6 +198,29 @@ def _camera() -> Fields:
     k = [140.0, 0.0, 80.0, 0.0, 140.0, 60.0, 0.0, 0.0, 1.0]
     p = [140.0, 0.0, 80.0, 0.0, 0.0, 140.0, 60.0, 0.0, 0.0, 0.0, 1.0, 0.0]
     return {"header": {"frame_id": _CAMERA}, "height": 120, "width": 160, "k": k, "p": p}
+
+
+def _depths(encoding: str) -> Fields:
+    """A wall with a step in it, as a depth camera sees it: in mm, or in m."""
+    x, y = np.meshgrid(np.linspace(-1, 1, 160), np.linspace(-1, 1, 120))
+    depths_m = np.where(np.hypot(x, y) < 0.5, 0.8, 1.2 + 0.2 * x)
+    if encoding == "16UC1":
+        data = (1000 * depths_m).astype("<u2").tobytes()
+        return {"height": 120, "width": 160, "encoding": "16UC1", "step": 320, "data": data}
+    steps = (1000 * depths_m).astype("<u2")
+    file = io.BytesIO()
+    Image.fromarray(steps).save(file, "PNG")
+    return {"format": "16UC1; compressedDepth png", "data": bytes(12) + file.getvalue()}
+
+
+_WAVE: Fields = {
+    "joint_names": ["arm_turret_joint", "arm_shoulder_joint", "arm_elbow_joint"],
+    "points": [
+        {"positions": [0.5 * at - 1.0, 0.3 * at, -0.2 * at],
+         "time_from_start": {"sec": at, "nanosec": 500_000_000}}
+        for at in range(5)
+    ],
+}  # fmt: skip
 
 
 def _marker(kind: int, at: int, **fields: Any) -> Fields:  # noqa: ANN401
@@ -266,6 +299,8 @@ SAMPLES: tuple[Sample, ...] = (
            {"Style": "Spheres", "Size (m)": 0.015}),
     Sample("cloud_pixels", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=True),
            {"Style": "Points"}),
+    Sample("point_cloud", "PointCloud", "sensor_msgs/msg/PointCloud", _channels(),
+           {"Size (m)": 0.02}),
     Sample("robot_model", "RobotModel", "std_msgs/msg/String", {"data": _CRANE}),
     Sample("cloud_flat", "PointCloud2", "sensor_msgs/msg/PointCloud2", _cloud(coloured=False),
            {"Color Transformer": "FlatColor", "Alpha": 0.4}),
@@ -309,6 +344,23 @@ SAMPLES: tuple[Sample, ...] = (
            beside={"/image/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
     Sample("packed", "Image", "sensor_msgs/msg/CompressedImage", _compressed(), frame=_CAMERA,
            beside={"/packed/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
+    Sample("depth_cloud", "DepthCloud", "sensor_msgs/msg/Image", _depths("16UC1"),
+           {"Color Image Topic": "/depth_cloud/color"}, frame=_CAMERA,
+           beside={"/depth_cloud/camera_info": ("sensor_msgs/msg/CameraInfo", _camera()),
+                   "/depth_cloud/color": ("sensor_msgs/msg/Image", _picture())}),
+    Sample("depth_packed", "DepthCloud", "sensor_msgs/msg/CompressedImage", _depths("png"),
+           {"Axis": "X"}, frame=_CAMERA,
+           beside={"/depth_packed/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
+    Sample("joint_trajectory", "JointTrajectory", "trajectory_msgs/msg/JointTrajectory", _WAVE,
+           {"Show Trail": True, "Color Enabled": True}),
+    Sample("display_trajectory", "DisplayTrajectory", "moveit_msgs/msg/DisplayTrajectory",
+           {"model_id": "rover", "trajectory": [{"joint_trajectory": _WAVE}]},
+           {"Pause": True, "Pause/Place": 0.5}),
+    Sample("camera", "Camera", "sensor_msgs/msg/Image", _picture(), frame=_CAMERA,
+           beside={"/camera/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
+    Sample("camera_packed", "Camera", "sensor_msgs/msg/CompressedImage", _compressed(),
+           frame=_CAMERA,
+           beside={"/camera_packed/camera_info": ("sensor_msgs/msg/CameraInfo", _camera())}),
     Sample("wrench", "Wrench", "geometry_msgs/msg/WrenchStamped",
            {"wrench": {"force": point(0.5, 0.2, 0.6), "torque": point(0.0, 0.3, 0.4)}}),
     Sample("twist", "TwistStamped", "geometry_msgs/msg/TwistStamped",

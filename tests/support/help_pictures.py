@@ -46,12 +46,6 @@ PANELS_WINDOW = (1060, 940)
 DIALOGS_WINDOW = (720, 640)
 CLASS_WINDOW = (800, 760)
 _CLASS_ADDRESS = "http://robots.example:8765/"
-_SAVE_VIEW = """async ([how, name, pitch]) => {
-  const script = document.querySelector('script[type="module"]').src;
-  const views = await import(new URL("../model/views.js", script));
-  if (how === "sharedCount") return views.sharedViews.value.length;
-  await views[how]({ kind: "Orbit", name, values: { Distance: 1.2, Pitch: pitch } });
-}"""
 _NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
 OF_CLASSES = ("people", "class", "own_nodes")
 """The panel and the windows about a class, of which the demo has none."""
@@ -69,12 +63,20 @@ ON_THE_WIRE = sorted(
 runs in the pictures after it, of both themes."""
 NOT_OF_THE_DEMO = {"problems", "displays", *ON_THE_WIRE, *OF_OPERATIONS, *OF_CLASSES}
 _HIGHEST_PX = 380
+BESIDE_THE_SCENE = ("cameraview",)
+"""Panels that the 3D view draws: it has to be there, too."""
 DRAWN_WHOLE = ("graph", "plot")
 """Panels whose drawing fills them: cut off, it would show nothing."""
 _STILL_MS = 1200
 _RUN = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("../lib/commands.js", script))).commandById(id).run();
+}"""
+_ADD_CAMERA = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { addDisplay, liveDisplays } = await import(new URL("../model/live-displays.js", script));
+  if (!liveDisplays.value.some(({ kind }) => kind === "Camera"))
+    await addDisplay("Camera", "/camera/image_raw");
 }"""
 _SHOW_DIALOG = """async (kind) => {
   const script = document.querySelector('script[type="module"]').src;
@@ -186,10 +188,6 @@ def wanted(name: str) -> bool:
 
 def take_panels(camera: Camera) -> None:
     """Each panel in front, cut to it."""
-    if wanted("views"):
-        camera.page.evaluate(_SAVE_VIEW, ["saveOwn", "From above", 1.4])
-        if camera.page.evaluate(_SAVE_VIEW, ["sharedCount", "", 0.0]) == 0:
-            camera.page.evaluate(_SAVE_VIEW, ["saveShared", "Gripper", 0.2])
     camera.page.get_by_role("treeitem", name="upper_arm", exact=True).click()
     for panel in GROUP_OF:
         if wanted(panel) and panel not in NOT_OF_THE_DEMO:
@@ -305,11 +303,30 @@ def select_some(page: Page) -> None:
     page.locator(".selection-facts").first.wait_for()
 
 
+def show_tool(page: Page) -> None:
+    """What is set of one."""
+    tool = page.get_by_role("region", name="2D Goal Pose", exact=True)
+    fold = tool.get_by_role("button", name="2D Goal Pose", exact=True)
+    if fold.get_attribute("aria-expanded") == "false":
+        fold.click()
+    tool.get_by_role("button", name="Topic", exact=True).click()
+    tool.evaluate("one => one.scrollIntoView()")
+
+
+def show_camera(page: Page) -> None:
+    """What the rover's camera sees; of the picture in the other theme the display is there."""
+    page.evaluate(_ADD_CAMERA)
+    page.locator(".cameraview-place canvas").wait_for()
+    page.locator(".cameraview-said").wait_for(state="detached")
+
+
 READY: dict[str, Callable[[Page], None]] = {
+    "cameraview": show_camera,
     "doctor": examine,
     "interfaces": show_type,
     "lessons": show_lesson,
     "selection": select_some,
+    "tools": show_tool,
 }
 """What a panel has to show before its picture is taken."""
 
@@ -332,14 +349,7 @@ def take_wired(browser: Browser, data: Path) -> None:
                     add_displays(tab)
                 look_at_odometry(tab)
                 for panel in filter(wanted, ON_THE_WIRE):
-                    tab.page.evaluate(SHOW_PANEL, panel)
-                    tab.page.evaluate(_RUN, "maximize")
-                    if ready := READY.get(panel):
-                        ready(tab.page)
-                    tab.page.wait_for_timeout(_STILL_MS)
-                    highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
-                    camera.take(panel, tab.page.evaluate(_DOCK_OF, panel), highest_px)
-                    tab.page.evaluate(_RUN, "maximize")
+                    take_wired_panel(camera, panel)
                 if wanted("ros"):
                     tab.page.evaluate(_RUN, "ros")
                     tab.page.locator(".ros-report").wait_for()
@@ -353,6 +363,21 @@ def take_wired(browser: Browser, data: Path) -> None:
                     tab.page.keyboard.press("Escape")
                 if wanted("displays"):
                     take_displays(camera)
+
+
+def take_wired_panel(camera: Camera, panel: str) -> None:
+    """One panel, alone in the window but for those that the 3D view draws."""
+    page, is_alone = camera.page, panel not in BESIDE_THE_SCENE
+    page.evaluate(SHOW_PANEL, panel)
+    if is_alone:
+        page.evaluate(_RUN, "maximize")
+    if ready := READY.get(panel):
+        ready(page)
+    page.wait_for_timeout(_STILL_MS)
+    highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
+    camera.take(panel, page.evaluate(_DOCK_OF, panel), highest_px)
+    if is_alone:
+        page.evaluate(_RUN, "maximize")
 
 
 def take_markers(browser: Browser, data: Path) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from studio.documents.model import JointPositions
 from studio.robot.kinematics import Kinematics
-from studio.robot.values import Joint, JointType, Limit, Link, Origin, Robot
+from studio.robot.values import Box, Joint, JointType, Limit, Link, Origin, Robot, Visual
 
 LIMIT = Limit(lower=-1.0, upper=1.0, effort=1.0, velocity=1.0)
 
@@ -17,6 +17,15 @@ def arm(reach_m: float = 0.5, tip: str = "tip") -> Robot:
     shoulder = Joint("shoulder", JointType.REVOLUTE, "base", "upper", limit=LIMIT)
     mount = Joint("mount", JointType.FIXED, "upper", tip, Origin((reach_m, 0.0, 0.0)))
     return Robot("arm", links, {"shoulder": shoulder, "mount": mount})
+
+
+def seen_arm() -> Robot:
+    """The same, each link a box; its last joint slides."""
+    made = arm()
+    box = (Visual(Origin(), Box((0.1, 0.1, 0.1))),)
+    links = {name: Link(name, visuals=box) for name in (*made.links, "hand")}
+    slide = Joint("slide", JointType.PRISMATIC, "tip", "hand", axis=(0.0, 0.0, 1.0), limit=LIMIT)
+    return Robot("arm", links, {**made.joints, "slide": slide})
 
 
 @dataclass

@@ -4,15 +4,27 @@
 /** @import { Row } from "./tree.js" */
 /** @import { Listening } from "../../model/live-displays.js" */
 
-import { html } from "vendor/preact.js";
+import { html, useEffect, useSignal } from "vendor/preact.js";
+import { asText } from "../../lib/frame-pose.js";
 import { t } from "../../lib/i18n.js";
 import { counts, settingRows } from "../../lib/live-displays.js";
 import { parseNumber } from "../../lib/numbers.js";
 import { PickBox } from "../../lib/pick-box.js";
 import { TextBox } from "../../lib/slider.js";
 import { mayEdit } from "../../model/connection.js";
-import { kinds, listenTo, setProperty, settingOf, topicsNow } from "../../model/live-displays.js";
+import { robot } from "../../model/document.js";
+import {
+  fixedFrame,
+  kinds,
+  listenTo,
+  poseNow,
+  setProperty,
+  settingOf,
+  topicsNow,
+} from "../../model/live-displays.js";
 import { Choice, PropertyEditor } from "../property-editor.js";
+
+const POSE_EVERY_MS = 1000;
 
 /** @param {DisplayView} display @param {number} level @param {(id: string) => boolean} isOpen @returns {Row[]} */
 export function settingsOf(display, level, isOpen) {
@@ -29,21 +41,65 @@ export function settingsOf(display, level, isOpen) {
   const rows = settingRows(counting, (path) => isOpen(idOf(path)));
   return [
     ...(kind.types.length > 0 ? listeningRows(display, kind, level, isOpen) : []),
-    ...rows.map(({ path, label, depth, folds, property }) => ({
-      id: idOf(path),
-      level: level + depth,
-      label,
-      icon: "",
-      hint: property?.doc ?? label,
-      ...(property?.doc && { help: { title: path, text: property.doc } }),
-      expandable: folds,
-      expanded: folds && isOpen(idOf(path)),
-      kind: "setting",
-      ...(property && {
-        controls: () => html`<${Editor} key=${path} display=${display} property=${property} />`,
-      }),
-    })),
+    ...rows.flatMap(({ path, label, depth, folds, property }) => [
+      {
+        id: idOf(path),
+        level: level + depth,
+        label,
+        icon: "",
+        hint: property?.doc ?? label,
+        ...(property?.doc && { help: { title: path, text: property.doc } }),
+        expandable: folds,
+        expanded: folds && isOpen(idOf(path)),
+        kind: "setting",
+        ...(property && {
+          controls: () => html`<${Editor} key=${path} display=${display} property=${property} />`,
+        }),
+      },
+      ...(folds && isOpen(idOf(path)) ? poseRows(display, path, level + depth + 1, idOf) : []),
+    ]),
   ];
+}
+
+const OF_LINK = /^Links\/(?!All Links Enabled$)(.+)$/;
+
+/** Where a link of a robot is, as RViz tells it below the link. @param {DisplayView} display @param {string} path @param {number} level @param {(path: string) => string} idOf @returns {Row[]} */
+function poseRows(display, path, level, idOf) {
+  const link = display.kind === "RobotModel" ? OF_LINK.exec(path)?.[1] : undefined;
+  if (!link) return [];
+  const prefix = String(settingOf(display, "TF Prefix") ?? "").replace(/^\/+|\/+$/g, "");
+  const frame = prefix ? `${prefix}/${link}` : link;
+  return [
+    {
+      id: idOf(`${path}/pose`),
+      level,
+      label: t("live.pose"),
+      icon: "",
+      kind: "setting",
+      hint: t("live.pose.hint", { frame }),
+      controls: () => html`<${Pose} key=${frame} frame=${frame} />`,
+    },
+  ];
+}
+
+/** @param {{frame: string}} props asked for as long as it is seen */
+function Pose({ frame }) {
+  const words = useSignal("");
+  const fixed = fixedFrame.value || (robot.value?.root ?? "");
+  useEffect(() => {
+    let isThere = true;
+    const ask = async () => {
+      const { pose, trouble } = await poseNow(frame, fixed);
+      if (isThere) words.value = pose ? `${asText(pose.xyz)} · ${asText(pose.wxyz)}` : trouble;
+    };
+    ask();
+    const timer = setInterval(() => document.hidden || ask(), POSE_EVERY_MS);
+    return () => {
+      isThere = false;
+      clearInterval(timer);
+    };
+  }, [frame, fixed]);
+  return html`<output class="fact" aria-label=${t("live.pose.hint", { frame })} title=${words.value}>${words.value}</output>`;
 }
 
 /** @param {DisplayView} display @param {DisplayKindView} kind @param {number} level @param {(id: string) => boolean} isOpen @returns {Row[]} */
@@ -85,7 +141,7 @@ function listeningRows(display, kind, level, isOpen) {
   ];
 }
 
-/** @param {DisplayKindView} kind @returns {Promise<string[]>} topics that it shows */
+/** @param {{types: readonly string[]}} kind @returns {Promise<string[]>} topics that it shows */
 async function topicsFor({ types }) {
   const topics = (await topicsNow()) ?? [];
   return topics.filter((one) => one.types.some((type) => types.includes(type))).map(nameOf);

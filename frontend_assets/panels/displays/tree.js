@@ -172,7 +172,7 @@ function TreeRow({ row, place, current, setOpen, onPick }) {
   };
   return html`<div id=${rowId(row.id)} role="treeitem" class=${rowClass(row)} style=${`--level:${row.level}`}
     tabindex=${current ? 0 : -1} aria-level=${row.level} aria-posinset=${place?.at} aria-setsize=${place?.of} aria-label=${rowLabel(row)}
-    aria-expanded=${row.expandable ? row.expanded : null} aria-selected=${isChosen(row)} onClick=${onClick} onFocus=${onPick}
+    aria-expanded=${row.expandable ? row.expanded : null} aria-selected=${isChosen(row)} onClick=${onClick} onFocusIn=${onPick}
     onDblClick=${(/** @type {MouseEvent} */ event) => onDoubleClick(event, row)}
     onContextMenu=${(/** @type {Event} */ event) => openRowMenu(event, row)}
     onPointerEnter=${() => {

@@ -93,7 +93,7 @@ function Tools() {
     <${MenuButton} label=${t("scene.views")} disabled=${off} items=${viewItems}>
       <${Icon} name="views" /><${Icon} name="chevronDown" size=${12} />
     <//>
-    <${IconButton} icon="cube" label=${t("scene.orthographic")} hint=${canFlatten.value ? `${t("scene.orthographic")} (5)` : t("scene.orthographic.always")}
+    <${IconButton} icon="cube" class="orthographic" label=${t("scene.orthographic")} hint=${canFlatten.value ? `${t("scene.orthographic")} (5)` : t("scene.orthographic.always")}
       disabled=${off || !canFlatten.value} pressed=${isFlat.value} onClick=${toggleFlat} />
     <span class="divider"></span>
     <${LayerToggle} name="frames" icon="axes" />
@@ -119,6 +119,12 @@ const viewItems = () => [
     run: () => useKind(kind),
   })),
   { label: t("scene.settings"), heading: true },
+  {
+    label: t("scene.orthographic"),
+    checked: isFlat.value,
+    disabled: !canFlatten.value,
+    run: toggleFlat,
+  },
   {
     label: t("scene.cube"),
     checked: showsCube.value,

@@ -3,7 +3,7 @@
 /** @import { DisplayView, FactView, ItemDetails, ItemRef } from "../../types/wire.d.ts" */
 /** @import { Selected } from "../../model/selected-items.js" */
 
-import { html, useRef } from "vendor/preact.js";
+import { html, useRef, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
 import { language, t } from "../../lib/i18n.js";
 import { LongList } from "../../lib/long-list.js";
@@ -27,13 +27,15 @@ import { notify } from "../../model/view.js";
 import { viewport } from "../../model/viewport.js";
 
 /** @typedef {readonly [number, number, number]} Place */
-/** @typedef {{id: string, display: string, items: Selected[]}} GroupRow */
+/** @typedef {{id: string, display: string, items: Selected[], open: boolean}} GroupRow */
 /** @typedef {{id: string, item: Selected}} ItemRow */
 
 export function SelectionPanel() {
   const items = [...selectedItems.value.values()];
   return html`<section class="panel-body selection" aria-label=${t("panel.selection")}>
-    ${items.length === 0 ? html`<${Nothing} />` : html`<${Bar} items=${items} /><${Notes} /><${Tree} items=${items} />`}
+    ${items.length > 0 && html`<${Bar} items=${items} />`}
+    <${Notes} />
+    ${items.length > 0 ? html`<${Tree} items=${items} />` : html`<${Nothing} />`}
   </section>`;
 }
 
@@ -79,20 +81,31 @@ function Notes() {
 /** @param {{items: Selected[]}} props */
 function Tree({ items }) {
   const list = useRef(/** @type {HTMLElement | null} */ (null));
-  const rows = rowsOf(items);
+  const toggled = useSignal(/** @type {ReadonlyMap<string, boolean>} */ (new Map()));
+  const rows = rowsOf(items, toggled.value);
+  const toggle = (/** @type {GroupRow} */ { display, open }) => {
+    toggled.value = new Map([...toggled.value, [display, !open]]);
+  };
   return html`<div class="scroll selection-tree" role="tree" aria-label=${t("selection.tree")} ref=${list}
     onKeyDown=${(/** @type {KeyboardEvent} */ event) => onKey(event, list.current)}>
     <${LongList} items=${rows} keyOf=${(/** @type {GroupRow | ItemRow} */ { id }) => id} row="var(--row)"
       isKept=${(/** @type {GroupRow | ItemRow} */ { id }) => openItems.value.has(id)}
       draw=${(/** @type {GroupRow | ItemRow} */ row) =>
         "items" in row
-          ? html`<${Group} key=${row.id} row=${row} />`
+          ? html`<${Group} key=${row.id} row=${row} toggle=${() => toggle(row)} />`
           : html`<${Item} key=${row.id} row=${row} />`} />
   </div>`;
 }
 
-/** @param {readonly Selected[]} items @returns {(GroupRow | ItemRow)[]} display by display */
-export function rowsOf(items) {
+/** Of a display with more items only its name is shown at first. */
+const FEW = 50;
+
+/**
+ * @param {readonly Selected[]} items
+ * @param {ReadonlyMap<string, boolean>} toggled displays that were opened or closed by hand
+ * @returns {(GroupRow | ItemRow)[]} display by display
+ */
+export function rowsOf(items, toggled) {
   /** @type {Map<string, Selected[]>} */
   const groups = new Map();
   for (const item of items) {
@@ -100,17 +113,21 @@ export function rowsOf(items) {
     if (group) group.push(item);
     else groups.set(item.ref.display, [item]);
   }
-  return [...groups].flatMap(([display, all]) => [
-    { id: `${display} `, display, items: all },
-    ...all.map((item) => ({ id: idOf(item.ref), item })),
-  ]);
+  return [...groups].flatMap(([display, all]) => {
+    const open = toggled.get(display) ?? all.length <= FEW;
+    const rows = open ? all.map((item) => ({ id: idOf(item.ref), item })) : [];
+    return [{ id: `${display} `, display, items: all, open }, ...rows];
+  });
 }
 
-/** @param {{row: GroupRow}} props */
-function Group({ row: { display, items } }) {
+/** @param {{row: GroupRow, toggle: () => void}} props */
+function Group({ row: { display, items, open }, toggle }) {
   const { name, icon } = groupName(display, liveDisplays.value);
-  return html`<div class="selection-row selection-group" role="treeitem" aria-level="1" aria-expanded="true">
-    <${Icon} name=${icon} size=${14} /><span class="selection-name">${name}</span><span class="muted numbers">${items.length}</span>
+  return html`<div class="selection-row selection-group" role="treeitem" aria-level="1" aria-expanded=${open} aria-label=${name}>
+    <button type="button" class="entry-main selection-button" aria-expanded=${open} onClick=${toggle}>
+      <${Icon} name=${open ? "chevronDown" : "chevronRight"} size=${13} /><${Icon} name=${icon} size=${14} /><span class="selection-name">${name}</span>
+      <span class="muted numbers">${shownCount(items.length)}</span>
+    </button>
     <${RemoveButton} name=${name} refs=${items.map(({ ref }) => ref)} />
   </div>`;
 }
@@ -238,8 +255,8 @@ function onKey(event, list) {
   const keys = {
     ArrowDown: () => focus(buttons[at + 1]),
     ArrowUp: () => focus(buttons[at - 1]),
-    ArrowRight: () => openItem(id, true),
-    ArrowLeft: () => openItem(id, false),
+    ArrowRight: () => setOpen(buttons[at], id, true),
+    ArrowLeft: () => setOpen(buttons[at], id, false),
     Delete: () => {
       focus(buttons[at + 1] ?? buttons[at - 1]);
       const item = selectedItems.value.get(id);
@@ -251,6 +268,12 @@ function onKey(event, list) {
   if (!run || (at < 0 && event.key !== "Escape")) return;
   event.preventDefault();
   run();
+}
+
+/** @param {Element | undefined} button @param {string} id of an item; empty: it is a display's @param {boolean} open */
+function setOpen(button, id, open) {
+  if (id) openItem(id, open);
+  else if (button instanceof HTMLElement && button.ariaExpanded !== String(open)) button.click();
 }
 
 /** @param {Element | undefined} element */

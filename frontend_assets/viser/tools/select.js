@@ -86,7 +86,7 @@ export class Select extends Tool {
   up(spot) {
     const rect = this.#rect;
     this.cancel();
-    if (rect) this.#selectIn(rect, howOf(spot));
+    if (rect) this.#selectWithin(rect, howOf(spot));
     else this.click(spot);
   }
 
@@ -132,7 +132,7 @@ export class Select extends Tool {
   }
 
   /** @param {Rect} rect @param {PickedParts["how"]} how */
-  async #selectIn(rect, how) {
+  async #selectWithin(rect, how) {
     this.#turn += 1;
     const turn = this.#turn;
     const pause = pauses(AT_ONCE_MS);

@@ -8,8 +8,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.description.urdf import urdf_text
+from studio.displays.posed_robot import PosedRobot
 from studio.errors import StudioError
-from studio.live.displays.own_frames import PosedRobot
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import math
-from functools import cache
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from studio.displays.catalogue import DISPLAYS
+from studio.live.displays.plugin_display import PluginDisplay
 from studio.protocol.displays import DisplayKindView, PropertyView
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from studio.displays.display import Display
     from studio.displays.properties import Property
 
 
-@cache
-def kind_views() -> tuple[DisplayKindView, ...]:
-    """Return all kinds, sorted by name."""
-    return tuple(_kind_view(one) for one in sorted(DISPLAYS, key=lambda one: one.KIND.lower()))
+def kind_views(kinds: Iterable[type[Display]]) -> tuple[DisplayKindView, ...]:
+    """Return these kinds, sorted by name."""
+    by_name = sorted(kinds, key=lambda one: one.KIND.rpartition("/")[2].lower())
+    return tuple(map(_kind_view, by_name))
 
 
 def property_view(one: Property) -> PropertyView:
@@ -37,11 +39,13 @@ def property_view(one: Property) -> PropertyView:
     )
 
 
+@lru_cache(maxsize=200)
 def _kind_view(kind: type[Display]) -> DisplayKindView:
     return DisplayKindView(
         kind=kind.KIND,
         doc=kind.DOC,
         icon=kind.ICON,
         types=kind.TOPICS[0].types if kind.TOPICS else (),
+        plugin=kind.FILE.path.name if issubclass(kind, PluginDisplay) else "",
         properties=tuple(map(property_view, kind.PROPERTIES)),
     )

@@ -110,7 +110,8 @@ class DisplayList:
 
     def add(self, kind: str, topic: str = "") -> DisplaySpec:
         """Add one at the end, named after its kind."""
-        return self.put(DisplaySpec("", kind, self._free_name(kind), topic))
+        name = self._free_name(kind.rpartition("/")[2])
+        return self.put(DisplaySpec("", kind, name, topic))
 
     def put(self, spec: DisplaySpec, after: str = "") -> DisplaySpec:
         """Add one with these settings and an id of its own, behind another or at the end.

@@ -18,24 +18,23 @@ from studio.live.displays.document_tools import DocumentTools
 from studio.live.displays.followed_markers import COMMANDS as MARKER_COMMANDS
 from studio.live.displays.followed_markers import FollowedMarkers
 from studio.live.displays.groups import all_groups, group_path
+from studio.live.displays.plugins import Plugins
 from studio.live.displays.saved_views import COMMANDS as VIEW_COMMANDS
 from studio.live.displays.saved_views import SavedViews
 from studio.live.displays.scene_times import COMMANDS as TIME_COMMANDS
 from studio.live.displays.scene_times import SceneTimes
 from studio.live.displays.selecting import AllDrawn
 from studio.live.displays.topic_offers import COMMANDS as TOPIC_COMMANDS
-from studio.live.displays.topic_offers import TopicOffers, first_topic, full_name
+from studio.live.displays.topic_offers import TopicOffers, full_name
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.displays import (
     AddDisplay,
     ArrangeDisplay,
     ArrangeGroup,
-    DisplayKinds,
     DisplayStates,
     DuplicateDisplay,
     FollowFrame,
     FrameFollowed,
-    GetDisplayKinds,
     GetTf,
     LiveDisplays,
     RemoveDisplay,
@@ -50,7 +49,7 @@ from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Visitor
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from studio.displays.properties import Value
     from studio.live.connection.ros_connection import RosConnection
@@ -104,6 +103,8 @@ class DocumentDisplays:
     ) -> None:
         self._robot, self._meshes, self._reader = robot, meshes, reader
         self._file, self._wire, self._audience = file, wire, audience
+        self._plugins = Plugins()
+        self._unwatch: Callable[[], None] = lambda: None
         self._list = DisplayList()
         self._beside = KeptDisplays()
         """What is kept beside the displays: options of the view, and an opened config."""
@@ -128,6 +129,11 @@ class DocumentDisplays:
         """Called when displays were added, removed or changed."""
         self.on_change: Callable[[], object] = lambda: None
         """Called after any change of what is kept."""
+
+    def use(self, plugins: Plugins) -> None:
+        """Have the owner's displays, too; to be called before any is made."""
+        self._plugins, self._unwatch = plugins, plugins.on_change(self._plugins_changed)
+        self.offers.plugins = plugins
 
     @property
     def kept(self) -> KeptDisplays:
@@ -199,7 +205,7 @@ class DocumentDisplays:
             from studio.live.displays.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
             from studio.live.displays.robot_models import RobotModels  # noqa: PLC0415
 
-            self._made = DrawingRoom(self._robot, self._meshes, self._wire.topics)
+            self._made = DrawingRoom(self._robot, self._meshes, self._wire.topics, self._plugins)
             self._robots = RobotModels(self._robot, self._wire.topics, self._reader)
         return self._made
 
@@ -225,11 +231,7 @@ class DocumentDisplays:
 
     def _restore_one(self, spec: DisplaySpec) -> None:
         added = self._list.put(spec)
-        try:
-            self._room.open(added)
-        except StudioError as error:
-            self._list.remove(added.id)
-            _log.warning("The display %s was left out: %s", spec.name, error)
+        self._room.open(added, is_kept=True)
 
     def events(self) -> Iterable[Event]:
         """Yield the events for a new page; with a page there, displays are drawn again."""
@@ -244,9 +246,10 @@ class DocumentDisplays:
 
     async def add(self, command: AddDisplay) -> None:
         """Add a display; with a topic, the connection is made if there is none."""
-        topic = full_name(command.topic) or first_topic(command.kind)
+        kind = self._plugins.of_kind(command.kind)
+        topic = full_name(command.topic) or kind.FIRST_TOPIC
         spec = self._list.add(command.kind, topic)
-        if settings := _settings_for(command.kind, topic):
+        if settings := kind.settings_for(topic):
             spec = replace(spec, topic="", values=settings)
             self._list.change(spec)
         try:
@@ -290,7 +293,7 @@ class DocumentDisplays:
 
     def duplicate(self, command: DuplicateDisplay) -> None:
         """Add one like another."""
-        self._room.open(self._list.duplicate(command.display))
+        self._room.open(self._list.duplicate(command.display), is_kept=True)
         self._changed()
 
     def arrange(self, command: ArrangeDisplay) -> None:
@@ -335,7 +338,7 @@ class DocumentDisplays:
         old = None
         if spec.topic != before.topic:
             old = self._room.close(spec.id)
-            self._room.open(spec)
+            self._room.open(spec, is_kept=True)
         self._change(spec)
         if old is not None:
             old.close()
@@ -372,12 +375,6 @@ class DocumentDisplays:
         """Return what is drawn in the scene, for those who point at it."""
         frames = self._room.frames
         return AllDrawn(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
-
-    def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
-        """Return the kinds of displays."""
-        from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
-
-        return DisplayKinds(request=command.request, kinds=kind_views())
 
     async def tf(self, command: GetTf) -> TfFrames:
         """Return all frames, and the pose of one in another; subscribes to TF for a while."""
@@ -434,6 +431,7 @@ class DocumentDisplays:
     async def close(self) -> None:
         """Draw nothing more."""
         self._closed = True
+        self._unwatch()
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
@@ -444,6 +442,17 @@ class DocumentDisplays:
         if self._made is not None:
             self._made.close_all()
         await self._keeper.close()
+
+    async def _plugins_changed(self, kinds: frozenset[str]) -> None:
+        """Begin anew with the displays of kinds that came, changed or went."""
+        for spec in self._list:
+            if spec.kind in kinds and (old := self._room.close(spec.id)) is not None:
+                self._room.open(spec, is_kept=True)
+                old.close()
+        self._show_and_hide()
+        self._checked_s = 0.0
+        self._send_displays()
+        self._go_on()
 
     async def _connect(self) -> None:
         """Ensure a connection; if there is none, the displays' states say why."""
@@ -557,6 +566,7 @@ class DocumentDisplays:
             displays=tuple(self._room.view(spec) for spec in self._list),
             groups_off=self._list.groups_off,
             fixed_frame=self._fixed_frame,
+            kinds=self._plugins.generation,
             paused=self.is_paused,
             background=self._beside.background,
             frame_rate=self._beside.frame_rate,
@@ -580,7 +590,6 @@ COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
 COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c.frame))
-COMMANDS.viewer(GetDisplayKinds, lambda displays, c, _: displays.kinds(c))
 COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
 COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
 COMMANDS.include(MARKER_COMMANDS, lambda displays, _: displays.markers)
@@ -588,10 +597,3 @@ COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
 COMMANDS.include(TIME_COMMANDS, lambda displays, _: displays.times)
 COMMANDS.include(TOOL_COMMANDS, lambda displays, _: displays.tools)
 COMMANDS.include(TOPIC_COMMANDS, lambda displays, _: displays.offers)
-
-
-def _settings_for(kind: str, topic: str) -> Mapping[str, Value]:
-    """Return the properties by which a new display of a kind shows a topic; empty: by its topic."""
-    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
-
-    return display_of_kind(kind).settings_for(topic)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.display import Status, TopicRole
-from studio.displays.tf import TfDisplay
-from studio.errors import CommandError, SceneError
+from studio.displays.failed import FailedDisplay
+from studio.displays.posed_robot import PosedRobot
+from studio.errors import CommandError, DisplayError, SceneError
 from studio.live.displays.catalogue_views import property_view
 from studio.live.displays.followed_frames import FollowedFrames
-from studio.live.displays.own_frames import PosedRobot
+from studio.live.displays.plugin_display import MissingDisplay
+from studio.live.displays.plugins import PREFIX
 from studio.live.displays.reasons import remarks_on
 from studio.live.displays.running import RunningDisplay
 from studio.live.displays.scene_frames import STILL, SceneFrames
@@ -34,9 +37,11 @@ if TYPE_CHECKING:
     from studio.displays.drawing import Pose
     from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
     from studio.live.displays.placing import Shown
+    from studio.live.displays.plugins import Plugins
     from studio.live.topics.request import Fit
     from studio.live.topics.source import TopicSource
     from studio.protocol.roles import Visitor
+    from studio.ros.types.library import TypeLibrary
     from studio.scene import DocumentScene
 
 _MORE_MAX: Final = 500
@@ -73,11 +78,15 @@ class Meshes(Protocol):
 class DrawingRoom:
     """Steps every display that is shown and applies what it draws."""
 
-    def __init__(self, robot: ShownRobot, meshes: Meshes, source: TopicSource) -> None:
-        self._scene, self._meshes, self._source = robot.scene, meshes, source
+    def __init__(
+        self, robot: ShownRobot, meshes: Meshes, source: TopicSource, plugins: Plugins
+    ) -> None:
+        self._plugins = plugins
+        self._robot, self._scene, self._meshes, self._source = robot, robot.scene, meshes, source
         self._epoch = source.epoch
         self.frames = SceneFrames(robot, source)
         self._running: dict[str, RunningDisplay] = {}
+        self._names: dict[str, str] = {}
         self._faults: dict[str, str] = {}
         self._seen: frozenset[str] = frozenset()
         self._followed = FollowedFrames(robot.scene.live)
@@ -88,13 +97,29 @@ class DrawingRoom:
         self._robot_at: Pose = STILL
         self._robot_trouble = ""
 
-    def open(self, spec: DisplaySpec) -> None:
+    def open(self, spec: DisplaySpec, *, is_kept: bool = False) -> None:
         """Start a display.
 
+        Args:
+            spec: Its settings.
+            is_kept: Whether it was there before: then one whose kind is not here keeps its place.
+
         Raises:
-            DisplayError: There is no such kind, or it does not take the values.
+            DisplayError: There is no such kind.
         """
-        self._running[spec.id] = RunningDisplay(spec, shared_types())
+        types = shared_types()
+        self._running[spec.id] = RunningDisplay(spec, self._made(spec, types, is_kept=is_kept))
+
+    def _made(self, spec: DisplaySpec, types: TypeLibrary, *, is_kept: bool) -> Display:
+        """Return the display of a spec; for one of an `.rviz` file that is not here, why not."""
+        if spec.entry and "/" in spec.kind and not spec.kind.startswith(PREFIX):
+            return FailedDisplay(types, spec.kind)
+        try:
+            return self._plugins.of_kind(spec.kind)(types)
+        except DisplayError:
+            if not is_kept:
+                raise
+            return MissingDisplay(types, partial(self._plugins.why_not, spec.kind))
 
     def get(self, display: str) -> RunningDisplay:
         """Return the one of an id.
@@ -207,12 +232,23 @@ class DrawingRoom:
                 running.forget()
         shown = self._shown_of(displays)
         self._show_frames(running.display for running in shown.values())
+        names = self._names_of(displays)
+        for display, running in shown.items():
+            running.display.stand(self._robot)
+            running.display.beside(names, display)
         if self._held is None:
             self._place_robot()
             self._followed.step(self.frames.lookup, now_ns)
         for display, running in shown.items():
             self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
         self._scene.live.draw_waiting()
+
+    def _names_of(self, displays: DisplayList) -> dict[str, str]:
+        """Return the names by id; the same object as long as they are the same."""
+        names = {one.id: one.name for one in displays}
+        if names != self._names:
+            self._names = names
+        return self._names
 
     def view(self, spec: DisplaySpec) -> DisplayView:
         """Return one display and its settings."""
@@ -304,12 +340,12 @@ class DrawingRoom:
             self._meshes.want()
 
     def _show_frames(self, displays: Iterable[Display]) -> None:
-        """Hand all frames to those that draw them."""
-        drawing = [one for one in displays if isinstance(one, TfDisplay)]
-        if drawing:
+        """Hand all frames to those that want them."""
+        wanting = [one for one in displays if one.wants_frames]
+        if wanting:
             frames = self.frames.now()
-            for display in drawing:
-                display.show(frames)
+            for display in wanting:
+                display.see(frames)
 
     def _place_robot(self) -> None:
         pose, self._robot_trouble = self.frames.robot_pose()

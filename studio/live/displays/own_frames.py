@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
@@ -13,44 +13,13 @@ from studio.tf.transforms import TransformColumns, plain_name
 if TYPE_CHECKING:
     from collections.abc import Collection, Container
 
+    from studio.displays.posed_robot import PosedRobot
     from studio.robot.kinematics import Floats, Kinematics
     from studio.robot.values import Robot
     from studio.tf.buffer import TransformBuffer
     from studio.tf.transforms import Numbers
 
 PUBLISHER: Final = "this robot"
-
-
-class JointState(Protocol):
-    """Positions of a robot's joints."""
-
-    @property
-    def values(self) -> Floats:
-        """Positions of the movable joints in order, rad or m; a new array after each motion."""
-        ...
-
-    def by_name(self) -> dict[str, float]:
-        """Return the same, by the joints' names."""
-        ...
-
-
-class PosedRobot(Protocol):
-    """A robot and its joint positions."""
-
-    @property
-    def robot(self) -> Robot:
-        """Its links and joints."""
-        ...
-
-    @property
-    def kinematics(self) -> Kinematics:
-        """Forward kinematics of this robot; a new object with each robot."""
-        ...
-
-    @property
-    def joints(self) -> JointState:
-        """Its joint positions."""
-        ...
 
 
 class OwnFrames:

@@ -116,7 +116,7 @@ class Placing:
         return bool(self._waiting)
 
     def _try(self, drawing: Drawing, lookup: Lookup) -> _Tried:
-        tried = _Tried()
+        tried, found = _Tried(), dict[tuple[str, int], "Pose"]()
         for path, placed in drawing.items():
             known = self._frames.get(path)
             is_there = known is not None and _is_same_place(self._placed.get(path), placed)
@@ -126,7 +126,10 @@ class Placing:
                     tried.ends[path] = self._ends[path]
                 continue
             try:
-                wxyz, xyz = lookup(placed.frame, placed.stamp_ns)
+                at = placed.frame, placed.stamp_ns
+                if at not in found:
+                    found[at] = lookup(*at)
+                wxyz, xyz = found[at]
                 tried.put(path, (wxyz if placed.turns else NO_TURN, xyz), placed)
                 if placed.sweep is not None:
                     tried.ends[path] = lookup(placed.frame, placed.sweep.until_ns)
@@ -159,7 +162,7 @@ class Placing:
 
 
 def _is_same_place(before: Placed | None, now: Placed) -> bool:
-    """Whether only the shapes may differ: what was placed once stays, however long ago it was."""
+    """Whether the frame is in the same place: what was placed once stays, however long ago."""
     return before is not None and (before.frame, before.stamp_ns, before.follows, before.turns) == (
         now.frame,
         now.stamp_ns,

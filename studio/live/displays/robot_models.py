@@ -9,16 +9,17 @@ from typing import TYPE_CHECKING, Final
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import StudioError
 from studio.live.connection.received_description import receive_description
+from studio.live.displays.robot_reading import stamps_of
 from studio.protocol.connection import OpenFromWire
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine, Mapping
 
     from studio.displays.display import Display
+    from studio.displays.posed_robot import PosedRobot
     from studio.displays.robot_model import DescriptionSource
     from studio.live.connection.received_description import ReadsParameters, ReceivedDescription
-    from studio.live.displays.own_frames import PosedRobot
-    from studio.live.displays.robot_reading import DescribedRobot, RobotReader
+    from studio.live.displays.robot_reading import DescribedRobot, RobotReader, Stamp
     from studio.live.topics.source import TopicSource
     from studio.robot.values import Robot
 
@@ -26,6 +27,8 @@ _PAUSE_S: Final = 0.5
 """Between two readings of one description: it may be published all the time."""
 _ASK_AGAIN_S: Final = 2.0
 """Between two requests to a node that does not answer yet."""
+_LOOK_EVERY_S: Final = 1.0
+"""Between two looks whether the file of a description was saved."""
 _NOT_CONNECTED: Final = "There is no connection with a ROS 2 system, where the parameter would be."
 
 _log = logging.getLogger(__name__)
@@ -48,6 +51,10 @@ class _Model:
         self.asking = False
         self.ask_after_s = 0.0
         self.is_gone = False
+        self.stamps: Mapping[str, Stamp | None] = {}
+        """Of the files that its description was read from."""
+        self.looking = False
+        self.look_after_s = 0.0
 
     def close_description(self) -> None:
         """Receive its parameter no more."""
@@ -115,6 +122,7 @@ class RobotModels:
                 self._want(model, display.description)
             case "File":
                 self._want(model, source.where)
+                self._look(model)
             case "Parameter":
                 self._read_parameter(model)
 
@@ -132,7 +140,7 @@ class RobotModels:
     def _begin_anew(self, model: _Model, source: DescriptionSource) -> None:
         """Start with another source; what was received from the one before is dropped."""
         model.source, model.wanted, model.done, model.ask_after_s = source, "", "", 0.0
-        model.own = None
+        model.own, model.stamps = None, {}
         model.display.fail("")
         model.close_description()
 
@@ -143,6 +151,22 @@ class RobotModels:
             model.done = text  # this very object, for it is long: no need to compare it again
         elif model.working is None:
             model.working = self._spawn(self._work(model))
+
+    def _look(self, model: _Model) -> None:
+        """Read a file again when it, or one that it includes, was saved."""
+        now_s = asyncio.get_running_loop().time()
+        idle = not model.looking and model.working is None
+        if model.stamps and idle and now_s >= model.look_after_s:
+            model.looking, model.look_after_s = True, now_s + _LOOK_EVERY_S
+            self._spawn(self._look_at(model, model.stamps))
+
+    async def _look_at(self, model: _Model, stamps: Mapping[str, Stamp | None]) -> None:
+        try:
+            now = await asyncio.to_thread(stamps_of, stamps)
+        finally:
+            model.looking = False
+        if model.stamps is stamps and now != stamps:
+            model.done = ""
 
     async def _work(self, model: _Model) -> None:
         try:
@@ -161,6 +185,7 @@ class RobotModels:
             read = self._reader.read_file if is_file else self._reader.read_text
             described = await read(text)
             if source == model.source and not model.is_gone:
+                model.stamps = described.stamps
                 model.display.fail(_shown(model, described))
         except StudioError as error:
             if source == model.source:

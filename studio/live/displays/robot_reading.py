@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import asyncio
 import os
-from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, TypeAlias
 
 from studio.description.values import Expansion, OpenRequest, ReadPolicy
 from studio.robot.assembly import assembled
 from studio.robot.values import Robot
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Mapping
     from pathlib import Path
 
     from studio.description.client import DescriptionWorker
 
 _NAME: Final = "robot_description"
+Stamp: TypeAlias = tuple[int, int, int]
+"""Time of the last change, size and inode of a file."""
 
 
 class RobotFiles(Protocol):
@@ -37,10 +39,28 @@ class RobotFiles(Protocol):
 
 
 class DescribedRobot(NamedTuple):
-    """A robot, and what is wrong with its description; one that cannot be read has no links."""
+    """A robot, and what is wrong with its description; one that cannot be read has no links.
+
+    `stamps` is of all files that were read, as they were when their reading began.
+    """
 
     robot: Robot
     fault: str
+    stamps: Mapping[str, Stamp | None] = {}
+
+
+def stamps_of(paths: Iterable[str]) -> dict[str, Stamp | None]:
+    """Return by which signs a change of files is noticed; None: it is not there."""
+    return {path: _stamp_of(path) for path in paths}
+
+
+def _stamp_of(path: str) -> Stamp | None:
+    try:
+        about = os.stat(path)  # noqa: PTH116 - of hundreds of files, each second
+    except OSError:
+        return None
+    # One that is saved by rename is another file, even if its time and its size are the same.
+    return about.st_mtime_ns, about.st_size, about.st_ino
 
 
 class RobotReader:
@@ -64,7 +84,7 @@ class RobotReader:
         entry = str(self._nowhere / _NAME)
         policy = ReadPolicy((str(self._nowhere),), {}, {})
         texts = {entry: text.encode("utf-8", "replace")}
-        robot, fault = await self._read(OpenRequest(entry, {}, policy, texts))
+        robot, fault, _ = await self._read(OpenRequest(entry, {}, policy, texts))
         return DescribedRobot(robot, fault.replace(f"{self._nowhere}{os.sep}", ""))
 
     async def read_file(self, uri: str) -> DescribedRobot:
@@ -74,7 +94,9 @@ class RobotReader:
             PackageError: The URI names no file that may be read.
         """
         path = await asyncio.to_thread(self._files.resolve_uri, uri)
-        return await self._read(OpenRequest(str(path), {}, self._files.policy, {}))
+        entry = await asyncio.to_thread(stamps_of, (str(path),))
+        robot, fault, files = await self._read(OpenRequest(str(path), {}, self._files.policy, {}))
+        return DescribedRobot(robot, fault, await asyncio.to_thread(stamps_of, files) | entry)
 
     async def close(self) -> None:
         """End the worker."""
@@ -82,11 +104,12 @@ class RobotReader:
         if worker is not None:
             await worker.close()
 
-    async def _read(self, request: OpenRequest) -> DescribedRobot:
+    async def _read(self, request: OpenRequest) -> tuple[Robot, str, tuple[str, ...]]:
+        """Return the robot, what is wrong with it, and the files that were read."""
         async with self._turn:
             if self._worker is None:
                 self._worker = self._take_worker()
             answer = await self._worker.open(request)
             if isinstance(answer, Expansion):
-                return DescribedRobot(*await asyncio.to_thread(assembled, answer))
-            return DescribedRobot(Robot(""), str(answer.problem))
+                return *await asyncio.to_thread(assembled, answer), answer.files
+            return Robot(""), str(answer.problem), answer.files

@@ -9,10 +9,9 @@ from contextlib import suppress
 from itertools import chain
 from typing import TYPE_CHECKING, Final
 
-from studio.displays.catalogue import display_of_kind, displays_of_type
-from studio.displays.display import Display, Received, Status
+from studio.displays.catalogue import displays_of_type
+from studio.displays.display import Received, Status
 from studio.displays.drawing import NOTHING
-from studio.displays.failed import FailedDisplay
 from studio.errors import DisplayPropertyError, StudioError
 from studio.live.displays.placing import Placing
 from studio.live.displays.reasons import Facts
@@ -21,7 +20,7 @@ from studio.live.topics.request import Request, SubscriptionState
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from studio.displays.display import TopicRole
+    from studio.displays.display import Display, TopicRole
     from studio.displays.drawing import Drawing, Placed
     from studio.displays.properties import Value
     from studio.errors import FrameError
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
     from studio.live.topics.request import Fit
     from studio.live.topics.source import TopicSource
     from studio.live.topics.subscription import Subscription
-    from studio.ros.types.library import TypeLibrary
 
 _SILENT_S: Final = 5.0
 _WAITING_MAX: Final = 1_000
@@ -41,15 +39,11 @@ _log = logging.getLogger(__name__)
 
 
 class RunningDisplay:
-    """Lives as long as its kind and topic are the same; used on the event loop only.
+    """Lives as long as its kind and topic are the same; used on the event loop only."""
 
-    Raises:
-        DisplayError: There is no such kind.
-    """
-
-    def __init__(self, spec: DisplaySpec, types: TypeLibrary) -> None:
-        self.spec, self._types = spec, types
-        self.display: Display = _display_of(spec, types)
+    def __init__(self, spec: DisplaySpec, display: Display) -> None:
+        self.spec, self.display = spec, display
+        display.topic = spec.topic
         for name, value in spec.values.items():
             with suppress(DisplayPropertyError):  # kept by another studio: the others still hold
                 self.display.set(name, value)
@@ -117,6 +111,7 @@ class RunningDisplay:
     def close(self) -> None:
         """Receive nothing any more."""
         self._closed = True
+        self.display.close()
         self.unsubscribe()
 
     def step(self, lookup: Lookup, now_ns: int, at_once_s: float = math.inf) -> Shown | None:
@@ -248,20 +243,13 @@ class RunningDisplay:
         self._bad_message = _NOT_DRAWN
 
 
-def _display_of(spec: DisplaySpec, types: TypeLibrary) -> Display:
-    """Return the display of a spec; for one of an `.rviz` file that is not here, why it is not."""
-    if spec.entry and "/" in spec.kind:
-        return FailedDisplay(types, spec.kind)
-    return display_of_kind(spec.kind)(types)
-
-
 def request_for(role: TopicRole, topic: str, chosen: Listening) -> Request:
     """Return what is wanted of the topic of a role beside a main one."""
     return Request(
         role.topic(topic),
         role.types,
         newest_only=role.newest_only,
-        reliable=chosen.reliable,
+        reliable=role.chosen_reliable if chosen.reliable is None else chosen.reliable,
         latched=chosen.latched,
         depth=chosen.depth or role.depth,
         usually=(role.reliable, role.latched),

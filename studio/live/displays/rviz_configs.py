@@ -325,14 +325,22 @@ class RvizConfigs:
         return (*recent, *others), str(place) if place else ""
 
 
+_RATE: Final = Limits(per_second=5)
+"""Each reads or writes a whole file."""
 COMMANDS: Final = Commands[RvizConfigs](Scope.DOCUMENT)
 COMMANDS.controller(
-    OpenRvizFile, lambda configs, c, who: configs.open_file(c, who), on_copies=OnCopies.REFUSED
+    OpenRvizFile,
+    lambda configs, c, who: configs.open_file(c, who),
+    limits=_RATE,
+    on_copies=OnCopies.REFUSED,
 )
 COMMANDS.controller(
-    OpenRvizText, lambda configs, c, _: configs.open_text(c), on_copies=OnCopies.REFUSED
+    OpenRvizText,
+    lambda configs, c, _: configs.open_text(c),
+    limits=_RATE,
+    on_copies=OnCopies.REFUSED,
 )
-COMMANDS.viewer(GetRvizText, lambda configs, c, _: configs.text(c), limits=Limits(per_second=5))
+COMMANDS.viewer(GetRvizText, lambda configs, c, _: configs.text(c), limits=_RATE)
 COMMANDS.presenter(SaveRvizFile, lambda configs, c, _: configs.save(c))
 COMMANDS.controller(
     UndoRvizConfig, lambda configs, c, _: configs.undo(c), on_copies=OnCopies.REFUSED

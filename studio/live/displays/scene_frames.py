@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.displays.drawing import Pose
-    from studio.live.displays.own_frames import PosedRobot
+    from studio.displays.posed_robot import PosedRobot
     from studio.live.topics.source import TopicSource
     from studio.live.topics.subscription import Subscription
     from studio.ros.node.samples import RawSample

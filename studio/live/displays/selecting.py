@@ -10,8 +10,16 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 import numpy as np
 
+from studio.displays.display import Display
 from studio.displays.drawing import NO_TURN, Points
-from studio.displays.selection import Item, Picked, orientation_fact, position_fact, xyz_of
+from studio.displays.selection import (
+    Item,
+    Picked,
+    box_of,
+    orientation_fact,
+    position_fact,
+    xyz_of,
+)
 from studio.displays.turning import product, turned
 from studio.errors import FrameError
 from studio.protocol.commands import Commands, Limits, Scope
@@ -33,7 +41,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.displays.display import Display
     from studio.displays.drawing import Pose, Wxyz, Xyz
     from studio.displays.selection import Fact
     from studio.live.displays.placing import Lookup, Shown
@@ -140,8 +147,12 @@ class Selecting:
             is_there = ref.key in now.robot.links
             return Item("link", ref.key, "", ref.key, 0, None) if is_there else None
         drawn = now.displays.get(ref.display)
-        item = drawn.display.item(ref.key) if drawn is not None else None
-        return item if item is None or drawn is None else _as_drawn(item, drawn.shown)
+        if drawn is None:
+            return None
+        if type(drawn.display).item is Display.item:
+            return _group_of(ref.key, drawn.shown)
+        item = drawn.display.item(ref.key)
+        return None if item is None else _as_drawn(item, drawn.shown)
 
     def _view(self, ref: ItemRef, item: Item) -> ItemView:
         pose = self._pose_of(ref.display, item)
@@ -228,6 +239,14 @@ class _Turns:
 COMMANDS: Final = Commands[Selecting](Scope.DOCUMENT)
 COMMANDS.viewer(PickItems, lambda one, c, _: one.pick(c), limits=Limits(per_second=10))
 COMMANDS.viewer(DescribeItems, lambda one, c, _: one.describe(c), limits=Limits(per_second=8))
+
+
+def _group_of(path: str, shown: Shown) -> Item | None:
+    """Return a group of a display that does not say what its shapes are."""
+    placed = shown.drawing.get(path)
+    if placed is None:
+        return None
+    return Item("message", path, path, placed.frame, placed.stamp_ns, box_of(placed.shapes))
 
 
 def _as_drawn(item: Item, shown: Shown) -> Item:

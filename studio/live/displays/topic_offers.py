@@ -1,12 +1,13 @@
-"""TopicOffers: the topics that there are, and which display shows each."""
+"""TopicOffers: the displays and topics that there are, and which display shows each."""
 
 from __future__ import annotations
 
 import asyncio
 from typing import TYPE_CHECKING, Final
 
+from studio.live.displays.plugins import Plugins
 from studio.protocol.commands import Commands, Scope
-from studio.protocol.displays import GetTopics, Topics
+from studio.protocol.displays import DisplayKinds, GetDisplayKinds, GetTopics, Topics
 
 if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
@@ -17,6 +18,18 @@ class TopicOffers:
 
     def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
+        self.plugins = Plugins()
+        """Displays of the owner's own."""
+
+    def kinds(self, command: GetDisplayKinds) -> DisplayKinds:
+        """Return the kinds of displays."""
+        from studio.live.displays.catalogue_views import kind_views  # noqa: PLC0415 - imports all
+
+        return DisplayKinds(
+            request=command.request,
+            kinds=kind_views(self.plugins.kinds()),
+            plugin_faults=self.plugins.faults(),
+        )
 
     async def topics(self, command: GetTopics) -> Topics:
         """Return the topics; none without a connection."""
@@ -25,23 +38,13 @@ class TopicOffers:
             return Topics(request=command.request, topics=())
         from studio.live.displays.topic_views import topic_views  # noqa: PLC0415 - imports all
 
-        found = await asyncio.to_thread(topic_views, link)
+        found = await asyncio.to_thread(topic_views, link, self.plugins.kind_of_type)
         return Topics(request=command.request, topics=found)
 
 
 COMMANDS: Final = Commands[TopicOffers](Scope.DOCUMENT)
+COMMANDS.viewer(GetDisplayKinds, lambda offers, c, _: offers.kinds(c))
 COMMANDS.viewer(GetTopics, lambda offers, c, _: offers.topics(c))
-
-
-def first_topic(kind: str) -> str:
-    """Return the topic of a new display of a kind.
-
-    Raises:
-        DisplayError: There is no such kind.
-    """
-    from studio.displays.catalogue import display_of_kind  # noqa: PLC0415 - imports all
-
-    return display_of_kind(kind).FIRST_TOPIC
 
 
 def full_name(topic: str) -> str:

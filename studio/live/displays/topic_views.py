@@ -8,16 +8,22 @@ from studio.live.connection.topic_kinds import carried_types, kinds_for
 from studio.protocol.displays import TopicView
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.live.connection.link import WireLink
 
 
-def topic_views(link: WireLink) -> tuple[TopicView, ...]:
-    """Return the topics that have a publisher, by name; thread-safe."""
+def topic_views(link: WireLink, owns: Callable[[str], str]) -> tuple[TopicView, ...]:
+    """Return the topics that have a publisher, by name; thread-safe.
+
+    `owns` gives the owner's display of a type, which shows what none of the studio's does.
+    """
     found: list[TopicView] = []
     for name, _ in link.graph.topics():
         if publishers := link.graph.publishers(name):
             types = carried_types(publishers, ())
-            kinds = kinds_for(name, types)
+            own = tuple(one for one in map(owns, types) if one)
+            kinds = tuple(dict.fromkeys((*kinds_for(name, types), *own)))
             found.append(
                 TopicView(
                     name=name,

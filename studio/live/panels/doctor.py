@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -16,7 +16,7 @@ from studio.protocol.doctor import DoctorReport, ExamineSystem, GetDoctorReport,
 from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Awaitable, Callable, Mapping
 
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from studio.live.doctor.watching import Watching
     from studio.protocol.connection import WireReport
     from studio.protocol.doctor import LookingBrowser, SubjectName
+    from studio.protocol.listeners import Listener
     from studio.ros.graph.diagnosis import DistroHashes
 
 LISTENS_S: Final = 3.0
@@ -32,23 +33,9 @@ LISTENS_S: Final = 3.0
 _ASK_EVERY_S: Final = 10.0
 _LOOK_EVERY_S: Final = 0.5
 _PLACE_EVERY_S: Final = 4.0
+_FORGOTTEN_S: Final = 60.0
 _OFTEN: Final = Limits(bytes_max=2_000, per_second=4)
 _SELDOM: Final = Limits(bytes_max=2_000, per_second=1)
-
-
-@dataclass(slots=True)
-class _Visit:
-    """What is known of one connection."""
-
-    link: WireLink
-    watching: Watching
-    hashes: DistroHashes
-    system: System | None = None
-    version: int = -1
-    """Of the graph, when it was looked at."""
-    answers: Answers | None = None
-    asked_s: float = -_ASK_EVERY_S
-    asking: asyncio.Task[None] | None = None
 
 
 class _Shared(NamedTuple):
@@ -57,6 +44,24 @@ class _Shared(NamedTuple):
     at_s: float
     seen: Seen
     concluded: dict[SubjectName, Concluded]
+
+
+@dataclass(slots=True)
+class _Visit:
+    """What is known of one system; `link` None: of the place where the studio would connect."""
+
+    link: WireLink | None = None
+    watching: Watching | None = None
+    hashes: DistroHashes | None = None
+    turn: asyncio.Lock = field(default_factory=asyncio.Lock)
+    """Held while a thread looks: all who ask meanwhile are told the same."""
+    shared: _Shared | None = None
+    system: System | None = None
+    version: int = -1
+    """Of the graph, when it was looked at."""
+    answers: Answers | None = None
+    asked_s: float = -_ASK_EVERY_S
+    asking: asyncio.Task[None] | None = None
 
 
 class Doctor:
@@ -73,15 +78,14 @@ class Doctor:
         self._connection, self._unanswered = connection, unanswered
         self.document_of: Callable[[str], SeenDocument | None] = lambda _id: None
         """Returns what is known of an open document."""
-        self._visit: _Visit | None = None
-        self._turn = asyncio.Lock()
-        """Held while a thread looks: all who ask meanwhile are told the same."""
+        self.own_link: Callable[[str, str], Awaitable[WireLink | None]] = _nobodys
+        """Returns the system of a person's own nodes, where a document of theirs is about it."""
+        self._visits: dict[WireLink | None, _Visit] = {}
         self._here: Here | None = None
-        self._shared: _Shared | None = None
 
-    async def examine(self, command: ExamineSystem) -> SystemExamined:
+    async def examine(self, command: ExamineSystem, asker: Listener) -> SystemExamined:
         """Return what is found as of now; later answers know more."""
-        seen, found = await self._found(command)
+        seen, found = await self._found(command, asker)
         listened_s = seen.heard.listened_s if seen.heard else 0.0
         is_away = seen.system is None or not seen.system.is_connected
         return SystemExamined(
@@ -94,24 +98,30 @@ class Doctor:
             subjects=found.subjects,
         )
 
-    async def report(self, command: GetDoctorReport) -> DoctorReport:
+    async def report(self, command: GetDoctorReport, asker: Listener) -> DoctorReport:
         """Return the same as an HTML file."""
-        seen, found = await self._found(command)
+        seen, found = await self._found(command, asker)
         html = await asyncio.to_thread(_reported, seen, found, command)
         return DoctorReport(request=command.request, html=html)
 
     async def let_go(self) -> None:
-        """Let go of the connection, which is about to end."""
-        async with self._turn:
-            visit, self._visit, self._shared = self._visit, None, None
-            if visit is not None:
-                await asyncio.to_thread(visit.watching.close)
-        if visit is not None and visit.asking is not None:
-            await asyncio.gather(visit.asking, return_exceptions=True)
+        """Let go of all systems: a connection is about to end."""
+        visits, self._visits = self._visits, {}
+        for visit in visits.values():
+            async with visit.turn:
+                if visit.watching is not None:
+                    await asyncio.to_thread(visit.watching.close)
+            if visit.asking is not None:
+                await asyncio.gather(visit.asking, return_exceptions=True)
 
-    async def _found(self, command: LookingBrowser) -> tuple[Seen, Examination]:
+    async def _found(self, command: LookingBrowser, asker: Listener) -> tuple[Seen, Examination]:
         """Add what concerns the asker alone to what is the same for all."""
-        shared = await self._seen()
+        own = await self.own_link(command.document, asker.person)
+        visit = self._visit_of(own or self._connection.current)
+        async with visit.turn:
+            if visit.shared is None or _is_due(visit.shared.at_s, _every_s(visit)):
+                visit.shared = await self._looked_anew(visit)
+            shared = visit.shared
         seen = replace(
             shared.seen,
             document=self.document_of(command.document),
@@ -119,34 +129,26 @@ class Doctor:
         )
         return seen, await asyncio.to_thread(_completed, seen, shared.concluded)
 
-    async def _seen(self) -> _Shared:
-        """Look, unless somebody else did just now."""
-        async with self._turn:
-            if self._shared is None or not self._is_fresh(self._shared):
-                seen = await self._looked_anew()
-                concluded = await asyncio.to_thread(_concluded, seen)
-                self._shared = _Shared(time.monotonic(), seen, concluded)
-            return self._shared
+    def _visit_of(self, link: WireLink | None) -> _Visit:
+        """Return what is known of a system; those that nobody asks for any more are forgotten."""
+        for other, visit in tuple(self._visits.items()):
+            if visit.shared and other is not link and _is_due(visit.shared.at_s, _FORGOTTEN_S):
+                del self._visits[other]  # what it listened to has ended by itself
+        return self._visits.setdefault(link, _Visit(link))
 
-    def _is_fresh(self, shared: _Shared) -> bool:
-        was_joined = shared.seen.system is not None
-        if was_joined != (self._connection.current is not None):
-            return False
-        return not _is_due(shared.at_s, _LOOK_EVERY_S if was_joined else _PLACE_EVERY_S)
-
-    async def _looked_anew(self) -> Seen:
+    async def _looked_anew(self, visit: _Visit) -> _Shared:
         if self._here is None:
             self._here = await asyncio.to_thread(_look_here)
-        link, unanswered = self._connection.current, self._unanswered()
-        if link is None:
+        seen = Seen(here=self._here, unanswered=self._unanswered())
+        if visit.link is None:
             place = await asyncio.to_thread(_look_at_place, self._connection)
-            return Seen(here=self._here, place=place, unanswered=unanswered)
-        if self._visit is None or self._visit.link is not link:
-            self._visit = await asyncio.to_thread(_begun, link)
-        visit = self._visit
-        system, heard = await asyncio.to_thread(_looked, visit)
-        self._ask_again(visit, system)
-        return Seen(self._here, None, system, heard, visit.answers, unanswered=unanswered)
+            seen = replace(seen, place=place)
+        else:
+            system, heard = await asyncio.to_thread(_looked, visit)
+            self._ask_again(visit, system)
+            seen = replace(seen, system=system, heard=heard, answers=visit.answers)
+        concluded = await asyncio.to_thread(_concluded, seen)
+        return _Shared(time.monotonic(), seen, concluded)
 
     def _ask_again(self, visit: _Visit, system: System) -> None:
         """Ask routers and nodes beside, for some do not answer."""
@@ -159,6 +161,15 @@ class Doctor:
         visit.asked_s = time.monotonic()
 
 
+async def _nobodys(_document: str, _person: str) -> WireLink | None:
+    """Return no system: the default of `own_link`."""
+    return None
+
+
+def _every_s(visit: _Visit) -> float:
+    return _PLACE_EVERY_S if visit.link is None else _LOOK_EVERY_S
+
+
 def _is_due(at_s: float, every_s: float) -> bool:
     return time.monotonic() - at_s >= every_s
 
@@ -166,33 +177,37 @@ def _is_due(at_s: float, every_s: float) -> bool:
 # What follows runs in threads, and imports Zenoh.
 
 
-def _begun(link: WireLink) -> _Visit:
-    from studio.live.doctor.watching import Watching  # noqa: PLC0415
-    from studio.ros.graph.diagnosis import DistroHashes  # noqa: PLC0415
-
-    return _Visit(link, Watching(link.context, link.types), DistroHashes(link.types))
-
-
 def _looked(visit: _Visit) -> tuple[System, Heard]:
     """Raises: RouterGoneError: The connection ended meanwhile."""
     from studio.ros.wire.zenoh import ZError  # noqa: PLC0415
 
+    link = visit.link
+    assert link is not None
     try:
-        system = _looked_at(visit)
-        return system, visit.watching.heard(system)
+        system = _looked_at(visit, link)
+        return system, _listening(visit, link).heard(system)
     except (NotJoinedError, ZError):
-        raise RouterGoneError(visit.link.endpoint) from None
+        raise RouterGoneError(link.endpoint) from None
 
 
-def _looked_at(visit: _Visit) -> System:
+def _listening(visit: _Visit, link: WireLink) -> Watching:
+    from studio.live.doctor.watching import Watching  # noqa: PLC0415
+
+    if visit.watching is None:
+        visit.watching = Watching(link.context, link.types)
+    return visit.watching
+
+
+def _looked_at(visit: _Visit, link: WireLink) -> System:
     """Return the graph, which is taken anew only when it changed."""
     from studio.live.doctor.asking import look  # noqa: PLC0415
+    from studio.ros.graph.diagnosis import DistroHashes  # noqa: PLC0415
 
-    link, version = visit.link, visit.link.graph.version
-    system = visit.system
+    visit.hashes = hashes = visit.hashes or DistroHashes(link.types)
+    version, system = link.graph.version, visit.system
     if system is None or version != visit.version or system.is_connected != link.is_connected:
         own = frozenset({link.zid})
-        system = look(link.context.wire, link.graph, link.types, visit.hashes, own=own)
+        system = look(link.context.wire, link.graph, link.types, hashes, own=own)
         visit.system, visit.version = system, version
     return system
 
@@ -201,6 +216,8 @@ def _asked(visit: _Visit, system: System) -> Answers | None:
     from studio.live.doctor.asking import ask  # noqa: PLC0415
     from studio.ros.wire.zenoh import ZError  # noqa: PLC0415
 
+    if visit.link is None:
+        return None
     try:
         return ask(visit.link.context.wire, system, visit.answers)
     except (StudioError, ZError):  # the connection ended meanwhile
@@ -260,5 +277,5 @@ def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:
 
 
 COMMANDS: Final = Commands[Doctor](Scope.ROS)
-COMMANDS.viewer(ExamineSystem, lambda one, c, _: one.examine(c), limits=_OFTEN)
-COMMANDS.viewer(GetDoctorReport, lambda one, c, _: one.report(c), limits=_SELDOM)
+COMMANDS.viewer(ExamineSystem, lambda one, c, who: one.examine(c, who), limits=_OFTEN)
+COMMANDS.viewer(GetDoctorReport, lambda one, c, who: one.report(c, who), limits=_SELDOM)

@@ -127,7 +127,8 @@ class TopicRates:
             if total <= bytes_max:
                 return
             one = self._measured[name]
+            # Of one that is too new to rest, lighter ones are not to blame.
+            total -= one.flow.bytes_per_s
             if now_s - one.began_s >= _MEASURED_S:
-                total -= one.flow.bytes_per_s
                 one.meter.close()
                 self._resting[name] = _Rest(one.flow, now_s + _REST_S)

@@ -27,7 +27,10 @@ _HEADER = b"\0\1\0\0"
 _TIME = struct.Struct("<iI").pack
 _WORD = struct.Struct("<I").pack
 Places = np.ndarray[Any, np.dtype[np.intp]]
-SKELETON_BYTES_MAX = 1 << 20
+SKELETON_BYTES_MAX = 8 << 20
+"""Of one layout: 10,000 markers take 2 MB."""
+_KEPT_BYTES_MAX = 16 << 20
+"""Of all layouts of a codec together, but for the newest."""
 _LENGTHS_MAX = 16
 _OF_ONE_LENGTH_MAX = 4
 N = TypeVar("N", bound=np.generic)
@@ -199,6 +202,7 @@ class KnownLayouts(Generic[L]):
 
     def __init__(self) -> None:
         self._of_length: dict[int, list[L]] = {}
+        self._kept_bytes = 0
 
     def __len__(self) -> int:
         return sum(map(len, self._of_length.values()))
@@ -215,9 +219,22 @@ class KnownLayouts(Generic[L]):
         if len(raw) > SKELETON_BYTES_MAX:
             return
         if len(self._of_length) >= _LENGTHS_MAX and len(raw) not in self._of_length:
-            self._of_length.pop(next(iter(self._of_length)))
-        kept = self._of_length.get(len(raw), [])
-        self._of_length[len(raw)] = [layout, *kept[: _OF_ONE_LENGTH_MAX - 1]]
+            self._drop_oldest()
+        kept = self._of_length.get(len(raw), [])[: _OF_ONE_LENGTH_MAX - 1]
+        self._of_length[len(raw)] = [layout, *kept]
+        self._count_bytes()
+        while self._kept_bytes > _KEPT_BYTES_MAX and len(self) > 1:
+            if len(self._of_length) > 1:
+                self._drop_oldest()
+            else:
+                self._of_length[len(raw)].pop()
+            self._count_bytes()
+
+    def _drop_oldest(self) -> None:
+        self._of_length.pop(next(iter(self._of_length)))
+
+    def _count_bytes(self) -> None:
+        self._kept_bytes = sum(each * len(kept) for each, kept in self._of_length.items())
 
 
 @dataclass(frozen=True, slots=True)

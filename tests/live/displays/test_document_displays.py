@@ -10,6 +10,7 @@ import pytest
 
 from studio.errors import CommandError, DisplayError
 from studio.live.displays import document_displays
+from studio.live.displays.plugins import Plugins
 from studio.protocol.connection import ConnectWire, DisconnectWire
 from studio.protocol.displays import (
     AddDisplay,
@@ -28,6 +29,7 @@ from studio.ros.messages import message
 from studio.ros.types.library import TypeLibrary
 from tests.support.demos import node_at
 from tests.support.open_documents import until
+from tests.support.plugins import example
 from tests.support.viser_frames import joined
 from tests.support.wired_studio import TF, Studio, studio
 
@@ -237,6 +239,46 @@ def test_in_a_fixed_frame_that_nobody_tells_of_all_rows_offer_the_same_one(tmp_p
             assert offers == ["base", "base"]
 
     asyncio.run(run())
+
+
+def test_a_display_of_the_owners_own_keeps_its_place_while_its_file_is_not_here(tmp_path: Path):
+    folder = tmp_path / "own"
+    folder.mkdir()
+    path = folder / "battery.py"
+    path.write_text(example())
+
+    async def with_its_folder() -> None:
+        plugins = Plugins((folder,))
+        plugins.start()
+        await plugins.ready.wait()
+        async with studio("tcp/127.0.0.1:1", tmp_path) as one:
+            one.document.live.use(plugins)
+            await one.do(AddDisplay(kind="plugins/Battery"))
+            await one.do(SetDisplayProperty(display="d1", name="Low", value=0.7))
+            await until(lambda: said(one) == ["no_topic"])
+            assert (listed(one)[0]["name"], listed(one)[0]["values"]) == ("Battery", {"Low": 0.7})
+            path.unlink()
+            await until(lambda: said(one) == ["not_here"])
+            path.write_text(example())
+            await until(lambda: said(one) == ["no_topic"])
+            assert listed(one)[0]["values"] == {"Low": 0.7}
+            await plugins.close()
+
+    async def without_it() -> None:
+        async with studio("tcp/127.0.0.1:1", tmp_path) as one:
+            await until(lambda: said(one) == ["not_here"])
+            states = one.ear.last("display_states")["states"]
+            assert "--displays" in states[0]["remarks"][0]["sentence"]
+            await one.do(ArrangeDisplay(display="d1", name="Charge"))
+            kept = one.document.live.kept.displays
+            assert [(each.kind, each.name, dict(each.values)) for each in kept] == [
+                ("plugins/Battery", "Charge", {"Low": 0.7})
+            ]
+            with pytest.raises(DisplayError, match="--displays"):
+                await one.do(AddDisplay(kind="plugins/Battery"))
+
+    asyncio.run(with_its_folder())
+    asyncio.run(without_it())
 
 
 def test_without_a_router_a_display_says_so_and_stays(tmp_path: Path):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from studio.documents.model import Model
 from studio.live.displays.display_list import DisplayList, DisplaySpec, Listening
 from studio.live.displays.drawing_room import DrawingRoom
+from studio.live.displays.plugins import Plugins
 from studio.ros.columns.transforms import TransformCodec
 from studio.scene import DocumentScene
 from studio.tf.transforms import TransformColumns
@@ -42,7 +43,7 @@ class Room:
     def __init__(self, *topics: str) -> None:
         self.source, self.displays = MemorySource(), DisplayList()
         model = Model(DocumentScene(asyncio.get_running_loop()))
-        self.room = DrawingRoom(model, NoMeshes(), self.source)
+        self.room = DrawingRoom(model, NoMeshes(), self.source, Plugins())
         self.room.frames.chosen = "map"
         self.ids: list[str] = []
         for topic in topics:

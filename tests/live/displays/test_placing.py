@@ -1,5 +1,7 @@
 from collections.abc import Mapping
 
+import pytest
+
 from studio.displays.drawing import NO_TURN, Placed, Pose, Text
 from studio.errors import ExtrapolationError, UnknownFrameError
 from studio.live.displays.placing import PATIENCE_NS, Placing
@@ -157,6 +159,19 @@ def test_other_shapes_at_the_same_place_and_time_stay_there_however_long_ago_it_
     shown = placing.step(lookup, MOMENT)
     assert shown is not None
     assert shown.poses == {"": (NO_TURN, (5.0, 0.0, 0.0))}
+
+
+def test_what_is_beside_its_frame_goes_with_it():
+    placing = Placing()
+    turned_about_z = (2**-0.5, 0.0, 0.0, 2**-0.5)
+    offset = ((1.0, 0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+    placing.offer({"a": Placed("arm", 0, {}, follows=True, offset=offset)}, 0)
+    shown = placing.step(lambda _frame, _stamp_ns: (turned_about_z, (0.0, 0.0, 2.0)), 0)
+    assert shown is not None
+    pose = shown.poses["a"]
+    assert pose is not None
+    assert pose[0] == pytest.approx(turned_about_z)
+    assert pose[1] == pytest.approx((0.0, 1.0, 2.0))
 
 
 def test_what_moves_in_its_frame_stays_with_it_though_the_time_of_its_pose_is_forgotten():

@@ -205,6 +205,16 @@ def test_the_robot_of_the_document_and_one_of_a_file_stand_where_their_own_frame
             file = await add(one, {"Description Source": "File", "Description File": "cart.urdf"})
             await until(lambda: len(remarks(one, file)) == 2)
             assert all("hull" in said or "arm" in said for said in remarks(one, file))
+            fresh = tmp_path / "cart.urdf.new"
+            fresh.write_text('<robot name="cart"><link name="mast"/></robot>')
+            fresh.rename(tmp_path / "cart.urdf")  # as editors save
+            await until(lambda: any("mast" in said for said in remarks(one, file)))
+            (tmp_path / "cart.urdf").unlink()
+            await until(
+                lambda: any("What was there before stays" in said for said in remarks(one, file))
+            )
+            (tmp_path / "cart.urdf").write_text('<robot name="cart"><link name="boom"/></robot>')
+            await until(lambda: any("boom" in said for said in remarks(one, file)))
             await one.do(
                 SetDisplayProperty(display=file, name="Description File", value="/etc/passwd")
             )

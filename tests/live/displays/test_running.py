@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.displays.catalogue import display_of_kind
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import DisplayError
 from studio.live.displays.display_list import DisplaySpec
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
 
 POSE = "geometry_msgs/msg/PoseStamped"
 SPEC = DisplaySpec("d1", "Pose", "Goal", "/goal")
+
+
+def running_of(spec: DisplaySpec) -> RunningDisplay:
+    return RunningDisplay(spec, display_of_kind(spec.kind)(TYPES))
 
 
 def goal(x_m: float = 0.0) -> bytes:
@@ -40,7 +45,7 @@ def draws(running: RunningDisplay) -> bool:
 
 
 def test_what_comes_is_drawn(source: MemorySource):
-    running = RunningDisplay(SPEC, TYPES)
+    running = running_of(SPEC)
     source.offer("/goal", POSE)
     running.subscribe(source)
     assert not draws(running)
@@ -51,7 +56,7 @@ def test_what_comes_is_drawn(source: MemorySource):
 
 
 def test_when_time_jumps_what_was_drawn_is_forgotten_also_what_waits(source: MemorySource):
-    running = RunningDisplay(SPEC, TYPES)
+    running = running_of(SPEC)
     source.offer("/goal", POSE)
     running.subscribe(source)
     source.say("/goal", goal())
@@ -63,7 +68,7 @@ def test_when_time_jumps_what_was_drawn_is_forgotten_also_what_waits(source: Mem
 
 
 def test_what_is_latched_holds_for_all_times(source: MemorySource):
-    running = RunningDisplay(SPEC, TYPES)
+    running = running_of(SPEC)
     source.offer("/goal", POSE, LATCHED)
     running.subscribe(source)
     source.say("/goal", goal())
@@ -74,7 +79,7 @@ def test_what_is_latched_holds_for_all_times(source: MemorySource):
 
 def test_who_is_closed_receives_nothing_whoever_has_it_subscribe(source: MemorySource):
     source.offer("/goal", POSE)
-    running = RunningDisplay(SPEC, TYPES)
+    running = running_of(SPEC)
     assert running.subscribe(source)
     assert [one.topic for one in source.opened] == ["/goal"]
     running.close()
@@ -83,7 +88,7 @@ def test_who_is_closed_receives_nothing_whoever_has_it_subscribe(source: MemoryS
 
 
 def test_a_name_that_is_no_topic_is_told_and_raises_nothing(source: MemorySource):
-    running = RunningDisplay(replace(SPEC, topic="/no goal"), TYPES)
+    running = running_of(replace(SPEC, topic="/no goal"))
     running.subscribe(source)
     topic = running.facts(NOW_NS, shown=True).topic
     assert topic.kind == "refused"
@@ -91,7 +96,7 @@ def test_a_name_that_is_no_topic_is_told_and_raises_nothing(source: MemorySource
 
 
 def test_those_who_are_gone_are_listened_to_as_before_so_nothing_is_lost(source: MemorySource):
-    running = RunningDisplay(SPEC, TYPES)
+    running = running_of(SPEC)
     goals = source.offer("/goal", POSE, LATCHED)
     running.subscribe(source)
     goals.leave()
@@ -102,7 +107,7 @@ def test_those_who_are_gone_are_listened_to_as_before_so_nothing_is_lost(source:
 
 
 def test_a_flood_is_taken_in_parts(source: MemorySource):
-    running = RunningDisplay(DisplaySpec("d1", "MarkerArray", "All", "/all"), TYPES)
+    running = running_of(DisplaySpec("d1", "MarkerArray", "All", "/all"))
     kind = "visualization_msgs/msg/MarkerArray"
     source.offer("/all", kind)
     running.subscribe(source)
@@ -130,7 +135,7 @@ def test_a_display_that_fails_says_so_and_raises_nothing(
     def fail(_now_ns: int) -> None:
         raise ZeroDivisionError
 
-    running = RunningDisplay(SPEC, TYPES)
+    running = running_of(SPEC)
     source.offer("/goal", POSE)
     running.subscribe(source)
     running.display.draw = fail  # type: ignore[method-assign, assignment]
@@ -143,13 +148,13 @@ def test_a_display_that_fails_says_so_and_raises_nothing(
 
 def test_settings_of_another_studio_that_do_not_fit_are_left_out():
     spec = DisplaySpec("d1", "Pose", "Goal", values={"Shape": "Moon", "Alpha": 0.5, "Mood": 1})
-    assert RunningDisplay(spec, TYPES).display.values["Alpha"] == 0.5
+    assert running_of(spec).display.values["Alpha"] == 0.5
     with pytest.raises(DisplayError):
-        RunningDisplay(DisplaySpec("d1", "Moon", "Moon"), TYPES)
+        running_of(DisplaySpec("d1", "Moon", "Moon"))
 
 
 def test_links_of_a_robot_stay_where_they_are_for_as_long_as_is_chosen():
-    running = RunningDisplay(DisplaySpec("d1", "RobotModel", "Robot"), TYPES)
+    running = running_of(DisplaySpec("d1", "RobotModel", "Robot"))
     running.set("Update Interval", 0.5)
     display = running.display
     assert isinstance(display, RobotModelDisplay)
@@ -173,7 +178,7 @@ def test_links_of_a_robot_stay_where_they_are_for_as_long_as_is_chosen():
 
 def test_a_robot_that_is_described_elsewhere_listens_to_no_topic(source: MemorySource):
     spec = DisplaySpec("d1", "RobotModel", "Robot", "/robot_description")
-    running = RunningDisplay(spec, TYPES)
+    running = running_of(spec)
     running.subscribe(source)
     assert running.fit is not None
     running.set("Description Source", "Document")

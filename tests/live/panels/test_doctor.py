@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.live.connection.link import WireLink
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.doctor.seen import SeenDocument, Unanswered
 from studio.live.panels import doctor
@@ -20,6 +21,7 @@ from studio.ros.wire.zenoh import declare_token
 from studio.settings import WireChoice
 from tests.support.demos import node_at
 from tests.support.loop_watch import stalls
+from tests.support.open_documents import Ear
 from tests.support.wire import PATIENCE_S, free_endpoint, open_test_session
 
 if TYPE_CHECKING:
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.session import WireSession
     from tests.support.loop_watch import Stall
 
+ME = Ear()
 pytestmark = [pytest.mark.network, pytest.mark.timeout(180)]
 UNANSWERED = (Unanswered(is_action=False, name="/go", why="No answer came in 3 s."),)
 
@@ -49,7 +52,7 @@ async def complete(made: Doctor, code: str = "") -> SystemExamined:
     """Ask until all was asked once, and something was found."""
     async with asyncio.timeout(PATIENCE_S):
         while True:
-            found = await made.examine(ExamineSystem())
+            found = await made.examine(ExamineSystem(), ME)
             if found.is_complete and (not code or code in codes(found)):
                 return found
             await asyncio.sleep(0.02)
@@ -62,7 +65,7 @@ def codes(found: SystemExamined) -> set[str]:
 def test_without_a_connection_the_place_is_looked_at():
     async def run() -> None:
         async with doctor_at(free_endpoint()) as (made, _):
-            found = await made.examine(ExamineSystem(renderer="GPU"))
+            found = await made.examine(ExamineSystem(renderer="GPU"), ME)
             assert found.is_complete
             assert {"no-router", "not-answered"} <= codes(found)
             states = {one.subject: one.state for one in found.subjects}
@@ -87,7 +90,7 @@ def test_a_connection_is_examined_and_let_go_of(
             assert (states["router"], states["nodes"]) == ("well", "found")
             await made.let_go()
             await connection.disconnect()
-            assert "not-connected" in codes(await made.examine(ExamineSystem()))
+            assert "not-connected" in codes(await made.examine(ExamineSystem(), ME))
 
     assert tester.get_name()
     asyncio.run(run())
@@ -111,7 +114,7 @@ def test_many_who_ask_are_told_of_one_look(
             await connection.link()
             made.document_of = {"mine": SeenDocument("mine", "arm", fixed_trouble="No map.")}.get
             asked = [ExamineSystem(document=one) for one in ("mine", "other") * 4]
-            found = await asyncio.gather(*map(made.examine, asked))
+            found = await asyncio.gather(*(made.examine(one, ME) for one in asked))
             assert len(looks) == 1
             assert ["fixed-frame" in codes(one) for one in found] == [True, False] * 4
 
@@ -124,9 +127,39 @@ def test_the_document_of_who_asks_is_examined():
         async with doctor_at(free_endpoint()) as (made, _):
             documents = {"mine": SeenDocument("mine", "arm.xacro", fixed_trouble="No map.")}
             made.document_of = documents.get
-            found = await made.examine(ExamineSystem(document="mine"))
+            found = await made.examine(ExamineSystem(document="mine"), ME)
             assert "fixed-frame" in codes(found)
-            assert "fixed-frame" not in codes(await made.examine(ExamineSystem(document="other")))
+            assert "fixed-frame" not in codes(
+                await made.examine(ExamineSystem(document="other"), ME)
+            )
+
+    asyncio.run(run())
+
+
+def test_a_member_with_own_nodes_is_told_of_their_system_alone(endpoint: str):
+    async def run() -> None:
+        choice = WireChoice("off", (endpoint,), 23)
+        own = await asyncio.to_thread(WireLink, choice, lambda: None)
+
+        async def own_link(document: str, _person: str) -> WireLink | None:
+            return own if document == "copy" else None
+
+        try:
+            async with doctor_at(endpoint) as (made, connection):
+                await connection.link()
+                made.own_link = own_link
+                with open_test_session(endpoint, domain=23) as wire:
+                    shown = show_hostile_graph(wire, 1)
+                    assert await asyncio.to_thread(
+                        own.graph.wait_for, lambda: own.graph.token_count > 2, 30.0
+                    )
+                    mine = await made.examine(ExamineSystem(document="copy"), ME)
+                    theirs = await made.examine(ExamineSystem(), ME)
+                    del shown
+                assert "unknown-type" in codes(mine)
+                assert "unknown-type" not in codes(theirs)
+        finally:
+            await asyncio.to_thread(own.close)
 
     asyncio.run(run())
 
@@ -136,7 +169,7 @@ def test_the_report_is_in_the_language_of_who_asks(language: str, title: str):
     async def run() -> None:
         async with doctor_at(free_endpoint()) as (made, _):
             asked = GetDoctorReport.model_validate({"language": language})
-            report = await made.report(asked)
+            report = await made.report(asked, ME)
             assert title in report.html
             assert "/go" in report.html
 
@@ -181,7 +214,7 @@ def test_a_graph_of_5000_hostile_topics_holds_nobody_up(endpoint: str):
                 assert await asyncio.to_thread(
                     graph.wait_for, lambda: graph.token_count >= count, PATIENCE_S
                 )
-                await made.examine(ExamineSystem())  # what it imports is no part of this
+                await made.examine(ExamineSystem(), ME)  # what it imports is no part of this
                 with stalls(0.05, noticed.append):
                     found = await complete(made)
                 assert {"hash", "unknown-type"} <= codes(found)

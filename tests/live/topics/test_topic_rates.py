@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.live.topics import topic_rates
+from studio.ros.node.topic_statistics import Flow
 from studio.ros.qos import QoSProfile
 from tests.support.wire import wait_until
 
@@ -139,3 +140,28 @@ def test_a_topic_that_rested_is_measured_again(world: World, monkeypatch: pytest
         return True in rested and bool(source.rates.measured)
 
     wait_until("it again", saying(outs, came_back))
+
+
+class Meter:
+    """A topic of which so many bytes come in a second."""
+
+    def __init__(self, bytes_per_s: float) -> None:
+        self.is_open, self._bytes_per_s = True, bytes_per_s
+
+    def flow(self) -> Flow:
+        return Flow(rate_hz=1.0, bytes_per_s=self._bytes_per_s, age_s=0.0)
+
+    def close(self) -> None:
+        self.is_open = False
+
+
+def test_light_ones_do_not_rest_for_a_heavy_one_that_is_too_new_to():
+    meters = {"/light": Meter(1), "/heavy": Meter(1_000)}
+    rates = topic_rates.TopicRates(lambda topic, _: meters[topic], bytes_max=100)
+    rates.flows(["/light"])
+    rates._measured["/light"].began_s -= 60  # pyright: ignore[reportPrivateUsage]
+    rates.flows(["/light", "/heavy"])
+    assert rates.measured == ("/light", "/heavy")
+    rates._measured["/heavy"].began_s -= 60  # pyright: ignore[reportPrivateUsage]
+    rates.flows(["/light", "/heavy"])
+    assert rates.measured == ("/light",)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.live.doctor.seen import Looked, listed, short
+from studio.live.doctor.subjects.frames import is_placed
 from studio.protocol.doctor import Concern, Finding
 
 if TYPE_CHECKING:
@@ -43,6 +44,8 @@ def findings(seen: Seen) -> Iterator[Finding]:
 def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Iterator[Finding]:
     name = short(topic.topic)
     who = header.sender or "its sender"
+    if header.stamp_ns == 0 and not is_placed(topic.type_name, topic.topic):
+        return
     if header.stamp_ns == 0:
         yield _found(
             "stamp-zero",

@@ -7,6 +7,7 @@ import time
 import pytest
 
 from tests.support.patient import CLOCK, SCAN, TF, Patient, clock_at, stamped, transform
+from tests.support.wire import wait_until
 
 pytestmark = pytest.mark.network
 SECOND_NS = 10**9
@@ -26,6 +27,19 @@ def test_a_stamp_that_is_off_is_a_warning(patient: Patient, code: str, off_s: in
     found = patient.until(code, topic, do=send)
     assert found.level == "warn"
     assert "/robot" in found.sentence
+
+
+def test_a_stamp_that_nothing_needs_may_be_zero(patient: Patient):
+    kind = "diagnostic_msgs/msg/DiagnosticArray"
+    out = patient.publisher(kind, "/unplaced")
+
+    def came() -> bool:
+        out.publish(stamped(kind, "", 0))
+        heard = patient.seen().heard
+        return heard is not None and heard.topics["/unplaced"].header is not None
+
+    wait_until("its header", came)
+    assert not {one for one in patient.codes("/unplaced") if one.startswith("stamp")}
 
 
 def test_stamps_of_now_are_well(patient: Patient):

@@ -1,0 +1,188 @@
+"""The states that a robot goes through on a trajectory: when, and where its links are then."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+import numpy as np
+
+from studio.errors import DisplayMessageError
+from studio.ros.duration import NANOSECONDS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from studio.displays.posed_robot import PosedRobot
+    from studio.displays.turning import Floats
+
+STATES_MAX: Final = 10_000
+"""Of a longer trajectory as many states are kept, spread evenly."""
+
+
+class Motion(NamedTuple):
+    """What a message tells of joints.
+
+    Attributes:
+        names: J names of joints.
+        times_s: Shape (S,): when each state is reached, from the start; ascending.
+        positions: Shape (S, J), rad or m; NaN: as it was.
+        start: Positions of other joints, by name.
+        frame: Frame that `roots` are in; empty: the root link stays where it is.
+        roots: Shape (S, 7): pose of the root link, w, x, y, z and m.
+    """
+
+    names: tuple[str, ...]
+    times_s: Floats
+    positions: Floats
+    start: Mapping[str, float]
+    frame: str = ""
+    roots: Floats | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return len(self.times_s)
+
+
+def motion_of(message: Any, kind: str) -> Motion:  # noqa: ANN401 - trajectory_msgs/JointTrajectory
+    """Read one trajectory of joints.
+
+    Raises:
+        DisplayMessageError: A point has another number of positions than there are joints, or
+            one that is no finite number.
+    """
+    names = tuple(map(str, message.joint_names))
+    rows: list[NDArray[np.float64]] = []
+    for at, each in enumerate(message.points):
+        if len(each.positions) != len(names):
+            reason = f"point {at} has {len(each.positions)} positions for {len(names)} joints"
+            raise DisplayMessageError(kind, reason)
+        rows.append(np.asarray(each.positions, np.float64))
+    positions = np.array(rows, np.float64).reshape(len(rows), len(names))
+    if not np.isfinite(positions).all():
+        raise DisplayMessageError(kind, "a position is NaN or infinite")
+    return Motion(names, _times_s(message.points), positions, {})
+
+
+def chain_of(message: Any, kind: str) -> Motion:  # noqa: ANN401 - moveit_msgs/DisplayTrajectory
+    """Read trajectories that follow each other, and the state that they begin in.
+
+    Raises:
+        DisplayMessageError: One of them makes no sense.
+    """
+    state = message.trajectory_start.joint_state
+    start = {
+        str(name): float(value)
+        for name, value in zip(state.name, state.position, strict=False)
+        if np.isfinite(value)
+    }
+    parts = [motion_of(one.joint_trajectory, kind) for one in message.trajectory]
+    bases = [one.multi_dof_joint_trajectory for one in message.trajectory]
+    names = tuple(dict.fromkeys(name for one in parts for name in one.names))
+    times: list[Floats] = []
+    rows: list[Floats] = []
+    for part in parts:
+        columns = [names.index(name) for name in part.names]
+        spread = np.full((part.size, len(names)), np.nan)
+        spread[:, columns] = part.positions
+        begin_s = float(times[-1][-1]) if times and len(times[-1]) else 0.0
+        times.append(part.times_s + begin_s)
+        rows.append(spread)
+    positions = np.concatenate(rows) if rows else np.empty((0, len(names)))
+    made = Motion(names, np.concatenate(times) if times else np.empty(0), positions, start)
+    return _with_roots(made, bases, kind)
+
+
+def _with_roots(motion: Motion, bases: Sequence[Any], kind: str) -> Motion:
+    """Add the poses of a joint of six degrees by which the whole robot moves, if there is one."""
+    moving = [one for one in bases if len(one.joint_names) and len(one.points)]
+    if not moving:
+        return motion
+    frame = str(moving[0].header.frame_id)
+    roots = np.array([row for one in moving for row in _roots(one)]).reshape(-1, 7)
+    if not np.isfinite(roots).all():
+        raise DisplayMessageError(kind, "a pose of the robot is NaN or infinite")
+    lengths = np.linalg.norm(roots[:, :4], axis=1, keepdims=True)
+    if (lengths < 1e-6).any():
+        raise DisplayMessageError(kind, "a pose of the robot has a quaternion of length 0")
+    roots[:, :4] /= lengths
+    if motion.size == len(roots):
+        return motion._replace(frame=frame, roots=roots)
+    if motion.size:
+        return motion
+    times_s = np.concatenate([_times_s(one.points) for one in moving])
+    nothing = np.empty((len(roots), len(motion.names)))
+    return motion._replace(
+        times_s=np.maximum.accumulate(times_s), positions=nothing, frame=frame, roots=roots
+    )
+
+
+def _roots(base: Any) -> Iterable[tuple[float, ...]]:  # noqa: ANN401
+    for each in base.points:
+        if each.transforms:
+            move, turn = each.transforms[0].translation, each.transforms[0].rotation
+            yield turn.w, turn.x, turn.y, turn.z, move.x, move.y, move.z
+
+
+def _times_s(points: Sequence[Any]) -> Floats:
+    """Return when each point is reached, s; one that is said to come before another comes at it."""
+    times = [
+        each.time_from_start.sec + each.time_from_start.nanosec / NANOSECONDS for each in points
+    ]
+    return np.maximum.accumulate(np.array(times, np.float64)) if times else np.empty(0)
+
+
+def thinned(motion: Motion, most: int = STATES_MAX) -> Motion:
+    """Return the states that are kept: the first and the last are always among them."""
+    if motion.size <= most:
+        return motion
+    rows = np.unique(np.linspace(0, motion.size - 1, most).round().astype(np.intp))
+    roots = None if motion.roots is None else motion.roots[rows]
+    return motion._replace(
+        times_s=motion.times_s[rows], positions=motion.positions[rows], roots=roots
+    )
+
+
+class States:
+    """Where the links of a robot are in each state; made again with another robot."""
+
+    def __init__(self, motion: Motion, robot: PosedRobot) -> None:
+        self._motion, self._kinematics = motion, robot.kinematics
+        free = robot.kinematics.free
+        index = {name: at for at, name in enumerate(free)}
+        now = robot.joints.by_name() | dict(motion.start)
+        rest = np.array([now.get(name, 0.0) for name in free], np.float64)
+        self._free = np.tile(rest, (motion.size, 1))
+        known = [(at, index[name]) for at, name in enumerate(motion.names) if name in index]
+        for at, column in known:
+            told = _held(motion.positions[:, at], float(rest[column]))
+            self._free[:, column] = told
+        movable = frozenset(robot.kinematics.movable)
+        self.unknown = tuple(name for name in motion.names if name not in movable)
+        """Joints that the robot does not have."""
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The names of all links."""
+        return self._kinematics.link_names
+
+    def poses_at(self, state: float) -> Floats:
+        """Return the poses of the links, (L, 7), in the root frame, also between two states."""
+        low = min(int(state), self._motion.size - 1)
+        high, share = min(low + 1, self._motion.size - 1), state - low
+        free = self._free[low] + share * (self._free[high] - self._free[low])
+        return self._kinematics.wxyz_xyz(self._kinematics.positions_with_mimic(free))
+
+    def poses_of(self, states: Sequence[int]) -> Floats:
+        """Return the poses of the links in some states, (S, L, 7)."""
+        free = self._free[list(states)]
+        return self._kinematics.wxyz_xyz(self._kinematics.positions_with_mimic(free))
+
+
+def _held(values: Floats, first: float) -> Floats:
+    """Return the values, NaN replaced by the one before."""
+    known = np.isfinite(values)
+    rows = np.maximum.accumulate(np.where(known, np.arange(len(values)), -1))
+    return np.where(rows >= 0, values[rows], first)
