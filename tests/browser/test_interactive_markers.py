@@ -168,8 +168,8 @@ def test_a_marker_is_dragged_at_once_given_back_and_asked_for_its_menu(
         page.mouse.up()
         wait_until("it to be back", lambda: abs(view.seen("simple_6dof")[0] - x) < 1e-5)
 
-        view.hover(x, y - 0.16, 0.05)
-        page.mouse.click(*view.at(x, y - 0.16, 0.05), button="right")
+        view.hover(x - 0.45, y, 0.0)
+        page.mouse.click(*view.at(x - 0.45, y, 0.0), button="right")
         box = page.get_by_role("menuitemcheckbox", name="With a box")
         assert box.get_attribute("aria-checked") == "true"
         page.get_by_role("menuitem", name="Submenu").press("Enter")

@@ -139,7 +139,7 @@ _HAS_MARKERS = """() => {
   return Object.keys(nodes).filter(isPart).length > 20;
 }"""
 _LOOK = "(pose) => document.querySelector('iframe').contentWindow.studio3d.setCamera(pose, false)"
-_AT_MARKER = {"position": [-2.6, 0.3, 1.5], "target": [-1.4, 1.5, 0.4]}
+_AT_MARKER = {"position": [-2.6, -0.9, 1.7], "target": [-1.5, 1.5, 0.1]}
 
 
 def path_of(page: str, theme: Theme) -> Path:

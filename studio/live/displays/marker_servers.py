@@ -283,6 +283,8 @@ class MarkerServers:
             _show(server.display, shown, command)
         async with server.turn:
             feedback = self._feedback(server, shown, command)
+            if command.action == "release" and shown.number not in server.held:
+                server.display.let_go(shown)  # what is told of is where the page left it
             if feedback:
                 await asyncio.to_thread(_publish, server, feedback)
 
@@ -370,9 +372,9 @@ class MarkerServers:
         shown = server.display.marker(number)
         if shown is None:
             return
-        server.display.let_go(shown)
         command = held.command.model_copy(update={"action": "release", "clicked": False})
         feedback = self._feedback(server, shown, command)
+        server.display.let_go(shown)
         self._spawn(asyncio.to_thread(_publish, server, feedback))
 
     def _forget_holders(self, server: _Server) -> None:
@@ -476,8 +478,6 @@ def _show(
     if command.orientation is not None:
         turn = unit_turn(command.orientation) or turn
     display.drag(shown, (turn, place), (command.control or 0, command.turn_rad))
-    if command.action == "release":
-        display.let_go(shown)
 
 
 def _events_of(command: InteractWithMarker, mode: int) -> tuple[FeedbackEvent, ...]:

@@ -185,6 +185,7 @@ def test_a_drag_sends_what_rviz_sends_and_the_servers_poses_wait_for_its_end(
             assert (down.mouse_point.x, down.mouse_point.z) == (0.1, 0.3)
             assert (moved.pose.position.x, moved.pose.orientation.w) == (0.7, 1.0)
             assert not moved.mouse_point_valid
+            assert [one.pose.position.x for one in made.heard[4:]] == [0.8, 0.8]
 
     asyncio.run(story())
 
