@@ -345,4 +345,3 @@ def test_the_3d_view_fills_the_screen_and_gives_it_back(tab: StudioPage):
     bar.wait_for(state="hidden")
     page.keyboard.press("Escape")
     bar.wait_for()
-    wait_until("all is as before", is_as_before)
