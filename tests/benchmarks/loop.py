@@ -104,7 +104,7 @@ async def _frames(stretches: Stretches) -> None:
 
 def _step(scene: DocumentScene, frames: SceneFrames, display: TfDisplay) -> None:
     frames.step()
-    display.show(frames.now())
+    display.see(frames.now())
     drawing = display.draw(0)
     scene.live.apply("1", drawing, dict.fromkeys(drawing, UPRIGHT))
     scene.flush()

@@ -34,6 +34,15 @@ OPTIONS: Final[dict[Theme, dict[str, Any]]] = {"dark": WITH_EXPERIMENTAL, "light
 MERGED: Final = "urdf/rover.urdf.xacro"
 OPEN_TABS: Final = ("recent", "browse", "examples", "new", "paste", "ros")
 LINK: Final[dict[str, Any]] = {"text": "#robot", "arguments": 1, "files": [], "edits": 1}
+OPENED: Final[dict[str, Any]] = {
+    "name": "view.rviz",
+    "displays": 2,
+    "tools": 8,
+    "views": 1,
+    "view": None,
+    "page": "",
+    "losses": [{"reason": "no_display", "what": "x/Y", "names": []}],
+}
 DIALOGS: Final[dict[str, dict[str, Any]]] = {
     **{f"open {tab}": {"kind": "open", "tab": tab} for tab in OPEN_TABS},
     "save_as": {"kind": "save_as"},
@@ -45,6 +54,9 @@ DIALOGS: Final[dict[str, dict[str, Any]]] = {
     "graphics": {"kind": "graphics"},
     "ros": {"kind": "ros"},
     "add_display": {"kind": "add_display"},
+    "rviz_open": {"kind": "rviz_open"},
+    "rviz_save": {"kind": "rviz_save"},
+    "rviz_opened": {"kind": "rviz_opened", "opened": OPENED},
     "layouts": {"kind": "layouts"},
     "class": {"kind": "class"},
     "class_name": {"kind": "class_name"},

@@ -68,7 +68,7 @@ def test_every_panel_has_help_with_a_picture_one_key_away(tab: StudioPage):
 
 def test_help_is_opened_read_searched_and_left_by_keys_alone(tab: StudioPage):
     page = tab.page
-    page.get_by_role("tab", name="Properties").focus()
+    page.get_by_role("tab", name="Properties", exact=True).focus()
     page.keyboard.press("F1")
     help_sheet = sheet(tab, "Properties")
     wait_until("the focus on its text", lambda: page.evaluate(_FOCUSED_CLASS) == "help-text")
@@ -117,7 +117,7 @@ def test_the_palette_and_the_menu_lead_to_the_help(tab: StudioPage):
 
 def test_help_on_a_window_lies_over_it_and_leaves_it_open(tab: StudioPage):
     page = tab.page
-    page.get_by_role("tab", name="Properties").focus()
+    page.get_by_role("tab", name="Properties", exact=True).focus()
     page.keyboard.press("?")
     keys = page.get_by_role("dialog", name="Keyboard shortcuts")
     keys.get_by_role("button", name="Help: Keyboard").click()
@@ -135,7 +135,7 @@ def test_help_on_a_window_lies_over_it_and_leaves_it_open(tab: StudioPage):
 
 def test_the_help_speaks_the_language_of_the_page(tab: StudioPage):
     page = tab.page
-    page.get_by_role("tab", name="Properties").focus()
+    page.get_by_role("tab", name="Properties", exact=True).focus()
     page.keyboard.press("F1")
     page.locator("dialog.help article").wait_for()
     page.get_by_role("button", name="Settings").click()
@@ -150,7 +150,7 @@ def test_none_of_the_help_is_loaded_before_it_is_asked_for(tab: StudioPage):
     names = """() => performance.getEntriesByType("resource")
       .filter(({ name }) => /help(\\/|-sheet|-texts|-text\\.|-search)/.test(name)).length"""
     tab.page.reload(wait_until="networkidle")
-    tab.page.get_by_role("tab", name="Properties").wait_for()
+    tab.page.get_by_role("tab", name="Properties", exact=True).wait_for()
     assert tab.page.evaluate(names) == 0
     tab.page.keyboard.press("F1")
     sheet(tab, title_of(tab))

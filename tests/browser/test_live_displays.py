@@ -146,7 +146,7 @@ def test_topics_are_added_mended_by_a_click_set_in_the_tree_and_seen_in_3d(
         wait_until("the pose stands first", lambda: first_display(tab).startswith("Pose"))
         row(tab, "Pose, /goal").focus()
         tab.page.keyboard.press("Delete")
-        wait_until("the row is gone", lambda: row(tab, "Pose").count() == 0)
+        wait_until("the row is gone", lambda: row(tab, "Pose, /goal").count() == 0)
         frame.fill("")
         frame.press("Enter")
         row(tab, "LaserScan, /scan").get_by_role("button", name="Show LaserScan").click()

@@ -41,7 +41,7 @@ def opened(shared: SharedTab, studio: RunningStudio) -> StudioPage:
 def tab(opened: StudioPage) -> StudioPage:
     """The same, with nothing edited, and all properties in front."""
     opened.undo_all()
-    opened.page.get_by_role("tab", name="Properties").click()
+    opened.page.get_by_role("tab", name="Properties", exact=True).click()
     opened.page.get_by_role("searchbox", name="Filter properties").fill("")
     return opened
 

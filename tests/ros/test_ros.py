@@ -13,7 +13,7 @@ import pytest
 import studio.ros
 
 ROOM = Path(studio.ros.__file__).parent
-NEEDED = {"errors", "interfaces", "ros", "tf.transforms"}
+NEEDED = {"errors", "interfaces", "ros", "tf.rotations", "tf.transforms"}
 ALL_MODULES = """
 import importlib, pkgutil, sys
 import studio.ros

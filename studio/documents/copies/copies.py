@@ -104,6 +104,7 @@ class CopyServices(Services):
         self.settings = replace(base.settings, trusted=False)
         self.quiet_s, self.patience_s = 2.0, base.patience_s
         self.meshes, self.validator, self.wire = base.meshes, base.validator, base.wire
+        self.plugins = base.plugins
         self.evaluators = Evaluators()
 
     def description_worker(self, opened: WaitsForOpening | None = None) -> DescriptionWorker:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 import numpy as np
 
-from studio.displays.display import Display
 from studio.displays.drawing import NO_TURN, Points
 from studio.displays.selection import (
     Item,
@@ -41,6 +40,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from studio.displays.display import Display
     from studio.displays.drawing import Pose, Wxyz, Xyz
     from studio.displays.selection import Fact
     from studio.live.displays.placing import Lookup, Shown
@@ -149,6 +149,8 @@ class Selecting:
         drawn = now.displays.get(ref.display)
         if drawn is None:
             return None
+        from studio.displays.display import Display  # noqa: PLC0415 - imports what reads messages
+
         if type(drawn.display).item is Display.item:
             return _group_of(ref.key, drawn.shown)
         item = drawn.display.item(ref.key)

@@ -122,7 +122,8 @@ def test_a_shape_that_makes_no_sense_is_refused_with_its_field(shape: Shape, rea
 
 def test_links_of_robots_and_other_things_are_no_shapes_of_plugins():
     link: Any = LinkParts(Link("a"), Robot("r"))
-    for odd in (link, "words"):
+    words: Any = "words"
+    for odd in (link, words):
         with pytest.raises(DisplayError, match="its shapes are"):
             ShapeBook().pack({"p": Placed("map", 0, {"a": odd})})
 

@@ -107,7 +107,7 @@ def test_a_reset_drops_what_came_and_takes_what_is_latched_once_more(
             await one.do(ResetScene())
             await until(lambda: said(one) == [""] and said(one, 1) == ["no_message"])
             assert len(one.ear.events) > count
-            assert one.ear.last("display_states")["fixed_frame"]["level"] == "ok"
+            await until(lambda: one.ear.last("display_states")["fixed_frame"]["level"] == "ok")
             assert [each["topic"] for each in listed(one)] == ["/kept_aim", "/aim"]
 
     asyncio.run(run())

@@ -1,3 +1,5 @@
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,7 +16,7 @@ KIND = TYPES.message(POINT_CLOUD)
 
 
 @given(message=values_of(KIND), little=st.booleans())
-def test_the_columns_are_what_the_general_reader_reads(message: object, little: bool):
+def test_the_columns_are_what_the_general_reader_reads(message: Any, little: bool):  # noqa: ANN401 - made by Hypothesis
     codec = Codec(KIND)
     data = bytes(codec.encode(message, little_endian=little))
     read, columns = codec.decode(data), read_point_cloud(data)
