@@ -70,7 +70,7 @@ SEEN: Final[dict[str, list[tuple[float, float, str, float]]]] = {
         (0.1, 0.3, R, 1),
     ],
     "behind": [(-0.3, -0.3, G, 1), (-0.18, -0.3, R, 1)],
-    "frustum": [(0.1, -0.2, R, 1), (0.1, 0.2, B, 1)],
+    "frustum": [(0.1, -0.2, R, 1), (0.1, 0.12, B, 1)],
     "faint-frustum": [(0.3, -0.2, R, 0.4), (0.3, 0.1, B, 0.4)],
 }
 """By shape: places from its origin in m, the colour there and how opaque it is."""

@@ -63,7 +63,11 @@ function optionRows() {
         placeholder=${t("live.fixed_frame.placeholder")} disabled=${!mayEdit.value} choices=${choices}
         onWrite=${(/** @type {string} */ frame) => void setFixedFrame(frame)} />`,
     },
-    optionRow("background", () => html`<${Background} />`),
+    optionRow(
+      "background",
+      () => html`<${Background} />`,
+      [t("display.global.of_theme"), background.value].filter(Boolean).join(", "),
+    ),
     optionRow(
       "frame_rate",
       () => html`<${TextBox} class="number narrow" label=${t("display.global.frame_rate")}
@@ -73,12 +77,12 @@ function optionRows() {
           setFrameRate(Math.min(Math.max(hz, 0), FRAME_RATE_MOST));
         }} />`,
     ),
-    optionRow("config", () => html`<${ConfigControls} />`),
+    optionRow("config", () => html`<${ConfigControls} />`, configText()),
   ];
 }
 
-/** @param {"background" | "frame_rate" | "config"} name @param {() => import("vendor/preact.js").ComponentChildren} controls @returns {Row} */
-const optionRow = (name, controls) => ({
+/** @param {"background" | "frame_rate" | "config"} name @param {() => import("vendor/preact.js").ComponentChildren} controls @param {string} [value] that they show @returns {Row} */
+const optionRow = (name, controls, value = "") => ({
   id: `global:${name}`,
   level: 2,
   label: t(`display.global.${name}`),
@@ -86,6 +90,7 @@ const optionRow = (name, controls) => ({
   kind: "setting",
   help: { title: t(`display.global.${name}`), text: t(`display.global.${name}.help`) },
   controls,
+  value,
 });
 
 /** RViz's first background, which the choice of another begins with. */
@@ -102,9 +107,12 @@ function Background() {
       onClick=${() => setBackground("")}>${t("display.global.of_theme")}</button>`;
 }
 
+/** The name of the config file that is open. */
+const configText = () => configName.value || t("display.global.config.none");
+
 /** The config file that is open, with a dot when it is not saved, and what can be done with it. */
 function ConfigControls() {
-  const name = configName.value || t("display.global.config.none");
+  const name = configText();
   const items = () =>
     CONFIG_COMMANDS.flatMap((id) => {
       const command = commandById(id);

@@ -21,6 +21,7 @@ import { focusLink } from "../../model/viewport.js";
  * @property {boolean} [expandable]
  * @property {boolean} [expanded]
  * @property {string} [meta] said small at the right
+ * @property {string} [value] what its controls show, for screen readers
  * @property {boolean} [warn] what `meta` says is a fault
  * @property {{on: boolean, label: string, set: (on: boolean) => void, shared: boolean}} [eye]
  * @property {{value: number, label: string, set: (value: number) => void}} [slider]
@@ -203,7 +204,7 @@ function openRowMenu(event, row) {
 /** What stands between the name of a row and its eye. @param {{row: Row}} props */
 function RowTail({ row }) {
   return html`${row.meta && html`${" "}<span class=${`tree-meta ${row.warn ? "warn" : ""} ${row.tone ?? ""}`} title=${row.meta}>${row.meta}</span>`}
-    ${row.controls && html`<span class="tree-control" onClick=${stop} onDblClick=${stop}>${row.controls()}</span>`}
+    ${row.controls && html`${" "}<span class="tree-control" onClick=${stop} onDblClick=${stop}>${row.controls()}</span>`}
     ${row.slider && html`<${ShareSlider} ...${row.slider} />`}
     ${row.number && html`<${NumberBox} ...${row.number} />`}`;
 }
@@ -224,8 +225,8 @@ function rowClass(row) {
 }
 
 /** @param {Row} row @returns {string} what a screen reader says, beside level and state */
-function rowLabel({ label, meta, eye }) {
-  return [label, meta, eye && !eye.on ? t("hidden") : ""].filter(Boolean).join(", ");
+function rowLabel({ label, meta, value, eye }) {
+  return [label, meta, value, eye && !eye.on ? t("hidden") : ""].filter(Boolean).join(", ");
 }
 
 /** @param {{row: Row, setOpen: (id: string, open: boolean) => void}} props */

@@ -61,12 +61,12 @@ export function ViewsPanel() {
   useEffect(() => void askViewKinds(), []);
   if (!viewport.value || !shownView.value)
     return html`<${EmptyState} icon="views" title=${t("views.none")} />`;
-  return html`<div class="views scroll">
+  return html`<section class="views scroll" aria-label=${t("panel.views")}>
     <${Kind} kind=${shownView.value.kind} />
     <${Values} />
     <${SavedShelf} shelf=${SHARED} />
     <${SavedShelf} shelf=${OWN} />
-  </div>`;
+  </section>`;
 }
 
 /** @param {{kind: string}} props */
