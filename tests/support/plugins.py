@@ -50,7 +50,7 @@ BAD: dict[str, tuple[str, str]] = {
     "sleeps": (drawing("Sleeps", "x = 1\nnp.sort(np.zeros(20)); time.sleep(1000)"),
                "sleeps.py:13 in draw: it gave no answer within 1 s"),
     "exits": (drawing("Exits", "sys.exit(3)"), "exits.py:12: SystemExit: 3"),
-    "dies": (drawing("Dies", "os._exit(3)"), "dies.py: it ended its process (code 3)"),
+    "dies": (drawing("Dies", "os._exit(3)"), "dies.py: it ended its process (code "),
     "swells": (drawing("Swells", "x = bytearray(4 << 30)"), "swells.py:12: MemoryError"),
 }  # fmt: skip
 """By the name of the file: its text, and what its row says."""
