@@ -153,7 +153,10 @@ test("others have their turn often while a million points are looked at", async 
   let waited = 0;
   const pause = () => {
     asked += 1;
-    return asked % 2 ? null : Promise.resolve().then(() => void (waited += 1));
+    if (asked % 2) return null;
+    return Promise.resolve().then(() => {
+      waited += 1;
+    });
   };
   const rows = await gathered(pointsIn(perspective(), points, all), pause);
   assert.equal(rows.length, 1_000_000);
