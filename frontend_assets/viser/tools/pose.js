@@ -5,9 +5,12 @@
 /** @import { Units } from "./units.js" */
 
 import { fromFixedFrame, groundAt } from "../ground.js";
+import { depthOf, pixelAt } from "../orthographic.js";
 import { DrawnLines, placeOf } from "../screen.js";
 import { far, setCursor, Tool } from "./tool.js";
 
+/** The arrow of a press without a way is so long on the screen, px. */
+const HAND_PX = 100;
 /** Parts of the length of the arrow: half its shaft, half its head, and where the head begins. */
 const ARROW = { shaft: 0.03, head: 0.1, neck: 0.75 };
 
@@ -137,11 +140,12 @@ export class PoseOnGround extends Tool {
     return seen.length === outline.length ? seen : null;
   }
 
-  /** About the width of a hand on the screen, m: the arrow of a press without a way. @param {Ground} at */
+  /** How long an arrow without a way is on the ground, m; with perspective and without. @param {Ground} at */
   #handLength(at) {
-    const camera = this.#door.mutable?.camera;
+    const { camera, canvas } = this.#door.mutable ?? {};
     const point = fromFixedFrame(this.#door, [...at, 0]);
-    return camera && point ? camera.position.distanceTo(point) / 10 : 1;
+    if (!camera || !canvas || !point) return 1;
+    return HAND_PX * pixelAt(camera, depthOf(camera, point), canvas.clientHeight);
   }
 
   /** @param {Ground} at @returns {Place | null} */
