@@ -47,7 +47,7 @@ export class MarkerScene {
   #shapes = new Map();
   /** @type {Map<string, Own>} */
   #own = new Map();
-  /** How far controls were turned about their axes here, by their reference frame and number. @type {Map<string, number>} */
+  /** How far controls were turned about their axes here, by their reference frame and number. @type {Map<string, Map<number, number>>} */
   #rads = new Map();
   /** @type {WeakMap<Material, Material>} */
   #twins = new WeakMap();
@@ -75,7 +75,8 @@ export class MarkerScene {
         const root = `/live/${display}/m${marker.number}`;
         this.known.set(root, { root, display, aids, marker });
       }
-    for (const root of this.#own.keys()) if (!this.known.has(root)) this.#own.delete(root);
+    for (const kept of [this.#own, this.#rads])
+      for (const root of kept.keys()) if (!this.known.has(root)) kept.delete(root);
     this.#door.redraw();
   }
 
@@ -88,7 +89,7 @@ export class MarkerScene {
 
   /** How far a control was turned about its axis. @param {Known} known @param {Control} control */
   radOf({ root }, control) {
-    const kept = this.#rads.get(`${root} ${control.number}`);
+    const kept = this.#rads.get(root)?.get(control.number);
     if (kept !== undefined || control.facing !== FIXED) return kept ?? 0;
     // Somebody else may have turned it.
     const [w, ...xyz] = after(
@@ -100,7 +101,8 @@ export class MarkerScene {
 
   /** A marker stands here from now on. @param {Known} known @param {Pose} pose @param {Control | null} control @param {number} rad */
   keep({ root }, pose, control, rad) {
-    if (control && control.facing !== 0) this.#rads.set(`${root} ${control.number}`, rad);
+    const rads = this.#rads.get(root) ?? new Map();
+    if (control && control.facing !== 0) this.#rads.set(root, rads.set(control.number, rad));
     this.#own.set(root, { pose, until: Number.POSITIVE_INFINITY });
     this.#door.redraw();
   }
@@ -116,11 +118,8 @@ export class MarkerScene {
   /** The studio's word counts at once. @param {string} root */
   giveBack(root) {
     this.#own.delete(root);
-    for (const key of this.#rads.keys()) {
-      const control = Number(key.slice(root.length + 1));
-      const isFixed = this.known.get(root)?.marker.controls.find((one) => one.number === control);
-      if (key.startsWith(`${root} `) && isFixed?.facing === FIXED) this.#rads.delete(key);
-    }
+    for (const { facing: how, number } of this.known.get(root)?.marker.controls ?? [])
+      if (how === FIXED) this.#rads.get(root)?.delete(number);
     for (const name of this.#groupsOf(root)) this.#stand(name, this.#told(name));
     this.#door.redraw();
   }
@@ -136,11 +135,11 @@ export class MarkerScene {
     /** @type {Handle | null} */
     let nearest = null;
     for (const [known, control, node] of this.#meant())
-      for (const hit of this.#hits(node, pointing)) {
-        const point = pointOf(hit, ray);
-        const distance = point.distanceTo(ray.origin);
-        if (!nearest || distance < nearest.distance)
-          nearest = { known, control, node, distance, point };
+      for (const { distance } of this.#hits(node, pointing)) {
+        if (nearest && distance >= nearest.distance) continue;
+        // Its own point is said in the axes of the mesh where that is of many bodies.
+        const point = ray.origin.clone().addScaledVector(ray.direction, distance);
+        nearest = { known, control, node, distance, point };
       }
     const found = /** @type {Handle | null} */ (nearest);
     const before = found && this.#robotAt(x, y);
@@ -339,14 +338,6 @@ export class MarkerScene {
     } else if (twin.color) twin.color.lerp(twin.color.clone().set(0xffffff), strength);
     return twin;
   }
-}
-
-/** Where something was met, in the scene. Of many bodies in one mesh it is said in the axes of the mesh.
- * @param {Hit} hit @param {{ origin: Vector3, direction: Vector3 }} ray @returns {Vector3} */
-function pointOf({ point, object }, { origin, direction }) {
-  const way = point.clone().sub(origin).normalize();
-  const isOnRay = way.distanceTo(direction) < 1e-3;
-  return isOnRay ? point : point.clone().applyMatrix4(object.matrixWorld);
 }
 
 /** @param {Pose} pose @returns {Pose} */
