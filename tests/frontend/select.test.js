@@ -13,7 +13,7 @@ import {
   solidAt,
   solidsIn,
 } from "../../frontend_assets/viser/live-picking.js";
-import { gathered, sharesOf, spread } from "../../frontend_assets/viser/tools/select.js";
+import { gathered, keptOf, sharesOf, spread } from "../../frontend_assets/viser/tools/select.js";
 
 /** A window of 200 by 100 px at (10, 20), and a camera 5 m above the origin that looks down the z axis. */
 const FRAME = { left: 10, top: 20, width: 200, height: 100 };
@@ -187,6 +187,18 @@ test("of too many those of few stay, and the others are spread evenly", () => {
     [10, 20],
   );
   assert.deepEqual(spread([0, 1, 2, 3, 4, 5], 3), [0, 2, 4]);
+});
+
+test("nodes that a rectangle does not touch take no place, and what is left out is counted", () => {
+  const found = ["a", "a", "b"].map((display) => ({ node: { display }, rows: [0, 1] }));
+  assert.deepEqual(keptOf(found, 3, 100), { kept: found, left_out: 0 });
+  assert.deepEqual(keptOf(found, 2, 100), { kept: found.slice(0, 2), left_out: 2 });
+  const { kept, left_out } = keptOf(found, 3, 4);
+  assert.deepEqual(
+    kept.map(({ rows }) => rows),
+    [[0], [0], [0, 1]],
+  );
+  assert.equal(left_out, 2);
 });
 
 test("names of nodes lead to displays, paths and shapes, whatever signs are in them", () => {

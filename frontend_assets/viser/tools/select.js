@@ -138,28 +138,17 @@ export class Select extends Tool {
     const pause = pauses(AT_ONCE_MS);
     /** @type {{ node: LiveNode, rows: number[] }[]} */
     const found = [];
-    for (const node of liveNodes(this.#door).slice(0, NODES_MAX)) {
+    for (const node of liveNodes(this.#door)) {
       const rows = await gathered(rowsIn(this.#door, this.#detail, node, rect), pause);
+      await pause();
       if (turn !== this.#turn) return;
       if (rows.length > 0) found.push({ node, rows });
     }
     const links = await this.#linksIn(rect, pause);
     if (turn !== this.#turn) return;
-    const shares = sharesOf(
-      found.map(({ node, rows }) => [node.display, rows.length]),
-      PARTS_MAX,
-    );
-    const nodes = found.map(({ node, rows }, at) =>
-      pickedOf(node, spread(rows, shares[at] ?? 0), null),
-    );
-    const all = found.reduce((sum, { rows }) => sum + rows.length, 0);
-    const kept = nodes.reduce((sum, { rows }) => sum + rows.length, 0);
-    this.#say({
-      nodes: nodes.filter(({ rows }) => rows.length > 0),
-      links,
-      how,
-      left_out: all - kept,
-    });
+    const { kept, left_out } = keptOf(found, NODES_MAX, PARTS_MAX);
+    const nodes = kept.map(({ node, rows }) => pickedOf(node, rows, null));
+    this.#say({ nodes, links, how, left_out });
   }
 
   /** @param {Rect} rect @param {() => Promise<void> | null} pause */
@@ -213,6 +202,26 @@ async function someOf(all, pause) {
       await pause();
     }
   return false;
+}
+
+/**
+ * What can be told at once of what a rectangle touches, and how many rows are left out for it.
+ * @template {{ node: { display: string }, rows: readonly number[] }} T
+ * @param {readonly T[]} found @param {number} nodesMax @param {number} rowsMax
+ * @returns {{ kept: Pick<T, "node" | "rows">[], left_out: number }}
+ */
+export function keptOf(found, nodesMax, rowsMax) {
+  const told = found.slice(0, nodesMax);
+  const shares = sharesOf(
+    told.map(({ node, rows }) => [node.display, rows.length]),
+    rowsMax,
+  );
+  const kept = told
+    .map(({ node, rows }, at) => ({ node, rows: spread(rows, shares[at] ?? 0) }))
+    .filter(({ rows }) => rows.length > 0);
+  const count = (/** @type {readonly { rows: readonly number[] }[]} */ all) =>
+    all.reduce((sum, { rows }) => sum + rows.length, 0);
+  return { kept, left_out: count(found) - count(kept) };
 }
 
 /**
