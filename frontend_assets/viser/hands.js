@@ -28,8 +28,6 @@ export class Hands {
   #mark;
   /** Where each pointer is that was pressed on the picture. @type {Map<number, Place>} */
   #held = new Map();
-  /** Where the mouse is; null: not over the picture. @type {Place | null} */
-  #over = null;
 
   /** @param {Door} door @param {CameraView} camera */
   constructor(door, camera) {
@@ -43,14 +41,6 @@ export class Hands {
       window.addEventListener(type, (event) => this.#up(event), options);
     window.addEventListener("blur", () => this.#letGo());
     window.addEventListener("wheel", (event) => this.#wheel(event), { ...options, passive: false });
-    document.addEventListener("pointerleave", () => {
-      this.#over = null;
-    });
-  }
-
-  /** Where the mouse is; null: not over the picture. */
-  get over() {
-    return this.#over;
   }
 
   /** @param {PointerEvent} event */
@@ -63,17 +53,11 @@ export class Hands {
   /** @param {PointerEvent} event */
   #move(event) {
     const now = placeOfEvent(event);
-    if (event.pointerType !== "touch") this.#over = now;
-    const before = this.#held.get(event.pointerId) ?? this.#joined(event, now);
+    const before = this.#held.get(event.pointerId);
     if (!before) return;
     this.#held.set(event.pointerId, now);
     if (this.#held.size > 1) this.#spread(event.pointerId, before, now);
     else this.#drag(event, before, now);
-  }
-
-  /** A finger that a tool had, and gave up for a second one. @param {PointerEvent} event @param {Place} now */
-  #joined({ pointerType }, now) {
-    return pointerType === "touch" && this.#held.size > 0 ? now : undefined;
   }
 
   /** @param {PointerEvent} event @param {Place} before @param {Place} now */

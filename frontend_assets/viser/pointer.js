@@ -65,6 +65,11 @@ export class Pointer {
     return this.#tool.cancel();
   }
 
+  /** Where the mouse is, px; null: not over the picture. @returns {{ x: number, y: number } | null} */
+  get place() {
+    return this.#at;
+  }
+
   /** Where the mouse points on the robot, in the scene. @returns {Vector3 | null} */
   get point() {
     const at = this.#at;
@@ -101,11 +106,12 @@ export class Pointer {
     window.focus();
     if (this.#isHandingOver) return;
     if (this.#pressed?.own && event.pointerId !== this.#pressed.id) {
-      this.#handOver(this.#pressed);
+      this.#handOver(this.#at ?? this.#pressed.spot, this.#pressed.id);
       this.#touch();
       return;
     }
     const spot = spotOf(event);
+    this.#at = spot;
     const modified = spot.shift || spot.ctrl;
     const isPlain = event.button === 0 && (this.#tool.takesModified || !modified);
     const own = !spot.free && this.#tool.wants(spot) && this.#tool.down(spot);
@@ -122,10 +128,9 @@ export class Pointer {
   }
 
   /** A second finger moves the camera: what the first one began was not meant, and is the camera's, too.
-   * @param {{ spot: Spot, id: number }} pressed */
-  #handOver({ spot, id }) {
+   * @param {Spot} at where the first one is @param {number} id */
+  #handOver({ x: clientX, y: clientY }, id) {
     this.cancel();
-    const { x: clientX, y: clientY } = spot;
     const init = { pointerId: id, pointerType: "touch", clientX, clientY, buttons: 1, bubbles: true };
     this.#isHandingOver = true;
     this.#door.mutable?.canvas?.dispatchEvent(new PointerEvent("pointerdown", init));

@@ -211,13 +211,13 @@ class Studio3d {
 
   /** Whether the mouse is over the picture. */
   isPointing() {
-    return this.#hands.over !== null;
+    return this.#pointer.place !== null;
   }
 
   /** Turn to what is under the mouse; whether anything is. */
   lookAtPointed() {
-    const over = this.#hands.over;
-    const found = over && this.#surfaces.at(over.x, over.y);
+    const { place } = this.#pointer;
+    const found = place && this.#surfaces.at(place.x, place.y);
     // A line of the floor is nothing to look at.
     const point = found && (found.link ?? found.display) !== null ? found.point : null;
     if (point) this.#camera.lookAt(point);

@@ -230,6 +230,17 @@ def test_two_fingers_zoom_and_one_turns(view: ScenePage):
     view.until("Math.abs(studio3d.getView().values.Distance - 2) < 1e-6")
     touch("touchEnd")
 
+    # What a tool had of the first finger is the camera's from where that finger is.
+    view.run("studio3d.setTool('Select')")
+    use(view, "Orbit", Yaw=1.0, Pitch=0.5, Distance=4.0)
+    touch("touchStart", (90, 60))
+    touch("touchMove", (60, 60))
+    touch("touchStart", (60, 60), (160, 60))
+    touch("touchMove", (10, 60), (210, 60))
+    view.until("Math.abs(studio3d.getView().values.Distance - 2) < 1e-6")
+    touch("touchEnd")
+    view.run("studio3d.setTool('Interact')")
+
 
 def test_another_kind_shows_the_same(view: ScenePage):
     use(view, "Orbit", Yaw=0.6, Pitch=0.5, Distance=3.0, Focal_Point__Z=0.2)
