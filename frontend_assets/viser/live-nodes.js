@@ -37,6 +37,7 @@ const ROOT = "/live/";
  * @property {number} [thickness]
  * @property {"world" | "screen"} [thickness_units]
  * @property {number} [head_radius] m
+ * @property {number} [cell_size] of a grid, m
  */
 
 /** All nodes of displays that are seen. @param {Door} door @returns {LiveNode[]} */

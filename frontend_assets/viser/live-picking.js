@@ -2,12 +2,12 @@
 /** @import { Door } from "./door.js" */
 /** @import { Lens, Numbers, Rect } from "./lens.js" */
 /** @import { LiveNode, Props } from "./live-nodes.js" */
-/** @import { Hit, Object3D, Pointing, Vector3 } from "./viser.d.ts" */
+/** @import { Object3D, Pointing, Vector3 } from "./viser.d.ts" */
 
 import { fromHalf } from "./extent.js";
 import { inside, isIn, lensOf, touches } from "./lens.js";
 import { liveNodes } from "./live-nodes.js";
-import { rayThrough } from "./picking.js";
+import { hitOf, rayThrough } from "./picking.js";
 import { pixelsToLine } from "./screen.js";
 
 /** @typedef {[number, number, number]} Triple */
@@ -302,35 +302,15 @@ const dot = (one, other) => one[0] * other[0] + one[1] * other[1] + one[2] * oth
 /** @param {Triple} one @param {Triple} other @returns {Triple} */
 const cross = ([x, y, z], [u, v, w]) => [y * w - z * v, z * u - x * w, x * v - y * u];
 
-/** What else is drawn: surfaces of triangles, pictures, words. @param {Door} door @param {LiveNode} node @param {{ origin: Vector3, direction: Vector3 }} sight @returns {Met | null} */
+/** What else is drawn: surfaces of triangles, pictures, words. @param {Door} door @param {LiveNode} node @param {Pointing["ray"]} sight @returns {Met | null} */
 function surfaceAt(door, node, sight) {
-  const camera = door.mutable?.camera;
   const lens = lensOf(door, node.group);
-  if (!camera || !lens) return null;
-  /** @type {Pointing} */
-  const pointing = {
-    ray: rayOf(sight),
-    near: 0,
-    far: Number.POSITIVE_INFINITY,
-    camera,
-    params: {},
-  };
-  /** @type {Hit[]} */
-  const hits = [];
-  node.object.traverseVisible((object) => {
-    if (!object.isMesh || !object.geometry) return;
-    if (!object.geometry.boundingBox) object.geometry.computeBoundingBox();
-    object.raycast(pointing, hits);
-  });
-  const [hit] = hits.sort((a, b) => a.distance - b.distance);
-  if (!hit) return null;
+  const hit = hitOf(door, node.object, sight);
+  if (!lens || !hit) return null;
   const place = inside(node.group.matrixWorld, hit.point);
   lens.at(...place);
   return { row: hit.faceIndex ?? 0, depth_m: lens.depth_m, miss_px: 0, place };
 }
-
-/** @param {{ origin: Vector3, direction: Vector3 }} sight @returns {Pointing["ray"]} */
-const rayOf = ({ origin, direction }) => /** @type {Pointing["ray"]} */ ({ origin, direction });
 
 /**
  * Rows of a node that lie in a rectangle, one after the other; null now and then, for others to have

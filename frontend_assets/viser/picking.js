@@ -1,6 +1,6 @@
 /** @import { Door } from "./door.js" */
 /** @import { RobotView } from "./robot.js" */
-/** @import { Hit, Pointing, Vector3 } from "./viser.d.ts" */
+/** @import { Hit, Object3D, Pointing, Vector3 } from "./viser.d.ts" */
 
 /** @typedef {{ link: string, point: Vector3 }} Pick */
 
@@ -65,6 +65,23 @@ function cornersOf({ face, object, point }) {
       .set(places.getX(at), places.getY(at), places.getZ(at))
       .applyMatrix4(object.matrixWorld),
   );
+}
+
+/** The nearest surface of what is shown of an object that a ray meets; null: it meets none.
+ * @param {Door} door @param {Object3D} object @param {Pointing["ray"]} ray @returns {Hit | null} */
+export function hitOf(door, object, ray) {
+  const camera = door.mutable?.camera;
+  if (!camera) return null;
+  /** @type {Pointing} */
+  const pointing = { ray, near: 0, far: Number.POSITIVE_INFINITY, camera, params: {} };
+  /** @type {Hit[]} */
+  const hits = [];
+  object.traverseVisible((one) => {
+    if (!one.isMesh || !one.geometry) return;
+    if (!one.geometry.boundingBox) one.geometry.computeBoundingBox();
+    one.raycast(pointing, hits);
+  });
+  return hits.sort((one, other) => one.distance - other.distance)[0] ?? null;
 }
 
 /** @param {Door} door @param {RobotView} robot @param {number} x @param {number} y @returns {{ link: string, hit: Hit } | null} */

@@ -87,9 +87,7 @@ class Studio3d {
   );
   #surfaces = new Surfaces(this.#door, this.#robot);
   #pose = new PoseOnGround(this.#door, this.#units, this.#tellPage);
-  #point = new SurfacePoint(this.#door, this.#surfaces, this.#units, ({ point, what }) =>
-    this.#tellPage("point", { point, what }),
-  );
+  #point = new SurfacePoint(this.#door, this.#surfaces, this.#units, this.#tellPage);
   /** By RViz's class without its package. @type {Record<string, Tool>} */
   #tools = {
     Interact: this.#interact,

@@ -1,32 +1,30 @@
 /** @import { Door } from "./door.js" */
 /** @import { RobotView } from "./robot.js" */
-/** @import { Matrix4, Object3D, Pointing, Vector3 } from "./viser.d.ts" */
+/** @import { Numbers } from "./lens.js" */
+/** @import { Props } from "./live-nodes.js" */
+/** @import { Matrix4, Object3D, Vector3 } from "./viser.d.ts" */
 
-import { fromHalf, isSeen } from "./extent.js";
-import { pick, rayThrough } from "./picking.js";
+import { isSeen } from "./extent.js";
+import { liveNodes } from "./live-nodes.js";
+import { reading } from "./live-picking.js";
+import { hitOf, pick, rayThrough } from "./picking.js";
 
-const LIVE = "/live/";
-const FOLLOWED = "/live/followed/";
 const FLOOR = "/grid";
 /** Points and lines are met so near, px. */
 const NEAR_PX = 4;
 /** Words face the eye. */
 const NO_SURFACE = new Set(["LabelMessage"]);
 
-/** @typedef {ArrayLike<number>} Numbers */
 /** @typedef {{ origin: Vector3, direction: Vector3 }} Ray the direction has the length 1 */
 /** How wide a pixel is, m: `base + slope * distance`. @typedef {{ base: number, slope: number }} PixelSize */
 /**
- * What is seen at a place: in the scene, how far from the eye, and of what. `display` is the id of a
- * display, `part` which of its points, segments or solids that is, if it is one of many.
+ * What is seen at a place: in the scene, how far from the eye, and of what.
  *
  * @typedef {object} Surface
  * @property {Vector3} point
  * @property {number} distance m
  * @property {string | null} link
- * @property {string | null} display null, and no link: the floor
- * @property {string} node its name in the scene
- * @property {number | null} part
+ * @property {string | null} display its id; null, and no link: the floor
  */
 
 /**
@@ -52,17 +50,14 @@ export class Surfaces {
       base: ray.origin.distanceTo(beside.origin),
       slope: ray.direction.distanceTo(beside.direction),
     };
-    const nodes = new Set(Object.values(this.#door.mutable?.nodeRefFromName ?? {}));
     /** @type {Surface | null} */
     let nearest = this.#link(ray, x, y);
-    for (const [name, node] of Object.entries(window.__viserSceneTree?.getState() ?? {})) {
-      const object = isDrawn(name) ? this.#door.node(name) : undefined;
-      if (!node || !object || NO_SURFACE.has(node.message.type) || !isSeen(object)) continue;
-      const hit = this.#hit(node.message, object, ray, pixel, nodes);
+    for (const { kind, props, object, display } of [...this.#floor(), ...liveNodes(this.#door)]) {
+      const hit = NO_SURFACE.has(kind) ? null : this.#hit(kind, props, object, ray, pixel);
       if (!hit || (nearest && hit.distance >= nearest.distance)) continue;
-      const display = name.startsWith(LIVE) ? decodeURIComponent(name.split("/")[2] ?? "") : null;
-      const point = ray.origin.clone().addScaledVector(ray.direction, hit.distance);
-      nearest = { link: null, display, node: name, ...hit, point: hit.point ?? point };
+      const { distance } = hit;
+      const point = hit.point ?? ray.origin.clone().addScaledVector(ray.direction, distance);
+      nearest = { point, distance, link: null, display };
     }
     return nearest;
   }
@@ -72,46 +67,31 @@ export class Surfaces {
     const found = pick(this.#door, this.#robot, x, y);
     if (!found) return null;
     const { link, point } = found;
-    const distance = point.distanceTo(ray.origin);
-    return { point, distance, link, display: null, node: `/robot/${link}`, part: null };
+    return { point, distance: point.distanceTo(ray.origin), link, display: null };
   }
 
-  /** @param {import("./viser.d.ts").Message} message @param {Object3D} object @param {Ray} ray @param {PixelSize} pixel
-   * @param {ReadonlySet<Object3D | undefined>} nodes @returns {{ distance: number, part: number | null, point?: Vector3 } | null} */
-  #hit(message, object, ray, pixel, nodes) {
-    const props = /** @type {Record<string, any>} */ (message.props ?? {});
+  /** The grid of the studio, which is no display's, if it is seen. */
+  #floor() {
+    const { message } = window.__viserSceneTree?.getState()[FLOOR] ?? {};
+    const object = this.#door.node(FLOOR);
+    if (!message || !object || !isSeen(object)) return [];
+    const props = /** @type {Props} */ (message.props ?? {});
+    return [{ kind: message.type, props, object, display: null }];
+  }
+
+  /** @param {string} kind @param {Props} props @param {Object3D} object @param {Ray} ray @param {PixelSize} pixel
+   * @returns {{ distance: number, point?: Vector3 } | null} */
+  #hit(kind, props, object, ray, pixel) {
     const own = inFrame(ray, object.matrixWorld);
-    if (message.type === "PointCloudMessage")
+    if (kind === "PointCloudMessage")
       return placed(nearestPoint(props.points, own, pixel, props.point_size ?? 0), object);
-    if (message.type === "LineSegmentsMessage")
+    if (kind === "LineSegmentsMessage")
       return placed(nearestSegment(props.points, own, pixel), object);
-    if (message.type === "GridMessage") return lineOfGrid(props.cell_size, own, pixel);
-    return this.#mesh(object, ray, nodes);
+    if (kind === "GridMessage") return lineOfGrid(props.cell_size ?? 0, own, pixel);
+    // Its point is in the axes of the mesh where that is of many bodies.
+    const hit = hitOf(this.#door, object, ray);
+    return hit && { distance: hit.distance };
   }
-
-  /** @param {Object3D} object @param {Ray} ray @param {ReadonlySet<Object3D | undefined>} nodes
-   * @returns {{ distance: number, part: number | null } | null} */
-  #mesh(object, ray, nodes) {
-    const camera = this.#door.mutable?.camera;
-    if (!camera) return null;
-    /** @type {Pointing} */
-    const pointing = { ray, near: 0, far: Number.POSITIVE_INFINITY, camera, params: {} };
-    /** @type {import("./viser.d.ts").Hit[]} */
-    const hits = [];
-    const visit = (/** @type {Object3D} */ one) => {
-      if (one.isMesh && one.geometry) one.raycast(pointing, hits);
-      // A node below has its own turn.
-      for (const child of one.children) if (child.visible && !nodes.has(child)) visit(child);
-    };
-    visit(object);
-    const [first] = hits.sort((one, other) => one.distance - other.distance);
-    return first ? { distance: first.distance, part: first.instanceId ?? null } : null;
-  }
-}
-
-/** @param {string} name of a node */
-function isDrawn(name) {
-  return name === FLOOR || (name.startsWith(LIVE) && !name.startsWith(FOLLOWED));
 }
 
 /** A ray as a frame of the scene sees it; frames of displays are not scaled. @param {Ray} ray @param {Matrix4} matrix @returns {Ray} */
@@ -145,21 +125,17 @@ function placed(hit, object) {
  */
 export function nearestPoint(points, { origin: o, direction: d }, pixel, radius) {
   if (!points) return null;
-  const numbers = readable(points);
+  const read = reading(points);
   let [nearest, part] = [Number.POSITIVE_INFINITY, -1];
-  for (let at = 0; at < numbers.length; at += 3) {
-    const [x, y, z] = [
-      /** @type {number} */ (numbers[at]) - o.x,
-      /** @type {number} */ (numbers[at + 1]) - o.y,
-      /** @type {number} */ (numbers[at + 2]) - o.z,
-    ];
+  for (let at = 0; at < points.length; at += 3) {
+    const [x, y, z] = [read(at) - o.x, read(at + 1) - o.y, read(at + 2) - o.z];
     const along = x * d.x + y * d.y + z * d.z;
     if (!(along > 0 && along < nearest)) continue;
     const reach = Math.max(radius, NEAR_PX * (pixel.base + pixel.slope * along));
     if (x * x + y * y + z * z - along * along > reach * reach) continue;
     [nearest, part] = [along, at / 3];
   }
-  return part < 0 ? null : { distance: nearest, part, at: tripleAt(numbers, part) };
+  return part < 0 ? null : { distance: nearest, part, at: tripleAt(read, part) };
 }
 
 /**
@@ -172,11 +148,11 @@ export function nearestPoint(points, { origin: o, direction: d }, pixel, radius)
  */
 export function nearestSegment(points, ray, pixel) {
   if (!points) return null;
-  const numbers = readable(points);
+  const read = reading(points);
   /** @type {{ distance: number, part: number, at: [number, number, number] } | null} */
   let nearest = null;
-  for (let part = 0; 6 * part < numbers.length; part += 1) {
-    const [begin, end] = [tripleAt(numbers, 2 * part), tripleAt(numbers, 2 * part + 1)];
+  for (let part = 0; 6 * part < points.length; part += 1) {
+    const [begin, end] = [tripleAt(read, 2 * part), tripleAt(read, 2 * part + 1)];
     const found = approach(begin, end, ray);
     if (!found || (nearest && found.along >= nearest.distance)) continue;
     if (found.apart > NEAR_PX * (pixel.base + pixel.slope * found.along)) continue;
@@ -222,21 +198,5 @@ export function lineOfGrid(cell, { origin: o, direction: d }, pixel) {
   return isMet ? { distance, part: null } : null;
 }
 
-/** @param {Numbers} numbers @returns {Numbers} those of half precision as others */
-function readable(numbers) {
-  if (!(numbers instanceof Uint16Array)) return numbers;
-  let whole = HALVES.get(numbers);
-  if (!whole) {
-    whole = Float32Array.from(numbers, fromHalf);
-    HALVES.set(numbers, whole);
-  }
-  return whole;
-}
-/** @type {WeakMap<Uint16Array, Float32Array>} */
-const HALVES = new WeakMap();
-
-/** @param {Numbers} numbers @param {number} row @returns {[number, number, number]} */
-function tripleAt(numbers, row) {
-  const part = (/** @type {number} */ axis) => numbers[3 * row + axis] ?? Number.NaN;
-  return [part(0), part(1), part(2)];
-}
+/** @param {(at: number) => number} read @param {number} row @returns {[number, number, number]} */
+const tripleAt = (read, row) => [read(3 * row), read(3 * row + 1), read(3 * row + 2)];

@@ -28,7 +28,7 @@ export class SurfacePoint extends Tool {
   #tell;
 
   /** @param {Door} door @param {Surfaces} surfaces @param {Units} units
-   * @param {(detail: { point: [number, number, number], what: string, surface: Surface }) => void} tell */
+   * @param {(type: string, detail: object) => void} tell */
   constructor(door, surfaces, units, tell) {
     super();
     this.#door = door;
@@ -46,7 +46,7 @@ export class SurfacePoint extends Tool {
   click(spot) {
     const surface = this.#surfaces.at(spot.x, spot.y);
     const point = surface && inFixedFrame(this.#door, surface.point);
-    if (surface && point) this.#tell({ point, what: this.#nameOf(surface), surface });
+    if (surface && point) this.#tell("point", { point, what: this.#nameOf(surface) });
     if (spot.touch) this.hover(null);
   }
 
