@@ -2,7 +2,8 @@
 
 /** @import { Triple, Turn } from "./view-poses.js" */
 
-import { plus, times, turned } from "./view-poses.js";
+import { plus, times } from "./vectors.js";
+import { turned } from "./view-poses.js";
 
 /** @typedef {{name: string, out: Triple, right: Triple, up: Triple, transform: string}} Face `right` and `up` as they are seen from before it */
 

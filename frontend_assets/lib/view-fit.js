@@ -2,7 +2,8 @@
 
 /** @import { Pose, Triple, Turn } from "./view-poses.js" */
 
-import { plus, times, turned } from "./view-poses.js";
+import { dot, plus, times } from "./vectors.js";
+import { turned } from "./view-poses.js";
 
 const NEAREST_M = 0.05;
 /** What is nearer looks larger, so that the middle of the picture is found in a few steps. */
@@ -44,9 +45,6 @@ export function fitting(points, turn, { field, aspect, fill, flat }) {
   const flatPart = plus(times(right, middle.x * aspect), times(up, middle.y));
   return { focal: plus(flatPart, times(back, middle.z)), distance, turn };
 }
-
-/** @param {Triple} a @param {Triple} b */
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 /** @param {readonly number[]} values @returns {[number, number]} */
 const extremes = (values) => [

@@ -2,6 +2,7 @@
 
 /** @import { Pose, Size, Triple, Value, View } from "./view-poses.js" */
 
+import { lengthOf, minus, plus, times, unit } from "./vectors.js";
 import {
   anglesOf,
   axisOf,
@@ -11,26 +12,21 @@ import {
   groundAlong,
   isFlat,
   isOn,
-  lengthOf,
   lookTurn,
-  minus,
   numberOf,
   orbitPose,
   orbits,
   orbitTurn,
-  plus,
   pointed,
   poseOf,
   standingTurn,
   standingValues,
   tallOf,
-  times,
   tipped,
   towards,
   tripleOf,
   tripleValues,
   turned,
-  unit,
   viewOf,
   wholeTurn,
   withValues,

@@ -5,6 +5,7 @@
  */
 
 import { quaternionOf } from "./frame-pose.js";
+import { cross, dot, lengthOf, minus, plus, times, unit } from "./vectors.js";
 
 /** @typedef {readonly [number, number, number]} Triple */
 /** @typedef {readonly [number, number, number, number]} Turn a quaternion of length 1: x, y, z, w */
@@ -94,21 +95,6 @@ export const orbits = (kind) =>
   kind === "Orbit" || kind === "XYOrbit" || kind === "ThirdPersonFollower";
 
 /* Vectors and turns. */
-
-/** @param {Triple} a @param {Triple} b @returns {Triple} */
-export const plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-/** @param {Triple} a @param {Triple} b @returns {Triple} */
-export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-/** @param {Triple} a @param {number} by @returns {Triple} */
-export const times = (a, by) => [a[0] * by, a[1] * by, a[2] * by];
-/** @param {Triple} a @param {Triple} b */
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-/** @param {Triple} a @param {Triple} b @returns {Triple} */
-const cross = ([x, y, z], [u, v, w]) => [y * w - z * v, z * u - x * w, x * v - y * u];
-/** @param {Triple} a */
-export const lengthOf = (a) => Math.hypot(...a);
-/** @param {Triple} a @returns {Triple} */
-export const unit = (a) => times(a, 1 / (lengthOf(a) || 1));
 
 /** @type {Turn} */
 export const NO_TURN = [0, 0, 0, 1];

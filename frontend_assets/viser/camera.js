@@ -15,9 +15,7 @@ import {
   into,
   isFlat,
   isKind,
-  lengthOf,
   lookTurn,
-  minus,
   NO_TURN,
   numberOf,
   ORTHOGRAPHIC,
@@ -34,6 +32,7 @@ import {
   viewOf,
   withValues,
 } from "../lib/view-poses.js";
+import { lengthOf, minus } from "../lib/vectors.js";
 
 const FILL = 2 / 3;
 const FOCUS_FILL = 0.45;

@@ -2,6 +2,7 @@
 /** @import { Object3D, Vector3 } from "./viser.d.ts" */
 
 import { boxCorners } from "./robot.js";
+import { cross, plus } from "../lib/vectors.js";
 
 const ROOT = "/live/";
 /** So many places of one node are looked at, spread over all of them. */
@@ -150,9 +151,6 @@ function columns(places) {
 /** @param {number} part */
 const isNear = (part) => Math.abs(part) < FAR_M;
 
-/** @param {Triple} one @param {Triple} other @returns {Triple} */
-const plus = (one, other) => [one[0] + other[0], one[1] + other[1], one[2] + other[2]];
-
 /** @param {Numbers} turns unit quaternions @param {number} row @param {Triple} place @returns {Triple} */
 function turned(turns, row, place) {
   const [w = 1, x = 0, y = 0, z = 0] = Array.from({ length: 4 }, (_, at) => turns[4 * row + at]);
@@ -161,9 +159,6 @@ function turned(turns, row, place) {
   const [ax, ay, az] = cross([x, y, z], aside);
   return plus(place, [w * aside[0] + ax, w * aside[1] + ay, w * aside[2] + az]);
 }
-
-/** @param {Triple} one @param {Triple} other @returns {Triple} */
-const cross = ([x, y, z], [u, v, w]) => [y * w - z * v, z * u - x * w, x * v - y * u];
 
 /** @param {Numbers} numbers @param {number} row @returns {Triple} */
 function tripleAt(numbers, row) {

@@ -3,7 +3,11 @@
  * of the marker, with plain arrays: vectors are x, y, z and turns w, x, y, z.
  */
 
-/** @typedef {[number, number, number]} Vector */
+/** @import { Vector } from "../lib/vectors.js" */
+
+import { cross, dot, lengthOf, minus, plus, times } from "../lib/vectors.js";
+import { quaternionOf } from "../lib/frame-pose.js";
+
 /** @typedef {[number, number, number, number]} Turn */
 /** @typedef {{ turn: Turn, place: Vector }} Pose */
 /** @typedef {{ origin: Vector, direction: Vector }} Ray the direction has length 1 */
@@ -41,23 +45,6 @@ const CLICK_PX = 2;
 const M_PER_PX = 0.001;
 const TINY = 1e-6;
 
-/** @param {Vector} a @param {Vector} b @returns {Vector} */
-export const plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-/** @param {Vector} a @param {Vector} b @returns {Vector} */
-export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-/** @param {Vector} a @param {number} by @returns {Vector} */
-export const times = (a, by) => [a[0] * by, a[1] * by, a[2] * by];
-/** @param {Vector} a @param {Vector} b */
-export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-/** @param {Vector} a @param {Vector} b @returns {Vector} */
-export const cross = (a, b) => [
-  a[1] * b[2] - a[2] * b[1],
-  a[2] * b[0] - a[0] * b[2],
-  a[0] * b[1] - a[1] * b[0],
-];
-/** @param {Vector} a */
-export const lengthOf = (a) => Math.hypot(...a);
-
 /** @param {Turn} a @param {Turn} b @returns {Turn} first b, then a */
 export function after([aw, ax, ay, az], [bw, bx, by, bz]) {
   return [
@@ -91,19 +78,13 @@ export const composed = (a, b) => ({
 
 /** The turn to three axes, each of length 1 and square to the others. @param {Vector} x @param {Vector} y @param {Vector} z @returns {Turn} */
 export function turnTo(x, y, z) {
-  const trace = x[0] + y[1] + z[2];
-  /** @type {Turn} */
-  const raw =
-    trace > 0
-      ? [1 + trace, y[2] - z[1], z[0] - x[2], x[1] - y[0]]
-      : x[0] >= y[1] && x[0] >= z[2]
-        ? [y[2] - z[1], 1 + x[0] - y[1] - z[2], x[1] + y[0], z[0] + x[2]]
-        : y[1] >= z[2]
-          ? [z[0] - x[2], x[1] + y[0], 1 - x[0] + y[1] - z[2], y[2] + z[1]]
-          : [x[1] - y[0], z[0] + x[2], y[2] + z[1], 1 - x[0] - y[1] + z[2]];
-  const size = Math.hypot(...raw);
-  return [raw[0] / size, raw[1] / size, raw[2] / size, raw[3] / size];
+  const rows = [0, 1, 2].flatMap((axis) => [x, y, z, ORIGIN].map((one) => one[/** @type {0} */ (axis)]));
+  const [qx, qy, qz, qw] = quaternionOf(rows);
+  return [qw, qx, qy, qz];
 }
+
+/** @type {Vector} */
+const ORIGIN = [0, 0, 0];
 
 /**
  * The turn of a control that faces the eye: its x points away from the eye, its z up.
@@ -127,7 +108,7 @@ export function frameOf(control, turn, rad, sight) {
 export const isDragged = (mode) => DRAGGED.has(/** @type {any} */ (mode));
 
 /** Where a ray meets a plane; null: nowhere ahead of it. @param {Ray | null} ray @param {Vector} normal @param {Vector} point @returns {Vector | null} */
-export function onPlane(ray, normal, point) {
+function onPlane(ray, normal, point) {
   const slope = ray ? dot(ray.direction, normal) : 0;
   if (!ray || Math.abs(slope) < TINY) return null;
   const distance = dot(minus(point, ray.origin), normal) / slope;
@@ -135,7 +116,7 @@ export function onPlane(ray, normal, point) {
 }
 
 /** The point of a line that is nearest to a ray; null: they are parallel. @param {Vector} point @param {Vector} along @param {Ray} ray @returns {Vector | null} */
-export function nearestOnLine(point, along, ray) {
+function nearestOnLine(point, along, ray) {
   const between = minus(point, ray.origin);
   const [both, size] = [dot(along, ray.direction), dot(along, along)];
   const sine2 = size - both * both;
@@ -145,7 +126,7 @@ export function nearestOnLine(point, along, ray) {
 }
 
 /** The angle from one direction to another about an axis of length 1, -pi to pi. @param {Vector} from @param {Vector} to @param {Vector} axis */
-export const angleAbout = (from, to, axis) => Math.atan2(dot(cross(from, to), axis), dot(from, to));
+const angleAbout = (from, to, axis) => Math.atan2(dot(cross(from, to), axis), dot(from, to));
 
 /** One drag, from the press on. */
 export class HandleDrag {

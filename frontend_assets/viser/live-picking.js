@@ -9,6 +9,7 @@ import { inside, isIn, lensOf, touches } from "./lens.js";
 import { liveNodes } from "./live-nodes.js";
 import { hitOf, rayThrough } from "./picking.js";
 import { pixelsToLine } from "./screen.js";
+import { cross, dot, minus } from "../lib/vectors.js";
 
 /** @typedef {[number, number, number]} Triple */
 /**
@@ -294,13 +295,6 @@ function triangleAlong({ origin, direction }, a, b, c) {
   const along = dot(other, aside) / size;
   return along > 0 ? along : null;
 }
-
-/** @param {Triple} one @param {Triple} other @returns {Triple} */
-const minus = (one, other) => [one[0] - other[0], one[1] - other[1], one[2] - other[2]];
-/** @param {Triple} one @param {Triple} other */
-const dot = (one, other) => one[0] * other[0] + one[1] * other[1] + one[2] * other[2];
-/** @param {Triple} one @param {Triple} other @returns {Triple} */
-const cross = ([x, y, z], [u, v, w]) => [y * w - z * v, z * u - x * w, x * v - y * u];
 
 /** What else is drawn: surfaces of triangles, pictures, words. @param {Door} door @param {LiveNode} node @param {Pointing["ray"]} sight @returns {Met | null} */
 function surfaceAt(door, node, sight) {

@@ -1,5 +1,6 @@
 /** @import { Door } from "./door.js" */
-/** @import { Pose, Sight, Turn, Vector } from "./handle-drag.js" */
+/** @import { Vector } from "../lib/vectors.js" */
+/** @import { Pose, Sight, Turn } from "./handle-drag.js" */
 /** @import { Hit, Material, Matrix4, Message, Object3D, Pointing, Vector3 } from "./viser.d.ts" */
 
 import {
@@ -7,16 +8,15 @@ import {
   after,
   back,
   composed,
-  dot,
   FIXED,
   facing,
   Mode,
-  times,
   turned,
   VIEW_FACING,
 } from "./handle-drag.js";
 import { rayThrough } from "./picking.js";
 import { placeOf } from "./screen.js";
+import { dot, times } from "../lib/vectors.js";
 
 /** @typedef {{ number: number, mode: number, facing: number, wxyz: Turn, independent: boolean, always_visible: boolean, description: string }} Control */
 /** @typedef {{ number: number, name: string, description: string, scale: number, controls: Control[], menu: readonly { id: number }[] }} Marker */

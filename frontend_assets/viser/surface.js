@@ -8,6 +8,7 @@ import { isSeen } from "./extent.js";
 import { liveNodes } from "./live-nodes.js";
 import { reading } from "./live-picking.js";
 import { hitOf, pick, rayThrough } from "./picking.js";
+import { dot, minus, plus, times } from "../lib/vectors.js";
 
 const FLOOR = "/grid";
 /** Points and lines are met so near, px. */
@@ -164,9 +165,9 @@ export function nearestSegment(points, ray, pixel) {
 /** How near a ray comes to a line, where, and how far from the eye. @param {[number, number, number]} begin
  * @param {[number, number, number]} end @param {Ray} ray */
 function approach(begin, end, { origin: o, direction: d }) {
-  const way = end.map((part, axis) => part - /** @type {number} */ (begin[axis]));
-  const from = [begin[0] - o.x, begin[1] - o.y, begin[2] - o.z];
-  const ray = [d.x, d.y, d.z];
+  const way = minus(end, begin);
+  const from = minus(begin, [o.x, o.y, o.z]);
+  const ray = /** @type {const} */ ([d.x, d.y, d.z]);
   const [length2, slant] = [dot(way, way), dot(way, ray)];
   const across2 = length2 - slant * slant;
   const [fromWay, fromRay] = [dot(from, way), dot(from, ray)];
@@ -174,18 +175,11 @@ function approach(begin, end, { origin: o, direction: d }) {
   const nearEnd = slant < 0 ? 1 : 0;
   const wanted = across2 > 1e-12 * length2 ? (slant * fromRay - fromWay) / across2 : nearEnd;
   const share = Math.min(Math.max(wanted, 0), 1);
-  const at = /** @type {[number, number, number]} */ (
-    begin.map((part, axis) => part + share * /** @type {number} */ (way[axis]))
-  );
-  const there = from.map((part, axis) => part + share * /** @type {number} */ (way[axis]));
+  const [at, there] = [plus(begin, times(way, share)), plus(from, times(way, share))];
   const along = dot(there, ray);
   if (!(along > 0)) return null;
   return { at, along, apart: Math.sqrt(Math.max(0, dot(there, there) - along * along)) };
 }
-
-/** @param {readonly number[]} one @param {readonly number[]} other */
-const dot = (one, other) =>
-  one.reduce((sum, part, axis) => sum + part * /** @type {number} */ (other[axis]), 0);
 
 /** Where a ray meets a line of a grid on the xy plane. @param {number} cell m @param {Ray} ray @param {PixelSize} pixel
  * @returns {{ distance: number, part: null } | null} */

@@ -10,7 +10,8 @@ import {
   turnTo,
 } from "../../frontend_assets/viser/handle-drag.js";
 
-/** @import { Control, Mouse, Sight, Turn, Vector } from "../../frontend_assets/viser/handle-drag.js" */
+/** @import { Vector } from "../../frontend_assets/lib/vectors.js" */
+/** @import { Control, Mouse, Sight, Turn } from "../../frontend_assets/viser/handle-drag.js" */
 
 const EYE = /** @type {Vector} */ ([0, -5, 0]);
 const PX = 500;

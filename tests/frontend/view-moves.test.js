@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { minus, plus, times } from "../../frontend_assets/lib/vectors.js";
 import {
   dragged,
   lookedAt,
@@ -7,15 +8,7 @@ import {
   wheeled,
   zeroed,
 } from "../../frontend_assets/lib/view-moves.js";
-import {
-  eyeOf,
-  minus,
-  numberOf,
-  plus,
-  poseOf,
-  times,
-  turned,
-} from "../../frontend_assets/lib/view-poses.js";
+import { eyeOf, numberOf, poseOf, turned } from "../../frontend_assets/lib/view-poses.js";
 
 /** @import { Kind, Triple, View } from "../../frontend_assets/lib/view-poses.js" */
 

@@ -1,20 +1,18 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { lengthOf, minus, times } from "../../frontend_assets/lib/vectors.js";
 import {
   eyeOf,
   FIRST,
   followed,
   into,
   isFlat,
-  lengthOf,
-  minus,
   numberOf,
   outOf,
   poseBetween,
   poseOf,
   product,
   targetOf,
-  times,
   towards,
   turned,
   turnFrom,

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { propertyRows } from "../../frontend_assets/lib/property-rows.js";
+import { minus } from "../../frontend_assets/lib/vectors.js";
 import {
   cellsOf,
   cubeTransform,
@@ -9,7 +10,7 @@ import {
   stepped,
 } from "../../frontend_assets/lib/view-cube.js";
 import { fitting } from "../../frontend_assets/lib/view-fit.js";
-import { eyeOf, minus, turned, turnFrom } from "../../frontend_assets/lib/view-poses.js";
+import { eyeOf, turned, turnFrom } from "../../frontend_assets/lib/view-poses.js";
 
 /** @import { PropertyView } from "../../frontend_assets/types/wire.d.ts" */
 /** @import { Triple, Turn } from "../../frontend_assets/lib/view-poses.js" */

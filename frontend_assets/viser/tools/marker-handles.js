@@ -3,9 +3,10 @@
 /** @import { Control, Handle, Known, MarkerScene, Markers } from "../marker-scene.js" */
 /** @import { Spot } from "./tool.js" */
 
-import { HandleDrag, isDragged, Mode, plus, times, VIEW_FACING } from "../handle-drag.js";
+import { HandleDrag, isDragged, Mode, VIEW_FACING } from "../handle-drag.js";
 import { DrawnLines, placeOf } from "../screen.js";
 import { far, setCursor, Tool } from "./tool.js";
+import { plus, times } from "../../lib/vectors.js";
 
 /** @typedef {{ spot: Spot, handle: Handle, drag: HandleDrag | null, moved: boolean, menu: boolean, timer: number, start: Pose, startRad: number }} Press `menu`: only the menu is meant */
 
