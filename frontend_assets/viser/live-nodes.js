@@ -33,7 +33,8 @@ const ROOT = "/live/";
  * @property {Numbers} [faces] (F, 3)
  * @property {number} [axes_length] m
  * @property {number} [point_size] half of a point's width, m
- * @property {number} [studio_point_px]
+ * @property {boolean} [studio_size_by_z] that width is for each metre of its z
+ * @property {number} [studio_point_px] instead of it, a point's width on the screen
  * @property {number} [thickness]
  * @property {"world" | "screen"} [thickness_units]
  * @property {number} [head_radius] m

@@ -83,19 +83,24 @@ function metOf(door, detail, node, spot, reach_px) {
   return surfaceAt(door, node, sight);
 }
 
+/** Half of the width of a point that has a size in the scene, m. @param {Props} cloud @param {number} z m, in its frame */
+export const radiusAt = ({ point_size: radius_m = 0, studio_size_by_z: isByZ = false }, z) =>
+  isByZ ? radius_m * Math.abs(z) : radius_m;
+
 /**
  * @param {Lens} lens @param {Props} props @param {Numbers | null} rows of the whole cloud that are drawn; null: all
  * @param {{ x: number, y: number }} spot @param {number} reach_px @returns {Met | null}
  */
 export function pointAt(lens, props, rows, spot, reach_px) {
-  const { points = [], point_size: radius_m = 0, studio_point_px: px = 0 } = props;
+  const { points = [], studio_point_px: px = 0 } = props;
   const read = reading(points);
   /** @type {Met | null} */
   let best = null;
   let best_px = 0;
   for (let at = 0; at < points.length; at += 3) {
     if (!lens.at(read(at), read(at + 1), read(at + 2))) continue;
-    const radius_px = Math.max(px > 0 ? px / 2 : radius_m * lens.perMetre, LEAST_PX);
+    const own_px = px > 0 ? px / 2 : radiusAt(props, read(at + 2)) * lens.perMetre;
+    const radius_px = Math.max(own_px, LEAST_PX);
     const middle_px = Math.hypot(lens.x - spot.x, lens.y - spot.y);
     const away_px = middle_px - radius_px;
     if (away_px > reach_px) continue;

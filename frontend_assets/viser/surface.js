@@ -6,7 +6,7 @@
 
 import { isSeen } from "./extent.js";
 import { liveNodes } from "./live-nodes.js";
-import { reading } from "./live-picking.js";
+import { radiusAt, reading } from "./live-picking.js";
 import { hitOf, pick, rayThrough } from "./picking.js";
 import { dot, minus, plus, times } from "../lib/vectors.js";
 
@@ -85,7 +85,7 @@ export class Surfaces {
   #hit(kind, props, object, ray, pixel) {
     const own = inFrame(ray, object.matrixWorld);
     if (kind === "PointCloudMessage")
-      return placed(nearestPoint(props.points, own, pixel, props.point_size ?? 0), object);
+      return placed(nearestPoint(props, own, pixel), object);
     if (kind === "LineSegmentsMessage")
       return placed(nearestSegment(props.points, own, pixel), object);
     if (kind === "GridMessage") return lineOfGrid(props.cell_size ?? 0, own, pixel);
@@ -118,21 +118,23 @@ function placed(hit, object) {
 /**
  * The point nearest to the eye of those that a ray meets.
  *
- * @param {Numbers | undefined} points (N, 3)
- * @param {Ray} ray in their frame
+ * @param {Props} cloud
+ * @param {Ray} ray in its frame
  * @param {PixelSize} pixel
- * @param {number} radius m, of each point
  * @returns {{ distance: number, part: number, at: [number, number, number] } | null}
  */
-export function nearestPoint(points, { origin: o, direction: d }, pixel, radius) {
+export function nearestPoint(cloud, { origin: o, direction: d }, pixel) {
+  const { points, studio_point_px: wide_px = 0 } = cloud;
   if (!points) return null;
   const read = reading(points);
+  const near_px = Math.max(wide_px / 2, NEAR_PX);
   let [nearest, part] = [Number.POSITIVE_INFINITY, -1];
   for (let at = 0; at < points.length; at += 3) {
     const [x, y, z] = [read(at) - o.x, read(at + 1) - o.y, read(at + 2) - o.z];
     const along = x * d.x + y * d.y + z * d.z;
     if (!(along > 0 && along < nearest)) continue;
-    const reach = Math.max(radius, NEAR_PX * (pixel.base + pixel.slope * along));
+    const radius = wide_px > 0 ? 0 : radiusAt(cloud, read(at + 2));
+    const reach = Math.max(radius, near_px * (pixel.base + pixel.slope * along));
     if (x * x + y * y + z * z - along * along > reach * reach) continue;
     [nearest, part] = [along, at / 3];
   }

@@ -70,6 +70,14 @@ test("of points the nearest to the eye that is met counts, else the nearest to t
   );
 });
 
+test("points that grow with their z are met as large as they are", () => {
+  const cloud = { points: new Float32Array([0, 0, 2]), point_size: 0.3 };
+  const beside = { x: 118, y: 70 };
+  assert.notEqual(pointAt(perspective(), cloud, null, beside, 6)?.miss_px, 0);
+  const growing = { ...cloud, studio_size_by_z: true };
+  assert.equal(pointAt(perspective(), growing, null, beside, 6)?.miss_px, 0);
+});
+
 test("of a cloud that is drawn in part the row is that of the whole, in half precision, too", () => {
   const points = new Uint16Array([0x3c00, 0, 0, 0, 0, 0]);
   const drawn = new Uint32Array([3, 8]);
