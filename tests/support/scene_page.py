@@ -167,6 +167,17 @@ class ScenePage:
         """Details of the events of that kind so far."""
         return [detail for type_, detail in self.run("heard") if type_ == kind]
 
+    def draw_link(self, node: str, by: tuple[float, float]) -> tuple[str, tuple[float, float]]:
+        """Draw a geometry of a link by the mouse: the joint that moved, and how far on screen."""
+        start = self.place_of(node)
+        self.draw_mouse(start, by)
+        self.page.mouse.up()
+        drag = self.heard("drag")[-1]
+        self.pose({drag["joint"]: drag["value"]})
+        self.pictures(3)
+        x, y = self.place_of(node)
+        return drag["joint"], (x - start[0], y - start[1])
+
     def draw_mouse(self, start: tuple[float, float], by: tuple[float, float]) -> None:
         """Press, draw in a few steps, and keep the button down."""
         self.page.mouse.move(*start)
