@@ -2,8 +2,10 @@
 /** @import { Door } from "../door.js" */
 /** @import { Rect } from "../lens.js" */
 /** @import { LiveNode } from "../live-nodes.js" */
+/** @import { Met } from "../live-picking.js" */
 /** @import { RobotView } from "../robot.js" */
 /** @import { Spot } from "./tool.js" */
+/** @import { Vector3 } from "../viser.d.ts" */
 
 import { lensOf, rectOf } from "../lens.js";
 import { liveNodes } from "../live-nodes.js";
@@ -96,13 +98,18 @@ export class Select extends Tool {
     const reach_px = spot.touch ? REACH_OF_FINGER_PX : REACH_PX;
     const live = liveAt(this.#door, this.#detail, spot, reach_px);
     const link = pick(this.#door, this.#robot, spot.x, spot.y);
-    const lens = link && this.#door.mutable?.scene && lensOf(this.#door, this.#door.mutable.scene);
-    if (link && lens) lens.at(link.point.x, link.point.y, link.point.z);
-    const metLink = lens && { row: 0, depth_m: lens.depth_m, miss_px: 0, place: null };
-    const isLink =
-      metLink !== null && metLink !== undefined && isBetter(metLink, live?.met ?? null);
+    const isLink = link !== null && this.#isBefore(link.point, live?.met ?? null);
     const nodes = !isLink && live ? [pickedOf(live.node, [live.met.row], live.met.place)] : [];
-    this.#say({ nodes, links: isLink && link ? [link.link] : [], how: howOf(spot), left_out: 0 });
+    this.#say({ nodes, links: isLink ? [link.link] : [], how: howOf(spot), left_out: 0 });
+  }
+
+  /** Whether a point of the robot is seen, and not what was met. @param {Vector3} point @param {Met | null} met */
+  #isBefore({ x, y, z }, met) {
+    const { scene } = this.#door.mutable ?? {};
+    const lens = scene && lensOf(this.#door, scene);
+    if (!lens) return false;
+    lens.at(x, y, z);
+    return isBetter({ row: 0, depth_m: lens.depth_m, miss_px: 0, place: null }, met);
   }
 
   /** Two clicks are two clicks. */
