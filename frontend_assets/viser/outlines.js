@@ -3,7 +3,7 @@
 /** @import { Object3D, Vector3 } from "./viser.d.ts" */
 
 import { isSeen } from "./extent.js";
-import { inside, lensOf } from "./lens.js";
+import { lensOf } from "./lens.js";
 import { boxSeen, matrixOf } from "./live-picking.js";
 import { groupName, meshName } from "./live-nodes.js";
 import { boxCorners, RobotView } from "./robot.js";
@@ -169,13 +169,16 @@ function cornersOf(box) {
 function boxOf(object) {
   const low = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
   const high = low.map((part) => -part);
+  const back = object.matrixWorld.clone().invert();
   object.traverseVisible((one) => {
     if (!one.isMesh || !one.geometry) return;
-    for (const corner of boxCorners(one))
-      inside(object.matrixWorld, corner).forEach((part, axis) => {
+    for (const corner of boxCorners(one)) {
+      const { x, y, z } = corner.applyMatrix4(back);
+      [x, y, z].forEach((part, axis) => {
         low[axis] = Math.min(low[axis] ?? part, part);
         high[axis] = Math.max(high[axis] ?? part, part);
       });
+    }
   });
   const size = high.map((part, axis) => part - (low[axis] ?? 0));
   if (!size.every((part) => part >= 0 && Number.isFinite(part))) return null;
