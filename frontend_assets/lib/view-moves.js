@@ -34,7 +34,8 @@ import {
 
 /** @typedef {"turn" | "move" | "zoom" | "lift"} Way what a drag does; `lift` goes along the line of sight */
 
-const RAD_PER_PX = 0.005;
+/** RViz's. */
+export const RAD_PER_PX = 0.005;
 
 /**
  * @param {View} view @param {Way} way @param {number} dx px to the right @param {number} dy px downwards

@@ -1,13 +1,13 @@
 /** @import { Door } from "./door.js" */
 /** @import { LiveExtent } from "./extent.js" */
 /** @import { RobotView } from "./robot.js" */
-/** @import { Frame, Kind, Pose, Size, Triple, Turn, Value, Values, View } from "../lib/view-poses.js" */
+/** @import { Frame, Kind, Pose, Triple, Turn, Value, Values, View } from "../lib/view-poses.js" */
 /** @import { Way } from "../lib/view-moves.js" */
 /** @import { CameraControl, CameraPose, Matrix4, Vector3 } from "./viser.d.ts" */
 
 import { Orthographic } from "./orthographic.js";
 import { fitting } from "../lib/view-fit.js";
-import { dragged, lookedAt, pinched, wheeled, zeroed } from "../lib/view-moves.js";
+import { dragged, lookedAt, pinched, RAD_PER_PX, wheeled, zeroed } from "../lib/view-moves.js";
 import {
   eyeOf,
   fieldOf,
@@ -45,7 +45,6 @@ const FAR_SHARE = 20;
 /** After so long, and so many pictures, without another mesh the robot is there, and what an edit
  * adds moves no camera. */
 const ARRIVED = { ms: 5000, pictures: 10 };
-const ARROW_RAD_PER_PX = 0.005;
 
 /** From what is looked at towards the eye, in the fixed frame. @type {Record<string, Triple>} */
 const DIRECTIONS = {
@@ -375,7 +374,7 @@ export class CameraView {
 
   /** @param {number} azimuth rad to the right @param {number} polar rad downwards */
   #turnByKey(azimuth, polar) {
-    const side = (orbits(this.#view.kind) ? -1 : 1) / ARROW_RAD_PER_PX;
+    const side = (orbits(this.#view.kind) ? -1 : 1) / RAD_PER_PX;
     this.#tell("touch", {});
     this.drag("turn", side * azimuth, side * polar);
   }
