@@ -1,4 +1,3 @@
-/** @import { CameraView } from "./camera.js" */
 /** @import { Door } from "./door.js" */
 /** @import { RobotView } from "./robot.js" */
 /** @import { Spot, Tool } from "./tools/tool.js" */
@@ -24,17 +23,15 @@ export class Pointer {
   #at = null;
   #door;
   #robot;
-  #camera;
-  #tell;
+  #touch;
 
-  /** @param {Door} door @param {RobotView} robot @param {CameraView} camera @param {Tool[]} tools the first is in hand
-   * @param {(type: string, detail: object) => void} tell */
-  constructor(door, robot, camera, tools, tell) {
+  /** @param {Door} door @param {RobotView} robot @param {Tool[]} tools the first is in hand
+   * @param {() => void} touch called when a hand is on the camera */
+  constructor(door, robot, tools, touch) {
     this.#door = door;
     this.#robot = robot;
-    this.#camera = camera;
     this.#tool = /** @type {Tool} */ (tools[0]);
-    this.#tell = tell;
+    this.#touch = touch;
     this.#listen();
     door.onPicture(
       () => {},
@@ -135,12 +132,6 @@ export class Pointer {
     this.#isHandingOver = true;
     this.#door.mutable?.canvas?.dispatchEvent(new PointerEvent("pointerdown", init));
     this.#isHandingOver = false;
-  }
-
-  /** A hand is on the camera. */
-  #touch() {
-    this.#camera.touched();
-    this.#tell("touch", {});
   }
 
   /** @param {PointerEvent} event */

@@ -1,5 +1,4 @@
 /** @import { Value, Values } from "../lib/view-poses.js" */
-/** @import { Tool } from "./tools/tool.js" */
 /** @import { CameraPose, JointView, RobotState } from "./viser.d.ts" */
 
 import { Aim, Measuring } from "./measuring.js";
@@ -19,7 +18,6 @@ import { MarkerScene } from "./marker-scene.js";
 import { FocusCamera } from "./tools/focus.js";
 import { Interact } from "./tools/interact.js";
 import { Measure } from "./tools/measure.js";
-import { MoveCamera } from "./tools/move-camera.js";
 import { Outlines } from "./outlines.js";
 import { pick } from "./picking.js";
 import { Picture } from "./picture.js";
@@ -31,6 +29,7 @@ import { RobotView } from "./robot.js";
 import { FIRST } from "../lib/view-poses.js";
 import { SurfacePoint } from "./tools/point.js";
 import { Surfaces } from "./surface.js";
+import { Tool } from "./tools/tool.js";
 import { Units } from "./tools/units.js";
 
 /**
@@ -91,7 +90,8 @@ class Studio3d {
   /** By RViz's class without its package. @type {Record<string, Tool>} */
   #tools = {
     Interact: this.#interact,
-    MoveCamera: new MoveCamera(),
+    // Every press is the camera's; nothing is selected or dragged.
+    MoveCamera: new Tool(),
     FocusCamera: new FocusCamera(this.#door, this.#surfaces, this.#camera, this.#tellPage),
     Select: new Select(this.#door, this.#robot, this.#detail, this.#tellPage),
     Measure: new Measure(this.#measuring, this.#tellPage),
@@ -102,9 +102,11 @@ class Studio3d {
   #pointer = new Pointer(
     this.#door,
     this.#robot,
-    this.#camera,
     [...new Set(Object.values(this.#tools))],
-    this.#tellPage,
+    () => {
+      this.#camera.touched();
+      this.touch();
+    },
   );
 
   /** After the pointer, which may take a press for itself. */
@@ -182,7 +184,7 @@ class Studio3d {
     return FIRST;
   }
 
-  /** A hand is on the camera, from outside of the picture. */
+  /** A hand is on the camera, or on what moves it from outside of the picture. */
   touch() {
     this.#tell("touch", {});
   }
