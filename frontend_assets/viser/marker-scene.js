@@ -14,6 +14,7 @@ import {
   turned,
   VIEW_FACING,
 } from "./handle-drag.js";
+import { groupName } from "./live-nodes.js";
 import { rayThrough } from "./picking.js";
 import { placeOf } from "./screen.js";
 import { dot, times } from "../lib/vectors.js";
@@ -25,7 +26,9 @@ import { dot, times } from "../lib/vectors.js";
 /** What the mouse is over; `control` null: the title. @typedef {{ known: Known, control: Control | null, node: string, distance: number, point: Vector3 }} Handle */
 /** Where this browser has a marker; `until`: ms, when the studio's word counts again. @typedef {{ pose: Pose, until: number }} Own */
 
-/** `/live/<display>/m<marker>`, `-<part>`, then the shape: `c<control>-...`. */
+/** The name of the reference frame of a marker. @param {string} display @param {number} marker */
+export const referenceOf = (display, marker) => groupName(display, `m${marker}`);
+/** That, `-<part>`, then the shape: `c<control>-...`. */
 const NAME = /^(\/live\/[^/]+\/m\d+)-[a-z]+\d*\/(?:c(\d+)-)?/;
 const NEAR = { Points: { threshold: 0.02 }, Line: { threshold: 0.02 }, Line2: { threshold: 6 } };
 
@@ -72,7 +75,7 @@ export class MarkerScene {
     this.known.clear();
     for (const { display, visual_aids: aids, markers } of displays)
       for (const marker of markers) {
-        const root = `/live/${display}/m${marker.number}`;
+        const root = referenceOf(display, marker.number);
         this.known.set(root, { root, display, aids, marker });
       }
     for (const kept of [this.#own, this.#rads])

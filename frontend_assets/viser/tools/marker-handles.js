@@ -4,6 +4,7 @@
 /** @import { Spot } from "./tool.js" */
 
 import { HandleDrag, isDragged, Mode, VIEW_FACING } from "../handle-drag.js";
+import { referenceOf } from "../marker-scene.js";
 import { DrawnLines, placeOf } from "../screen.js";
 import { far, setCursor, Tool } from "./tool.js";
 import { plus, times } from "../../lib/vectors.js";
@@ -63,14 +64,14 @@ export class MarkerHandles extends Tool {
 
   /** The studio did not take it: its own word counts at once. @param {string} display @param {number} marker */
   refused(display, marker) {
-    const root = `/live/${display}/m${marker}`;
+    const root = referenceOf(display, marker);
     if (this.#press?.handle.known.root === root) this.#drop();
     this.#scene.giveBack(root);
   }
 
   /** The studio has heard of the release. @param {string} display @param {number} marker */
   settle(display, marker) {
-    const root = `/live/${display}/m${marker}`;
+    const root = referenceOf(display, marker);
     if (this.#press?.handle.known.root !== root) this.#scene.release(root, SETTLE_MS);
   }
 
