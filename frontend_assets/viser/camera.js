@@ -3,8 +3,9 @@
 /** @import { RobotView } from "./robot.js" */
 /** @import { Frame, Kind, Pose, Triple, Turn, Value, Values, View } from "../lib/view-poses.js" */
 /** @import { Way } from "../lib/view-moves.js" */
-/** @import { CameraControl, CameraPose, Matrix4, Vector3 } from "./viser.d.ts" */
+/** @import { CameraControl, CameraPose, Vector3 } from "./viser.d.ts" */
 
+import { fromFixedFrame, inFixedFrame } from "./ground.js";
 import { Orthographic } from "./orthographic.js";
 import { fitting } from "../lib/view-fit.js";
 import { dragged, lookedAt, pinched, RAD_PER_PX, wheeled, zeroed } from "../lib/view-moves.js";
@@ -201,7 +202,7 @@ export class CameraView {
 
   /** Turn to a place of the scene, as RViz does: the eye stays. @param {Vector3} place */
   lookAt(place) {
-    const at = this.inRoot(place);
+    const at = inFixedFrame(this.#door, place);
     if (!at) return;
     this.touched();
     this.#change(lookedAt(this.#view, placeIn(this.#followed(), at), this.#size()), true);
@@ -226,7 +227,7 @@ export class CameraView {
   }
 
   /** What an orbit turns about; null: the view has no such point.
-   * @returns {{place: Triple, distance: number, size: number, isGround: boolean, slope: number} | null} */
+   * @returns {{place: Triple, size: number, isGround: boolean, slope: number} | null} */
   get focal() {
     const view = this.#view;
     if (!orbits(view.kind) || this.#guest) return null;
@@ -237,7 +238,7 @@ export class CameraView {
     const { focal: place } = outOf(this.#followed(), pose);
     const size = numberOf(view, "Focal Shape Size") * share;
     const slope = numberOf(view, "Pitch");
-    return { place, distance, size, isGround: view.kind === "XYOrbit", slope };
+    return { place, size, isGround: view.kind === "XYOrbit", slope };
   }
 
   /** @returns {CameraPose | null} */
@@ -258,18 +259,6 @@ export class CameraView {
     const pose = { focal: target, distance: lengthOf(back), turn: lookTurn(back, up) };
     this.#guest = { pose, flat: flat ?? before.flat, field: field ?? before.field };
     this.#door.redraw();
-  }
-
-  /** A place of the scene in the root frame. @param {Vector3} place @returns {[number, number, number] | null} */
-  inRoot(place) {
-    const root = this.#rootMatrix();
-    return root && toTriple(place.clone().applyMatrix4(root.clone().invert()));
-  }
-
-  /** A place in the root frame, in the scene. @param {Triple} place @returns {Vector3 | null} */
-  fromRoot(place) {
-    const root = this.#rootMatrix();
-    return root && this.#vector(...place).applyMatrix4(root);
   }
 
   /** How it is turned, or is about to be. @returns {Turn} */
@@ -368,8 +357,9 @@ export class CameraView {
       return false;
     };
     control.rotate = (azimuth, polar) => this.#turnByKey(azimuth, polar);
-    control.getPosition = (target) => target.copy(this.fromRoot(eyeOf(this.#goal())) ?? target);
-    control.getTarget = (target) => target.copy(this.fromRoot(this.#goal().focal) ?? target);
+    const inScene = (/** @type {Triple} */ place) => fromFixedFrame(this.#door, place);
+    control.getPosition = (target) => target.copy(inScene(eyeOf(this.#goal())) ?? target);
+    control.getTarget = (target) => target.copy(inScene(this.#goal().focal) ?? target);
   }
 
   /** @param {number} azimuth rad to the right @param {number} polar rad downwards */
@@ -517,7 +507,7 @@ export class CameraView {
   /** Look at points so that they fill a part of the picture and lie in its middle.
    * @param {Vector3[]} corners @param {Turn} turn @param {number} fill @param {boolean} animate */
   #look(corners, turn, fill, animate) {
-    const root = this.#rootMatrix();
+    const root = this.#door.node("")?.matrixWorld;
     if (corners.length === 0 || !root) return;
     const back = root.clone().invert();
     const points = corners.map((corner) => toTriple(corner.clone().applyMatrix4(back)));
@@ -537,11 +527,6 @@ export class CameraView {
     const reach = Math.max(...all.map((corner) => corner.distanceTo(first))) / 12;
     const aside = first.clone().set(reach, reach, reach);
     return [origin.clone().add(aside), origin.clone().sub(aside)];
-  }
-
-  /** @returns {Matrix4 | null} */
-  #rootMatrix() {
-    return this.#door.node("")?.matrixWorld ?? null;
   }
 
   /** @param {number} [x] @param {number} [y] @param {number} [z] @returns {Vector3} */

@@ -2,6 +2,7 @@
 /** @import { Door } from "./door.js" */
 /** @import { Way } from "../lib/view-moves.js" */
 
+import { fromFixedFrame } from "./ground.js";
 import { depthOf, pixelAt } from "./orthographic.js";
 import { placeOf } from "./screen.js";
 
@@ -148,7 +149,7 @@ class FocalMark {
   #draw() {
     const focal = this.#camera.focal;
     const { camera, canvas } = this.#door.mutable ?? {};
-    const point = focal && this.#camera.fromRoot(focal.place);
+    const point = focal && fromFixedFrame(this.#door, focal.place);
     const place = point && placeOf(this.#door, point);
     this.#element.hidden = !place;
     if (!focal || !point || !place || !camera || !canvas) return;

@@ -3,6 +3,7 @@
 /** @import { RobotView } from "./robot.js" */
 
 import { followedName } from "./camera.js";
+import { fromFixedFrame } from "./ground.js";
 import { RobotView } from "./robot.js";
 import { DrawnLines, placeOf } from "./screen.js";
 
@@ -190,12 +191,10 @@ export class Guide {
   #place = null;
   #lines = new DrawnLines();
   #door;
-  #camera;
 
-  /** @param {Door} door @param {import("./camera.js").CameraView} camera */
-  constructor(door, camera) {
+  /** @param {Door} door */
+  constructor(door) {
     this.#door = door;
-    this.#camera = camera;
     door.onPicture(
       () => {},
       () => this.#draw(),
@@ -210,7 +209,7 @@ export class Guide {
   }
 
   #draw() {
-    const point = this.#place && this.#camera.fromRoot(this.#place);
+    const point = this.#place && fromFixedFrame(this.#door, this.#place);
     const seen = point && placeOf(this.#door, point);
     this.#lines.draw({ lines: [], dots: seen ? [{ place: seen, kind: "guide" }] : [], labels: [] });
   }

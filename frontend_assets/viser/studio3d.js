@@ -9,6 +9,7 @@ import { CloudDetail } from "./cloud-detail.js";
 import { Door, Removed } from "./door.js";
 import { FrameRate } from "./frame-rate.js";
 import { Hands } from "./hands.js";
+import { inFixedFrame } from "./ground.js";
 import { LiveExtent } from "./extent.js";
 import { Light, Theme } from "./theme.js";
 import { Live } from "./live.js";
@@ -60,7 +61,7 @@ class Studio3d {
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #marks = new Marks(this.#door, this.#robot);
   #chain = new ChainLine(this.#door, this.#robot);
-  #guide = new Guide(this.#door, this.#camera);
+  #guide = new Guide(this.#door);
   #measuring = new Measuring(
     this.#door,
     this.#robot,
@@ -251,7 +252,7 @@ class Studio3d {
   /** Where the mouse points on the robot, in the root frame; null: at nothing. */
   pointedPlace() {
     const { point } = this.#pointer;
-    return point && this.#camera.inRoot(point);
+    return point && inFixedFrame(this.#door, point);
   }
 
   /** A mark at what somebody else points at. @param {readonly [number, number, number] | null} place in the root frame */

@@ -294,6 +294,19 @@ def test_f_turns_to_what_is_under_the_mouse_and_fits_where_nothing_is(view: Scen
     view.until("!studio3d.lookAtPointed()")
 
 
+def test_what_somebody_points_at_is_marked_there(view: ScenePage):
+    place = view.place_of("camera/visual/0")
+    view.page.mouse.move(*place)
+    view.until("studio3d.pointedPlace() !== null")
+    view.run("studio3d.setGuide(studio3d.pointedPlace())")
+    view.pictures(1)
+    mark = "(({ cx, cy }) => [cx, cy].map((one) => one.baseVal.value))"
+    assert view.run(f"{mark}(document.querySelector('circle.guide'))") == pytest.approx(
+        place, abs=1.0
+    )
+    view.run("studio3d.setGuide(null)")
+
+
 def test_zero_is_rvizs(view: ScenePage):
     view.run("studio3d.zero()")
     assert camera(view)["eye"] == pytest.approx((5, 5, 10 * math.sin(math.pi / 4)), abs=1e-4)
