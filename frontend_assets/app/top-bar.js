@@ -21,7 +21,7 @@ import { dialog, languageChoice, layoutControl, size, theme, themeChoice } from 
 import { ClassButtons } from "./control.js";
 import { ExportMenu, exportItems } from "./export.js";
 import { graphicsItems } from "./graphics.js";
-import { layoutItems, layoutName } from "./layout-commands.js";
+import { commandItem, layoutItems, layoutName } from "./layout-commands.js";
 import { LIVE, layoutInUse } from "./layouts.js";
 import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
 import { closeAsking, rvizItems } from "./rviz-commands.js";
@@ -235,13 +235,6 @@ function PanelsMenu() {
 function SettingsMenu() {
   return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="settings" /><//>`;
 }
-
-/** @param {string} id of a command @param {string} icon @param {string} [label] @returns {MenuItem} */
-const commandItem = (id, icon, label = t(`command.${id}`)) => ({
-  label,
-  icon,
-  run: () => commandById(id)?.run(),
-});
 
 /** @returns {MenuItem[]} */
 function panelItems() {
