@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { propertyRows } from "../../frontend_assets/lib/property-rows.js";
 import {
   cellsOf,
   cubeTransform,
@@ -10,6 +9,7 @@ import {
 } from "../../frontend_assets/lib/view-cube.js";
 import { fitting } from "../../frontend_assets/lib/view-fit.js";
 import { eyeOf, minus, turned, turnFrom } from "../../frontend_assets/lib/view-poses.js";
+import { propertyRows } from "../../frontend_assets/panels/views/views.js";
 
 /** @import { PropertyView } from "../../frontend_assets/types/wire.d.ts" */
 /** @import { Triple, Turn } from "../../frontend_assets/lib/view-poses.js" */
