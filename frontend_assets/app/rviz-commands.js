@@ -9,7 +9,6 @@ import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { isCopy } from "../model/copies.js";
 import { closeDocument } from "../model/requests.js";
 import {
-  configFiles,
   downloadConfig,
   openConfigOf,
   RVIZ,
@@ -29,14 +28,7 @@ export function rvizCommands() {
   return [
     { id: "rviz_open", icon: "open", enabled: mayOpen, run: showOpen },
     { id: "rviz_save", icon: "disk", enabled: maySave, run: () => void save() },
-    {
-      id: "rviz_save_as",
-      icon: "disk",
-      enabled: maySave,
-      run: () => {
-        dialog.value = { kind: "rviz_save" };
-      },
-    },
+    { id: "rviz_save_as", icon: "disk", enabled: maySave, run: askWhere },
     {
       id: "rviz_download",
       icon: "download",
@@ -100,13 +92,13 @@ function ifSaved(run) {
 /** The view is kept with the document; only its file would lack what was changed. */
 export const closeAsking = () => ifSaved(() => void closeDocument());
 
+function askWhere() {
+  dialog.value = { kind: "rviz_save" };
+}
+
 /** Without a file of this machine it is asked for. */
 async function save() {
-  if (rvizConfig.value.path === "") {
-    const files = await configFiles();
-    if (files) dialog.value = { kind: "rviz_save" };
-    return;
-  }
+  if (rvizConfig.value.path === "") return askWhere();
   const saved = await saveConfig("");
   if (saved) notify(t("rviz.saved", { file: saved.path }));
 }
