@@ -1,9 +1,7 @@
 /** Config files of the 3D view by name: open, save, download, and what was shown before. */
 
 /** @import { Command } from "../lib/commands.js" */
-/** @import { MenuItem } from "../lib/ui.js" */
 
-import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { isCopy } from "../model/copies.js";
@@ -48,20 +46,6 @@ export function rvizCommands() {
       run: () => void undoConfig(),
     },
   ];
-}
-
-/** @returns {MenuItem[]} for a menu */
-export function rvizItems() {
-  const ids = ["rviz_open", "rviz_save", "rviz_save_as", "rviz_download", "studio_download"];
-  return [...ids, ...(rvizConfig.value.undo ? ["rviz_undo"] : [])].map((id) => {
-    const command = commandById(id);
-    return {
-      label: `${t(`command.${id}`)}${id.endsWith("open") || id.endsWith("as") ? "…" : ""}`,
-      icon: command?.icon ?? "disk",
-      disabled: !command?.enabled?.(),
-      run: () => command?.run(),
-    };
-  });
 }
 
 /** What would be lost is asked about first. */

@@ -4,9 +4,11 @@
  */
 
 /** @import { LossView, RvizConfigState, RvizFiles } from "../types/wire.d.ts" */
+/** @import { MenuItem } from "../lib/ui.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, signal } from "vendor/preact.js";
+import { commandById } from "../lib/commands.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
@@ -54,6 +56,20 @@ export const pagePart = {
   /** @type {(text: string) => void} */
   take: () => {},
 };
+
+const COMMANDS = ["rviz_open", "rviz_save", "rviz_save_as", "rviz_download", "studio_download"];
+
+/** @returns {MenuItem[]} all that can be done with configs, for a menu */
+export const configItems = () =>
+  [...COMMANDS, ...(rvizConfig.value.undo ? ["rviz_undo"] : [])].map((id) => {
+    const command = commandById(id);
+    return {
+      label: `${t(`command.${id}`)}${id.endsWith("open") || id.endsWith("as") ? "…" : ""}`,
+      icon: command?.icon ?? "disk",
+      disabled: !command?.enabled?.(),
+      run: () => command?.run(),
+    };
+  });
 
 /** @param {string} path @returns {Promise<boolean>} */
 export async function openConfigFile(path) {
