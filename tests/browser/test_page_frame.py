@@ -44,6 +44,11 @@ _FIRST_LAYOUT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("../lib/commands.js", script))).commandById("layout.0").run();
 }"""
+_SHOW_VIEWS = _FIRST_LAYOUT.replace("layout.0", "panel.views")
+_SOME_PICTURES = """async () => {
+  for (let n = 0; n < 12; n += 1) await new Promise(requestAnimationFrame);
+}"""
+"""Of a page that has everything in its place again."""
 _LEAVING_IS_STOPPED = """() => {
   const leaving = new Event("beforeunload", { cancelable: true });
   window.dispatchEvent(leaving);
@@ -166,6 +171,14 @@ def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
     tab.page.get_by_role("button", name="Einstellungen").click()
     tab.page.get_by_role("menuitemradio", name="English").click()
     tab.page.locator("html[lang=en]").wait_for()
+
+
+def test_the_tab_of_a_panel_that_is_opened_is_whole(tab: StudioPage):
+    tab.page.evaluate(_SHOW_VIEWS)
+    wait_until("it to be in front", lambda: in_front(tab, "Views"))
+    tab.page.evaluate(_SOME_PICTURES)
+    wait_until("a whole tab", lambda: tab.page.evaluate(_CUT_TABS) == [])
+    tab.page.get_by_role("button", name="Close Views").click()
 
 
 def test_tabs_that_do_not_fit_are_in_a_menu_at_their_end(tab: StudioPage):
