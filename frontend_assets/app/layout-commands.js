@@ -43,6 +43,8 @@ function followFullView(dock) {
   const enter = async () => {
     await document.documentElement.requestFullscreen?.();
     isOurs = fullView.value;
+    // Whoever left meanwhile found no full screen yet that could be ended.
+    if (!isOurs && document.fullscreenElement) await document.exitFullscreen();
   };
   effect(() => {
     const on = fullView.value && size.value !== "phone";
@@ -192,8 +194,7 @@ export function layoutItems() {
 
 /** @param {Dock} dock @param {string} id what can be done with a panel, under its tab @param {HTMLElement | null} [button] that opens it, if not the tab */
 export function openPanelMenu(dock, id, button = dock.tab(id)) {
-  const tab = button;
-  if (!tab) return;
+  if (!button) return;
   const isFloating = dock.isFloating(id);
   /** @type {MenuItem[]} */
   const moves = dock.places(id).map((place) => ({
@@ -201,7 +202,7 @@ export function openPanelMenu(dock, id, button = dock.tab(id)) {
     icon: place.kind === "beside" ? "layout" : "jump",
     run: () => dock.move(id, place),
   }));
-  openMenu(tab, t("panel.menu", { panel: panelTitle(id) }), [
+  openMenu(button, t("panel.menu", { panel: panelTitle(id) }), [
     ...(moves.length > 0
       ? [{ label: t("panel.move", { panel: panelTitle(id) }), heading: true }]
       : []),
@@ -231,16 +232,20 @@ export function openPanelMenu(dock, id, button = dock.tab(id)) {
     {
       label: t("help.of", { page: helpTitle(id) }),
       icon: "help",
-      run: () => openHelp(id, tab),
+      run: () => openHelp(id, button),
     },
     { label: t("panel.close"), icon: "close", run: () => dock.close(id) },
   ]);
 }
 
-/** @param {string} id @returns {MenuItem} */
-const commandItem = (id) => ({
-  label: t(`command.${id}`),
-  icon: commandById(id)?.icon ?? "box",
+/** @param {string} id of a command @param {string} [icon] @param {string} [label] @returns {MenuItem} */
+export const commandItem = (
+  id,
+  icon = commandById(id)?.icon ?? "box",
+  label = t(`command.${id}`),
+) => ({
+  label,
+  icon,
   run: () => commandById(id)?.run(),
 });
 

@@ -239,7 +239,7 @@ function parsed(text) {
  * @param {(id: string) => boolean} isKnown
  * @returns {{layouts: OwnLayout[], dropped: string[]}} those that can be read, each name once
  */
-function readLayouts(stored, isKnown) {
+export function readLayouts(stored, isKnown) {
   /** @type {OwnLayout[]} */
   const layouts = [];
   const dropped = new Set();

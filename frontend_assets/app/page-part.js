@@ -4,12 +4,13 @@
  */
 
 /** @import { Arrangement } from "../lib/arrangement.js" */
+/** @import { OwnLayout } from "./layouts.js" */
 
 import { readArrangement } from "../lib/arrangement.js";
 import { isSeries, SERIES_MAX, series, span_s } from "../model/plotting.js";
 import { pagePart } from "../model/rviz-configs.js";
 import { layoutControl } from "../model/view.js";
-import { addLayouts, layoutFile, layoutInUse, ownLayouts, readLayoutFile } from "./layouts.js";
+import { addLayouts, ownLayouts, readLayouts } from "./layouts.js";
 import { PANELS } from "./panels.js";
 
 const SPAN_LEAST_S = 1;
@@ -25,8 +26,7 @@ export function followPagePart() {
 export function toldPart(arrangement) {
   return {
     ...(arrangement && { Panels: arrangement }),
-    Layouts: JSON.parse(layoutFile(ownLayouts.value)).layouts,
-    "Layout in use": layoutInUse.value.trim(),
+    Layouts: ownLayouts.value,
     Plots: series.value,
     "Plot span": span_s.value,
   };
@@ -35,7 +35,7 @@ export function toldPart(arrangement) {
 /** @param {string} id of a panel */
 const isKnown = (id) => Object.hasOwn(PANELS, id);
 
-/** @typedef {{arrangement: Arrangement | null, layouts: import("./layouts.js").OwnLayout[], plots: import("../model/plotting.js").Series[] | null, span_s: number | null}} ReadPart */
+/** @typedef {{arrangement: Arrangement | null, layouts: OwnLayout[], plots: import("../model/plotting.js").Series[] | null, span_s: number | null}} ReadPart */
 
 /** @param {string} text @param {(id: string) => boolean} [known] whether there is such a panel @returns {ReadPart} null: it says nothing that is believed */
 export function readPart(text, known = isKnown) {
@@ -45,7 +45,7 @@ export function readPart(text, known = isKnown) {
   const span = told["Plot span"];
   return {
     arrangement,
-    layouts: layoutsOf(told.Layouts, known),
+    layouts: Array.isArray(told.Layouts) ? readLayouts(told.Layouts, known).layouts : [],
     plots: Array.isArray(plots) ? plots.filter(isSeries).slice(0, SERIES_MAX).map(plain) : null,
     span_s: typeof span === "number" && span >= SPAN_LEAST_S && span <= SPAN_MOST_S ? span : null,
   };
@@ -64,20 +64,18 @@ function parsed(text) {
   }
 }
 
-/** @param {unknown} layouts @param {(id: string) => boolean} known */
-function layoutsOf(layouts, known) {
-  try {
-    return readLayoutFile(JSON.stringify({ studio_layouts: 1, layouts }), known).layouts;
-  } catch {
-    return [];
-  }
+/** @param {readonly OwnLayout[]} layouts @param {readonly OwnLayout[]} own @returns {OwnLayout[]} a layout that had to get another name is no new one the next time */
+export function newOnes(layouts, own) {
+  const asRead = (/** @type {OwnLayout} */ { arrangement }) =>
+    JSON.stringify(readArrangement(arrangement, () => true)?.arrangement);
+  const known = new Set(own.map(asRead));
+  return layouts.filter((one) => !known.has(asRead(one)));
 }
 
 /** @param {string} text */
 function takePart(text) {
   const { arrangement, layouts, plots, span_s: span } = readPart(text);
-  const known = new Set(ownLayouts.value.map((one) => JSON.stringify(one)));
-  addLayouts(layouts.filter((one) => !known.has(JSON.stringify(one))));
+  addLayouts(newOnes(layouts, ownLayouts.value));
   if (plots) series.value = plots;
   if (span) span_s.value = span;
   if (!arrangement) return;

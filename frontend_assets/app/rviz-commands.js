@@ -1,15 +1,12 @@
 /** Config files of the 3D view by name: open, save, download, and what was shown before. */
 
 /** @import { Command } from "../lib/commands.js" */
-/** @import { MenuItem } from "../lib/ui.js" */
 
-import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { isCopy } from "../model/copies.js";
 import { closeDocument } from "../model/requests.js";
 import {
-  configFiles,
   downloadConfig,
   openConfigOf,
   RVIZ,
@@ -29,14 +26,7 @@ export function rvizCommands() {
   return [
     { id: "rviz_open", icon: "open", enabled: mayOpen, run: showOpen },
     { id: "rviz_save", icon: "disk", enabled: maySave, run: () => void save() },
-    {
-      id: "rviz_save_as",
-      icon: "disk",
-      enabled: maySave,
-      run: () => {
-        dialog.value = { kind: "rviz_save" };
-      },
-    },
+    { id: "rviz_save_as", icon: "disk", enabled: maySave, run: askWhere },
     {
       id: "rviz_download",
       icon: "download",
@@ -56,20 +46,6 @@ export function rvizCommands() {
       run: () => void undoConfig(),
     },
   ];
-}
-
-/** @returns {MenuItem[]} for a menu */
-export function rvizItems() {
-  const ids = ["rviz_open", "rviz_save", "rviz_save_as", "rviz_download", "studio_download"];
-  return [...ids, ...(rvizConfig.value.undo ? ["rviz_undo"] : [])].map((id) => {
-    const command = commandById(id);
-    return {
-      label: `${t(`command.${id}`)}${id.endsWith("open") || id.endsWith("as") ? "…" : ""}`,
-      icon: command?.icon ?? "disk",
-      disabled: !command?.enabled?.(),
-      run: () => command?.run(),
-    };
-  });
 }
 
 /** What would be lost is asked about first. */
@@ -100,13 +76,13 @@ function ifSaved(run) {
 /** The view is kept with the document; only its file would lack what was changed. */
 export const closeAsking = () => ifSaved(() => void closeDocument());
 
+function askWhere() {
+  dialog.value = { kind: "rviz_save" };
+}
+
 /** Without a file of this machine it is asked for. */
 async function save() {
-  if (rvizConfig.value.path === "") {
-    const files = await configFiles();
-    if (files) dialog.value = { kind: "rviz_save" };
-    return;
-  }
+  if (rvizConfig.value.path === "") return askWhere();
   const saved = await saveConfig("");
   if (saved) notify(t("rviz.saved", { file: saved.path }));
 }

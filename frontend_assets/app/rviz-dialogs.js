@@ -9,8 +9,8 @@ import { Dialog, EmptyState, Icon, IconButton, moveFocus, ProgressBar } from "..
 import { mayManage } from "../model/connection.js";
 import { documentState } from "../model/document.js";
 import {
-  CONFIG_LARGEST,
   configFiles,
+  configStem,
   downloadConfig,
   lossGroups,
   openConfigFile,
@@ -104,9 +104,7 @@ function ChooseButton({ busy, onChoose }) {
   const take = (event) => {
     const [file] = /** @type {HTMLInputElement} */ (event.currentTarget).files ?? [];
     event.currentTarget.value = "";
-    if (!file) return;
-    if (file.size > CONFIG_LARGEST) notify(t("rviz.too_large", { name: file.name }), { bad: true });
-    else onChoose(file);
+    if (file) onChoose(file);
   };
   return html`<input type="file" accept=".rviz,.yaml,.yml" hidden ref=${box} aria-label=${t("upload.choose")} onChange=${take} />
     <button type="button" class="button" disabled=${busy} onClick=${() => box.current?.click()}><${Icon} name="upload" />${t("upload.choose")}</button>`;
@@ -191,7 +189,7 @@ export function SaveConfigDialog({ onClose }) {
 /** @returns {string} without its ending */
 function proposedName() {
   const name = rvizConfig.value.name || (documentState.value?.title ?? "view");
-  return name.replace(/(\.studio)?\.(rviz|yaml)$/, "").split(".")[0] || "view";
+  return configStem(name).split(".")[0] || "view";
 }
 
 /** @param {{opened: RvizConfigOpened, onClose: () => void}} props what was taken of a file, and what is only kept */

@@ -17,14 +17,15 @@ import { documentId, mayEdit, mayManage, role } from "../model/connection.js";
 import { isCopy } from "../model/copies.js";
 import { documents, history, title, unsaved } from "../model/document.js";
 import { ask, goTo, redo, reload, save, undo } from "../model/requests.js";
+import { configItems } from "../model/rviz-configs.js";
 import { dialog, languageChoice, layoutControl, size, theme, themeChoice } from "../model/view.js";
 import { ClassButtons } from "./control.js";
 import { ExportMenu, exportItems } from "./export.js";
 import { graphicsItems } from "./graphics.js";
-import { layoutItems, layoutName } from "./layout-commands.js";
+import { commandItem, layoutItems, layoutName } from "./layout-commands.js";
 import { LIVE, layoutInUse } from "./layouts.js";
 import { PANEL_GROUPS, PANELS, panelTitle } from "./panels.js";
-import { closeAsking, rvizItems } from "./rviz-commands.js";
+import { closeAsking } from "./rviz-commands.js";
 
 export function TopBar() {
   const { unsaved_count: count } = history.value;
@@ -119,7 +120,7 @@ function documentItems() {
         ]
       : []),
     { label: t("command.reload"), icon: "reload", disabled: unedited, run: reload },
-    { label: t("rviz.config"), icon: "list", disabled: documentId.value === "", more: rvizItems },
+    { label: t("rviz.config"), icon: "list", disabled: documentId.value === "", more: configItems },
     { label: t("document.close"), icon: "close", disabled: none, run: closeAsking },
   ];
 }
@@ -235,13 +236,6 @@ function PanelsMenu() {
 function SettingsMenu() {
   return html`<${MenuButton} label=${t("settings")} items=${settingsItems}><${Icon} name="settings" /><//>`;
 }
-
-/** @param {string} id of a command @param {string} icon @param {string} [label] @returns {MenuItem} */
-const commandItem = (id, icon, label = t(`command.${id}`)) => ({
-  label,
-  icon,
-  run: () => commandById(id)?.run(),
-});
 
 /** @returns {MenuItem[]} */
 function panelItems() {

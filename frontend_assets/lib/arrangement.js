@@ -107,13 +107,13 @@ function readPart(part, admit, depth) {
 
 /**
  * @param {Arrangement} arrangement
- * @param {{width: number, height: number}} room px
+ * @param {{width: number, height: number, gap: number}} room px; `gap`: between neighbours
  * @param {(id: string) => object} described a panel, as dockview stores it
  * @returns {SerializedDockview} the arrangement in dockview's own words
  */
 export function toDockview(
   { upright = false, parts, floating = [] },
-  { width, height },
+  { width, height, gap },
   described,
 ) {
   let count = 0;
@@ -127,7 +127,7 @@ export function toDockview(
     if ("split" in part) return { type: "branch", size: part.size, data: part.split.map(node) };
     return { type: "leaf", size: part.size, data: group(part) };
   };
-  const scaled = scaledTo(parts, upright ? [height, width] : [width, height]);
+  const scaled = scaledTo(parts, upright ? [height, width] : [width, height], gap);
   const root = { type: "branch", size: upright ? width : height, data: scaled.map(node) };
   const used = [...parts.flatMap(tabsOf), ...floating.flatMap(({ tabs }) => tabs)];
   const windows = floating.map((one) => ({
@@ -148,13 +148,16 @@ export function toDockview(
   return /** @type {SerializedDockview} */ (/** @type {unknown} */ (layout));
 }
 
-/** @param {Split[]} parts @param {[number, number]} room along them and across, px @returns {Split[]} that fill it */
-function scaledTo(parts, [along, across]) {
+/** @param {Split[]} parts @param {[number, number]} room along them and across, px @param {number} gap px @returns {Split[]} that fill it */
+function scaledTo(parts, [along, across], gap) {
   const sum = parts.reduce((all, { size }) => all + size, 0);
+  const gaps = gap * (parts.length - 1);
   return parts.map((part) => {
-    const size = (part.size / sum) * along;
+    const shown = (part.size / sum) * (along - gaps);
+    // The dock takes the gaps off again, of each part as much as of any other.
+    const size = shown + gaps / parts.length;
     return "split" in part
-      ? { split: scaledTo(part.split, [across, size]), size }
+      ? { split: scaledTo(part.split, [across, shown], gap), size }
       : { ...part, size };
   });
 }

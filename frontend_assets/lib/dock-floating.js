@@ -117,7 +117,7 @@ const PICTURES_MOST = 60;
  *
  * @param {HTMLElement} element @param {Room} room @param {() => void} run @param {number} [left] pictures until it runs all the same
  */
-export function whenAsLarge(element, room, run, left = PICTURES_MOST) {
+function whenAsLarge(element, room, run, left = PICTURES_MOST) {
   requestAnimationFrame(() => {
     const { width, height } = roomOf(element);
     if (left === 0 || (width === room.width && height === room.height)) run();
@@ -125,28 +125,47 @@ export function whenAsLarge(element, room, run, left = PICTURES_MOST) {
   });
 }
 
-/** @param {DockviewApi} api @param {HTMLElement} element that holds the dock */
-export function aloneIn(api, element) {
-  /** @type {IDockviewPanel | undefined} */
-  let shown;
-  let wasMaximized = false;
+/**
+ * One panel alone, until all stand as before, which they do only once the dock has its room back.
+ *
+ * @param {DockviewApi} api @param {HTMLElement} element that holds the dock @param {(arrangement: Arrangement) => void} arrange
+ */
+export function aloneIn(api, element, arrange) {
+  let isOn = false;
   /** @type {{arrangement: Arrangement, room: Room} | null} */
   let before = null;
+  const restore = () => {
+    // It is alone again, or all stand as before already.
+    if (isOn || !before) return;
+    const { arrangement } = before;
+    before = null;
+    arrange(arrangement);
+  };
   return {
-    isOn: () => shown !== undefined,
-    /** How the panels stood, and in what room; null: no panel is alone. */
-    before: () => before,
-    /** @param {string | null} id @param {() => Arrangement} arrangement as it is now */
-    show(id, arrangement) {
-      const panel = id === null ? undefined : api.getPanel(id);
-      element.classList.toggle("alone", panel !== undefined);
-      if (panel && !shown) {
-        before = { arrangement: arrangement(), room: roomOf(element) };
-        wasMaximized = api.hasMaximizedGroup();
-        panel.api.maximize();
-      } else if (!panel && shown && !wasMaximized) api.exitMaximizedGroup();
-      shown = panel;
-      if (!panel) before = null;
+    /** How all stood and will stand again; null: they do. */
+    before: () => before?.arrangement ?? null,
+    /** @param {Arrangement} arrangement that all shall stand in @returns {boolean} they will; false: no panel is alone */
+    keep(arrangement) {
+      if (!before) return false;
+      before = { ...before, arrangement };
+      restore();
+      return true;
+    },
+    /** @param {IDockviewPanel} panel @param {() => Arrangement} arrangement as it is now */
+    begin(panel, arrangement) {
+      before ??= { arrangement: arrangement(), room: roomOf(element) };
+      isOn = true;
+      element.classList.add("alone");
+      panel.api.maximize();
+    },
+    /** @param {boolean} atOnce they take any room */
+    end(atOnce) {
+      if (!isOn || !before) return;
+      isOn = false;
+      element.classList.remove("alone");
+      api.exitMaximizedGroup();
+      if (atOnce) restore();
+      else whenAsLarge(element, before.room, restore);
     },
   };
 }

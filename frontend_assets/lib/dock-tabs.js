@@ -231,6 +231,9 @@ function showActive(tabs) {
   const [room, { left, right }] = [tabs.getBoundingClientRect(), active.getBoundingClientRect()];
   if (right > room.right) tabs.scrollLeft += Math.ceil(right - room.right);
   else if (left < room.left) tabs.scrollLeft -= Math.ceil(room.left - left);
+  else return;
+  // The dock scrolls back to where it last heard of, in this very picture if it is not told.
+  tabs.dispatchEvent(new Event("scroll"));
 }
 
 /** A tab of which only a part is in view is not shown, but for the one in front: the menu has it. @param {Element} tabs */

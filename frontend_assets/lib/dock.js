@@ -14,7 +14,6 @@ import {
   isFloating,
   isInGrid,
   moveFloatingByKey,
-  whenAsLarge,
 } from "./dock-floating.js";
 import { headerActions, keepTabsWhole, TAB, tabOfPanel } from "./dock-tabs.js";
 
@@ -85,14 +84,14 @@ export function createDock(element, panels, options) {
   );
   /** Where floating panels came from, by id: a panel that stood beside it. */
   const homes = new Map();
-  const alone = aloneIn(api, element);
+  const alone = aloneIn(api, element, arrangeNow);
   keepTabOrder(element, () => layered(api, panels));
   const tabsChanged = keepTabsWhole(element);
   let quiet = false;
   let single = false;
   api.onDidLayoutChange(() => {
     tabsChanged();
-    if (!quiet && !single && !alone.isOn()) options.onChange();
+    if (!quiet && !single && !alone.before()) options.onChange();
   });
 
   api.onDidActivePanelChange(({ panel }) => {
@@ -100,12 +99,18 @@ export function createDock(element, panels, options) {
     options.onActive(panel?.id ?? null);
   });
 
-  /** @param {Arrangement} arrangement */
+  /** @param {Arrangement} arrangement shown once no panel is alone */
   function arrange(arrangement) {
+    if (!alone.keep(arrangement)) arrangeNow(arrangement);
+  }
+
+  /** @param {Arrangement} arrangement */
+  function arrangeNow(arrangement) {
     quiet = true;
     for (const { tabs, home } of arrangement.floating ?? [])
       if (tabs[0] && home) homes.set(tabs[0], home);
-    const room = { width: element.clientWidth || 1200, height: element.clientHeight || 800 };
+    const [width, height] = [element.clientWidth || 1200, element.clientHeight || 800];
+    const room = { width, height, gap: THEME.gap };
     const layout = toDockview(arrangement, room, (id) => described(id, panels));
     api.fromJSON(layout, { reuseExistingPanels: true });
     for (const restore of restores) restore();
@@ -118,6 +123,8 @@ export function createDock(element, panels, options) {
 
   /** @returns {Arrangement} as it is now, or as it was before one panel was shown alone */
   function arrangement() {
+    const before = alone.before();
+    if (before) return before;
     const { floating, ...rest } = fromDockview(api.toJSON());
     if (!floating) return rest;
     const known = floating.map((one) => ({ ...one, home: homes.get(one.tabs[0]) }));
@@ -154,11 +161,10 @@ export function createDock(element, panels, options) {
       tabOfPanel(api, id)?.focus();
     },
     showAlone: (id) => {
-      const before = alone.before();
-      if (id !== null) show(api, panels, id);
-      alone.show(id, arrangement);
-      if (id === null && before)
-        whenAsLarge(element, before.room, () => arrange(before.arrangement));
+      if (id === null) return alone.end(single);
+      show(api, panels, id);
+      const panel = api.getPanel(id);
+      if (panel) alone.begin(panel, arrangement);
     },
     close: (id) => api.getPanel(id)?.api.close(),
     places: (id) => placesFor(api, id),

@@ -1,3 +1,5 @@
+import { signal } from "vendor/preact.js";
+
 /** @type {Map<() => Promise<void>, () => boolean>} who may have something under way, and whether it has */
 const underWay = new Map();
 
@@ -85,5 +87,39 @@ export function latestSender(send, nextFrame = (callback) => requestAnimationFra
       schedule();
     },
     settled,
+  };
+}
+
+/**
+ * Values that are set many times a second, by whose they are and their name: of each the newest wins,
+ * and is shown at once.
+ *
+ * @template T
+ * @param {(owner: string, name: string, value: T) => Promise<unknown>} send
+ */
+export function latestValues(send) {
+  /** @type {import("vendor/preact.js").Signal<ReadonlyMap<string, T>>} */
+  const onTheirWay = signal(new Map());
+  /** @type {Map<string, ReturnType<typeof latestSender<T>>>} */
+  const senders = new Map();
+  const keyOf = (/** @type {string} */ owner, /** @type {string} */ name) => `${owner} ${name}`;
+  return {
+    /** @param {string} owner @param {string} name @returns {T | undefined} as it is about to be */
+    coming: (owner, name) => onTheirWay.value.get(keyOf(owner, name)),
+    /** @param {string} owner @param {string} name @param {T} value */
+    async set(owner, name, value) {
+      const key = keyOf(owner, name);
+      const sender =
+        senders.get(key) ?? latestSender((/** @type {T} */ newest) => send(owner, name, newest));
+      senders.set(key, sender);
+      onTheirWay.value = new Map(onTheirWay.value).set(key, value);
+      sender.push(value);
+      await sender.settled();
+      if (sender.busy()) return;
+      senders.delete(key);
+      const left = new Map(onTheirWay.value);
+      left.delete(key);
+      onTheirWay.value = left;
+    },
   };
 }

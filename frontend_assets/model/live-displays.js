@@ -11,7 +11,7 @@
 import { computed, signal } from "vendor/preact.js";
 import { groupName, groupPaths, isWithin, outerGroup } from "../lib/display-groups.js";
 import { t } from "../lib/i18n.js";
-import { latestSender } from "../lib/latest.js";
+import { latestValues } from "../lib/latest.js";
 import { ask } from "./requests.js";
 import { notify } from "./view.js";
 import { send, subscribe } from "./wire.js";
@@ -59,16 +59,14 @@ export const displayStates = computed(
   () => new Map(fares.value.states.map((one) => [one.id, one])),
 );
 
-/** Values on their way, by display and name: they are shown at once. @type {Signal<ReadonlyMap<string, boolean | number | string>>} */
-const onTheirWay = signal(new Map());
-
-/** @param {string} display @param {string} name */
-const wayKey = (display, name) => `${display} ${name}`;
+/** @type {ReturnType<typeof latestValues<Value>>} */
+const properties = latestValues((display, name, value) =>
+  ask({ type: "set_display_property", display, name, value }),
+);
 
 /** @param {DisplayView} display @param {string} name @returns {boolean | number | string | undefined} as it is, or as it is about to be */
 export const settingOf = ({ id, values }, name) =>
-  onTheirWay.value.get(wayKey(id, name)) ??
-  (Object.hasOwn(values, name) ? values[name] : undefined);
+  properties.coming(id, name) ?? (Object.hasOwn(values, name) ? values[name] : undefined);
 
 subscribe("live_displays", (event) => {
   const isOther = event.kinds !== state.peek().kinds;
@@ -142,34 +140,8 @@ export const moveLive = (move) => move && ask(move);
 /** @returns {string[]} */
 export const groupsNow = () => groupPaths(liveDisplays.value);
 
-/** @type {Map<string, ReturnType<typeof latestSender<Value>>>} */
-const senders = new Map();
-
-/** @param {string} display @param {string} name @returns {ReturnType<typeof latestSender<Value>>} */
-function senderOf(display, name) {
-  const key = wayKey(display, name);
-  const sender =
-    senders.get(key) ??
-    latestSender((/** @type {Value} */ value) =>
-      ask({ type: "set_display_property", display, name, value }),
-    );
-  senders.set(key, sender);
-  return sender;
-}
-
-/** @param {string} display @param {string} name @param {Value} value the newest wins, and is shown at once */
-export async function setProperty(display, name, value) {
-  const key = wayKey(display, name);
-  const sender = senderOf(display, name);
-  onTheirWay.value = new Map(onTheirWay.value).set(key, value);
-  sender.push(value);
-  await sender.settled();
-  if (sender.busy()) return;
-  senders.delete(key);
-  const left = new Map(onTheirWay.value);
-  left.delete(key);
-  onTheirWay.value = left;
-}
+/** Of a display, by its id and the name of the property; the newest wins, and is shown at once. */
+export const setProperty = properties.set;
 
 /** @param {Remark} remark do what it offers */
 export function mendDisplay({ mend }) {

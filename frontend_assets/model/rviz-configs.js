@@ -4,13 +4,16 @@
  */
 
 /** @import { LossView, RvizConfigState, RvizFiles } from "../types/wire.d.ts" */
+/** @import { MenuItem } from "../lib/ui.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, signal } from "vendor/preact.js";
+import { commandById } from "../lib/commands.js";
 import { saveAsFile } from "../lib/files.js";
+import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
 import { ask } from "./requests.js";
-import { dialog } from "./view.js";
+import { dialog, notify } from "./view.js";
 import { currentView, useView } from "./views.js";
 import { subscribe } from "./wire.js";
 
@@ -37,8 +40,11 @@ subscribe("rviz_config_state", (event) => {
 
 export const RVIZ = ".rviz";
 export const STUDIO = ".studio.yaml";
-/** Bytes; the studio reads no larger one. */
-export const CONFIG_LARGEST = 900_000;
+/** Bytes; the studio reads no larger one, and ends the connection of who sends much more. */
+const LARGEST = 900_000;
+
+/** @param {string} name of a config @returns {string} without its ending */
+export const configStem = (name) => name.replace(/(\.studio)?\.(rviz|yaml)$/, "");
 
 /** @param {string} name @returns {boolean} whether a file of this name is a config */
 export const isConfig = (name) => name.endsWith(RVIZ) || name.endsWith(STUDIO);
@@ -51,6 +57,20 @@ export const pagePart = {
   take: () => {},
 };
 
+const COMMANDS = ["rviz_open", "rviz_save", "rviz_save_as", "rviz_download", "studio_download"];
+
+/** @returns {MenuItem[]} all that can be done with configs, for a menu */
+export const configItems = () =>
+  [...COMMANDS, ...(rvizConfig.value.undo ? ["rviz_undo"] : [])].map((id) => {
+    const command = commandById(id);
+    return {
+      label: `${t(`command.${id}`)}${id.endsWith("open") || id.endsWith("as") ? "…" : ""}`,
+      icon: command?.icon ?? "disk",
+      disabled: !command?.enabled?.(),
+      run: () => command?.run(),
+    };
+  });
+
 /** @param {string} path @returns {Promise<boolean>} */
 export async function openConfigFile(path) {
   return takeOpened(await ask({ type: "open_rviz_file", path }));
@@ -58,6 +78,10 @@ export async function openConfigFile(path) {
 
 /** @param {File} file that this browser has @returns {Promise<boolean>} */
 export async function openConfigOf(file) {
+  if (file.size > LARGEST) {
+    notify(t("rviz.too_large", { name: file.name }), { bad: true });
+    return false;
+  }
   return takeOpened(
     await ask({ type: "open_rviz_text", name: file.name, text: await file.text() }),
   );
@@ -73,9 +97,6 @@ function takeOpened(answer) {
   return true;
 }
 
-/** @returns {import("../types/wire.d.ts").ViewValues | null} of this page */
-const viewNow = () => currentView();
-
 /** @param {string} name @returns {string} the part of the page, for files that hold it */
 const partFor = (name) => (name.endsWith(STUDIO) ? pagePart.told() : "");
 
@@ -86,7 +107,7 @@ const partFor = (name) => (name.endsWith(STUDIO) ? pagePart.told() : "");
  */
 export async function saveConfig(path, { replace = false, rviz2 = false } = {}) {
   const page = partFor(path || rvizConfig.value.name);
-  const view = viewNow();
+  const view = currentView();
   const answer = await ask({
     type: "save_rviz_file",
     path,
@@ -101,12 +122,11 @@ export async function saveConfig(path, { replace = false, rviz2 = false } = {}) 
 
 /** @param {".rviz" | ".studio.yaml"} ending have the browser save it @param {{rviz2?: boolean}} [options] */
 export async function downloadConfig(ending, { rviz2 = false } = {}) {
-  const view = viewNow();
+  const view = currentView();
   const page = ending === STUDIO ? pagePart.told() : "";
   const answer = await ask({ type: "get_rviz_text", page, rviz2, ...(view && { view }) });
   if (answer?.type !== "rviz_text") return;
-  const stem = answer.name.replace(/(\.studio)?\.(rviz|yaml)$/, "");
-  saveAsFile(`${stem}${ending}`, answer.text, "application/yaml");
+  saveAsFile(`${configStem(answer.name)}${ending}`, answer.text, "application/yaml");
 }
 
 export const undoConfig = () => ask({ type: "undo_rviz_config" });
@@ -119,11 +139,12 @@ export async function configFiles(forget) {
   return answer?.type === "rviz_files" ? answer : null;
 }
 
-/** @type {ReturnType<typeof latestSender<{background?: string, frame_rate?: number}>>} */
-const optionSender = latestSender((options) => ask({ type: "set_view_options", ...options }));
+const backgrounds = latestSender((/** @type {string} */ background) =>
+  ask({ type: "set_view_options", background }),
+);
 
-/** @param {string} background as `#rrggbb`; empty: that of the theme */
-export const setBackground = (background) => optionSender.push({ background });
+/** Of the many that a picker of colours tells the newest counts. @param {string} background as `#rrggbb`; empty: that of the theme */
+export const setBackground = backgrounds.push;
 /** @param {number} frame_rate pictures per second at most; 0: as many as there can be */
 export const setFrameRate = (frame_rate) => ask({ type: "set_view_options", frame_rate });
 

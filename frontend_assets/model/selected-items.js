@@ -135,8 +135,11 @@ export function openItem(id, open) {
 function keysNow() {
   /** @type {Map<string, string[]>} */
   const keys = new Map();
-  for (const { ref } of selectedItems.value.values())
-    keys.set(ref.display, [...(keys.get(ref.display) ?? []), ref.key]);
+  for (const { ref } of selectedItems.value.values()) {
+    const all = keys.get(ref.display);
+    if (all) all.push(ref.key);
+    else keys.set(ref.display, [ref.key]);
+  }
   return [...keys].map(([display, all]) => ({ display, keys: all }));
 }
 

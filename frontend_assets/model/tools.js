@@ -10,7 +10,7 @@
 import { computed, effect, signal } from "vendor/preact.js";
 import { addCommands } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
-import { latestSender } from "../lib/latest.js";
+import { latestValues } from "../lib/latest.js";
 import { mayAct } from "./connection.js";
 import { robot } from "./document.js";
 import { fixedFrame, liveDisplays } from "./live-displays.js";
@@ -69,33 +69,16 @@ export const removeTool = (tool) => ask({ type: "remove_tool", tool });
 /** @param {string} tool @param {string} name */
 export const renameTool = (tool, name) => ask({ type: "rename_tool", tool, name });
 
-/** Values on their way, by tool and name: they are shown at once. @type {Signal<ReadonlyMap<string, Value>>} */
-const onTheirWay = signal(new Map());
-/** @type {Map<string, ReturnType<typeof latestSender<Value>>>} */
-const senders = new Map();
+/** @type {ReturnType<typeof latestValues<Value>>} */
+const properties = latestValues((tool, name, value) =>
+  ask({ type: "set_tool_property", tool, name, value }),
+);
 
 /** @param {ToolView} tool @param {string} name @returns {Value | undefined} as it is, or as it is about to be */
-export const toolValue = ({ id, values }, name) =>
-  onTheirWay.value.get(`${id} ${name}`) ?? values[name];
+export const toolValue = ({ id, values }, name) => properties.coming(id, name) ?? values[name];
 
-/** @param {string} tool @param {string} name @param {Value} value the newest wins, and is shown at once */
-export async function setToolProperty(tool, name, value) {
-  const key = `${tool} ${name}`;
-  const sender =
-    senders.get(key) ??
-    latestSender((/** @type {Value} */ newest) =>
-      ask({ type: "set_tool_property", tool, name, value: newest }),
-    );
-  senders.set(key, sender);
-  onTheirWay.value = new Map(onTheirWay.value).set(key, value);
-  sender.push(value);
-  await sender.settled();
-  if (sender.busy()) return;
-  senders.delete(key);
-  const left = new Map(onTheirWay.value);
-  left.delete(key);
-  onTheirWay.value = left;
-}
+/** Of a tool, by its id and the name of the property; the newest wins, and is shown at once. */
+export const setToolProperty = properties.set;
 
 /** Have the kinds of tools be known; asked for once. */
 export async function needToolKinds() {

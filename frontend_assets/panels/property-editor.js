@@ -24,9 +24,9 @@ export function Choice({ label, value, disabled, choices, onChoose }) {
 
 /**
  * @param {{label: string, property: PropertyView, value: Value, disabled: boolean, set: (value: Value) => void,
- *   topics?: string}} props `topics`: of which type topics are offered for a text
+ *   topics?: string, short?: boolean}} props `topics`: of which type topics are offered for a text; `short`: one of several in a row
  */
-export function PropertyEditor({ label, property, value, disabled, set, topics }) {
+export function PropertyEditor({ label, property, value, disabled, set, topics, short = false }) {
   switch (property.kind) {
     case "switch":
       return html`<${Switch} label=${label} checked=${value === true} disabled=${disabled} onChange=${set} />`;
@@ -51,7 +51,7 @@ export function PropertyEditor({ label, property, value, disabled, set, topics }
         ...${property.choices.length > 0 && { choices: async () => property.choices }}
         ...${topics && { choices: () => topicsOf([topics]), none: t("live.topic.nothing", { type: topics }) }} />`;
     default:
-      return html`<${NumberEditor} label=${label} property=${property} value=${Number(value)} disabled=${disabled} set=${set} />`;
+      return html`<${NumberEditor} label=${label} property=${property} value=${Number(value)} disabled=${disabled} set=${set} short=${short} />`;
   }
 }
 
@@ -63,8 +63,8 @@ async function topicsOf(wanted) {
     .map(({ name }) => name);
 }
 
-/** @param {{label: string, property: PropertyView, value: number, disabled: boolean, set: (value: number) => void}} props */
-function NumberEditor({ label, property, value, disabled, set }) {
+/** @param {{label: string, property: PropertyView, value: number, disabled: boolean, set: (value: number) => void, short: boolean}} props */
+function NumberEditor({ label, property, value, disabled, set, short }) {
   const { low, high, unit, kind } = property;
   if (low === 0 && high === 1 && kind === "number")
     return html`<input type="range" class="slider short" min="0" max="1" step="0.01" value=${value} aria-label=${label}
@@ -78,6 +78,6 @@ function NumberEditor({ label, property, value, disabled, set }) {
     const within = Math.min(Math.max(number, low ?? number), high ?? number);
     set(kind === "whole" ? Math.round(within) : within);
   };
-  return html`<${TextBox} class="number narrow" label=${label} text=${shownNumber(value)} number=${value} step=${step}
-    disabled=${disabled} onWrite=${write} />${unit && html`<span class="unit">${unit}</span>`}`;
+  return html`<${TextBox} class=${`number ${short ? "third" : "narrow"}`} label=${label} text=${shownNumber(value)} number=${value} step=${step}
+    disabled=${disabled} onWrite=${write} />${unit && !short && html`<span class="unit">${unit}</span>`}`;
 }

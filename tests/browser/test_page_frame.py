@@ -44,6 +44,11 @@ _FIRST_LAYOUT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("../lib/commands.js", script))).commandById("layout.0").run();
 }"""
+_SHOW_VIEWS = _FIRST_LAYOUT.replace("layout.0", "panel.views")
+_SOME_PICTURES = """async () => {
+  for (let n = 0; n < 12; n += 1) await new Promise(requestAnimationFrame);
+}"""
+"""Of a page that has everything in its place again."""
 _LEAVING_IS_STOPPED = """() => {
   const leaving = new Event("beforeunload", { cancelable: true });
   window.dispatchEvent(leaving);
@@ -166,6 +171,14 @@ def test_no_tab_is_cut_in_a_window_of_any_size(tab: StudioPage):
     tab.page.get_by_role("button", name="Einstellungen").click()
     tab.page.get_by_role("menuitemradio", name="English").click()
     tab.page.locator("html[lang=en]").wait_for()
+
+
+def test_the_tab_of_a_panel_that_is_opened_is_whole(tab: StudioPage):
+    tab.page.evaluate(_SHOW_VIEWS)
+    wait_until("it to be in front", lambda: in_front(tab, "Views"))
+    tab.page.evaluate(_SOME_PICTURES)
+    wait_until("a whole tab", lambda: tab.page.evaluate(_CUT_TABS) == [])
+    tab.page.get_by_role("button", name="Close Views").click()
 
 
 def test_tabs_that_do_not_fit_are_in_a_menu_at_their_end(tab: StudioPage):
@@ -333,7 +346,7 @@ def test_the_3d_view_fills_the_screen_and_gives_it_back(tab: StudioPage):
 
     def is_as_before() -> bool:
         now = view.bounding_box()
-        return now is not None and max(map(abs, shift(before, now))) <= 2
+        return now is not None and max(map(abs, shift(before, now))) <= 1
 
     page.get_by_role("button", name="Full screen").click()
     bar.wait_for(state="hidden")
@@ -345,3 +358,8 @@ def test_the_3d_view_fills_the_screen_and_gives_it_back(tab: StudioPage):
     bar.wait_for(state="hidden")
     page.keyboard.press("Escape")
     bar.wait_for()
+    wait_until("all is as before once more", is_as_before)
+    for key in ("F11", "Escape", "F11", "Escape"):  # faster than a browser's full screen begins
+        page.keyboard.press(key)
+    wait_until("all is as before at last", is_as_before)
+    wait_until("it has ended", lambda: page.evaluate("document.fullscreenElement === null"))

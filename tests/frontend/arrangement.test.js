@@ -7,7 +7,7 @@ import {
   toDockview,
 } from "../../frontend_assets/lib/arrangement.js";
 
-/** @import { Arrangement } from "../../frontend_assets/lib/arrangement.js" */
+/** @import { Arrangement, Split } from "../../frontend_assets/lib/arrangement.js" */
 
 /** @type {Arrangement} */
 const MODEL = {
@@ -23,7 +23,7 @@ const MODEL = {
     },
   ],
 };
-const ROOM = { width: 2000, height: 1600 };
+const ROOM = { width: 2000, height: 1600, gap: 0 };
 const KNOWN = new Set(["displays", "outline", "scene", "source"]);
 
 /** @param {string} id */
@@ -44,6 +44,24 @@ test("an arrangement fills the room that there is, and comes back from the dock 
     [1000, 600],
   );
   assert.equal(Object.keys(dock.panels).length, 4);
+});
+
+test("what the dock shows between its gaps is arranged again as it is", () => {
+  const gap = 8;
+  /** What the dock tells of is without the share of the gaps. @type {(parts: Split[]) => Split[]} */
+  const shown = (parts) =>
+    parts.map((part) => {
+      const size = part.size - (gap * (parts.length - 1)) / parts.length;
+      return "split" in part ? { split: shown(part.split), size } : { ...part, size };
+    });
+  const arrange = (/** @type {Split[]} */ parts) =>
+    shown(fromDockview(toDockview({ parts }, { ...ROOM, gap }, (id) => ({ id }))).parts);
+  const once = arrange(MODEL.parts);
+  assert.equal(
+    once.reduce((sum, { size }) => sum + size, gap),
+    ROOM.width,
+  );
+  assert.deepEqual(arrange(once), once);
 });
 
 test("parts may stand above one another at the outermost, too", () => {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { readPart, toldPart } from "../../frontend_assets/app/page-part.js";
+import { newOnes, readPart, toldPart } from "../../frontend_assets/app/page-part.js";
 import { series, span_s } from "../../frontend_assets/model/plotting.js";
 import { isConfig, lossGroups } from "../../frontend_assets/model/rviz-configs.js";
 
@@ -55,4 +55,14 @@ test("nothing of a file is believed", () => {
   assert.deepEqual(told.arrangement?.parts, [{ tabs: ["scene"], size: 1 }]);
   assert.deepEqual(told.plots, [{ topic: "/a", path: ".b" }]);
   assert.deepEqual(told.layouts, [{ name: "Mine", arrangement: PANELS }]);
+});
+
+test("a layout of a file that got another name here is not added again", () => {
+  const other = { parts: [{ tabs: ["plot"], size: 1 }], upright: false };
+  const own = [{ name: "Mine 2", arrangement: PANELS }];
+  const layouts = [
+    { name: "Mine", arrangement: PANELS },
+    { name: "Mine", arrangement: other },
+  ];
+  assert.deepEqual(newOnes(layouts, own), [{ name: "Mine", arrangement: other }]);
 });

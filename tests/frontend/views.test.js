@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { propertyRows } from "../../frontend_assets/lib/property-rows.js";
 import { minus } from "../../frontend_assets/lib/vectors.js";
 import {
   cellsOf,
@@ -11,6 +10,7 @@ import {
 } from "../../frontend_assets/lib/view-cube.js";
 import { fitting } from "../../frontend_assets/lib/view-fit.js";
 import { eyeOf, turned, turnFrom } from "../../frontend_assets/lib/view-poses.js";
+import { propertyRows } from "../../frontend_assets/panels/views/views.js";
 
 /** @import { PropertyView } from "../../frontend_assets/types/wire.d.ts" */
 /** @import { Triple, Turn } from "../../frontend_assets/lib/view-poses.js" */

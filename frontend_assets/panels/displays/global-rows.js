@@ -21,7 +21,13 @@ import {
   frameTrouble,
   setFixedFrame,
 } from "../../model/live-displays.js";
-import { configName, rvizConfig, setBackground, setFrameRate } from "../../model/rviz-configs.js";
+import {
+  configItems,
+  configName,
+  rvizConfig,
+  setBackground,
+  setFrameRate,
+} from "../../model/rviz-configs.js";
 import { levelIcon, levelWords } from "./live-rows.js";
 
 /** @param {string} filter @param {ReadonlySet<string>} closed rows that are folded @returns {Row[]} */
@@ -113,31 +119,9 @@ const configText = () => configName.value || t("display.global.config.none");
 /** The config file that is open, with a dot when it is not saved, and what can be done with it. */
 function ConfigControls() {
   const name = configText();
-  const items = () =>
-    CONFIG_COMMANDS.flatMap((id) => {
-      const command = commandById(id);
-      if (!command || (id === "rviz_undo" && !command.enabled?.())) return [];
-      return [
-        {
-          label: t(`command.${id}`),
-          icon: command.icon,
-          disabled: command.enabled?.() === false,
-          run: () => command.run(),
-        },
-      ];
-    });
-  return html`<${MenuButton} class="config-name" label=${t("display.global.config.menu")} value=${name} hint=${rvizConfig.value.path || name} items=${items}>
+  return html`<${MenuButton} class="config-name" label=${t("display.global.config.menu")} value=${name} hint=${rvizConfig.value.path || name} items=${configItems}>
     <span class="config-text">${name}</span><${Icon} name="chevronDown" size=${12} /><//>`;
 }
-
-const CONFIG_COMMANDS = [
-  "rviz_open",
-  "rviz_save",
-  "rviz_save_as",
-  "rviz_download",
-  "studio_download",
-  "rviz_undo",
-];
 
 /** @param {ReadonlySet<string>} closed @returns {Row[]} whether there is a fixed frame, as RViz's global status has it */
 function statusRows(closed) {

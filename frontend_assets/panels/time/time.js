@@ -1,17 +1,43 @@
 /** RViz's Time panel: ROS time and that of the machine, how long both have run, pause and reset. */
 
-import { html } from "vendor/preact.js";
+/** @import { SceneTime } from "../../types/wire.d.ts" */
+/** @import { Signal } from "vendor/preact.js" */
+
+import { effect, html, signal } from "vendor/preact.js";
 import { commandById } from "../../lib/commands.js";
 import { language, t } from "../../lib/i18n.js";
 import { EmptyState, Icon, ProgressBar } from "../../lib/ui.js";
-import { useLooking } from "../../model/asking.js";
+import { polled, useLooking } from "../../model/asking.js";
 import { documentId, mayEdit } from "../../model/connection.js";
 import { paused } from "../../model/live-displays.js";
-import { followTime, sceneTime } from "../../model/scene-time.js";
+import { send } from "../../model/wire.js";
 import { onResetKey } from "../parts.js";
 
 /** Beginning with this time it counts from 1970, and not from the start of a simulation. */
 const EPOCH_FROM_S = 1e9;
+
+/** As fast as hundredths can be read at all. */
+const EVERY_MS = 100;
+
+/** As the studio told it last; null: not yet. @type {Signal<SceneTime | null>} */
+const sceneTime = signal(null);
+
+effect(() => {
+  documentId.value;
+  sceneTime.value = null;
+});
+
+async function askForTime() {
+  try {
+    const answer = await send({ type: "get_scene_time" });
+    if (answer.type === "scene_time") sceneTime.value = answer;
+  } catch {
+    // The next question comes in a moment; that the studio is away says itself.
+  }
+}
+
+/** Begin to look at it; gives the end of looking. */
+const followTime = polled(askForTime, EVERY_MS, () => documentId.value !== "");
 
 export function TimePanel() {
   const { panel } = useLooking(followTime);

@@ -6,13 +6,8 @@
 
 import { html, useEffect } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
-import { niceStep, parseNumber, shownNumber } from "../../lib/numbers.js";
-import { PickBox } from "../../lib/pick-box.js";
-import { propertyRows } from "../../lib/property-rows.js";
-import { TextBox } from "../../lib/slider.js";
-import { EmptyState, IconButton, Switch } from "../../lib/ui.js";
+import { EmptyState, IconButton } from "../../lib/ui.js";
 import { mayEdit } from "../../model/connection.js";
-import { framesNow } from "../../model/live-displays.js";
 import { shownView, viewport } from "../../model/viewport.js";
 import {
   askViewKinds,
@@ -33,6 +28,7 @@ import {
   viewKinds,
   zeroView,
 } from "../../model/views.js";
+import { PropertyEditor } from "../property-editor.js";
 import { SavedShelf } from "./saved.js";
 
 /** @type {Shelf} */
@@ -92,34 +88,31 @@ function Values() {
   return html`<dl class="views-values">${propertyRows(found.properties, (name) => values[name]).map(
     ({ label, properties }) => html`<div key=${label} title=${properties[0]?.doc}>
       <dt>${label}</dt>
-      <dd>${properties.map((one) => html`<${Editor} key=${`${kind} ${one.name}`} property=${one} value=${valueNow(one)} short=${properties.length > 1} />`)}</dd>
+      <dd>${properties.map(
+        (
+          one,
+        ) => html`<${PropertyEditor} key=${`${kind} ${one.name}`} label=${one.name} property=${one} value=${valueNow(one)}
+        disabled=${false} short=${properties.length > 1} set=${(/** @type {Value} */ value) => setViewValue(one.name, value)} />`,
+      )}</dd>
     </div>`,
   )}</dl>`;
 }
 
-/** @param {{property: PropertyView, value: Value, short: boolean}} props */
-function Editor({ property, value, short }) {
-  const { name, kind, choices } = property;
-  const set = (/** @type {Value} */ one) => setViewValue(name, one);
-  if (kind === "switch")
-    return html`<${Switch} label=${name} checked=${value === true} onChange=${set} />`;
-  if (kind === "choice")
-    return html`<select class="box" aria-label=${name} value=${String(value)} onChange=${(/** @type {any} */ event) => set(event.currentTarget.value)}>
-      ${choices.map((one) => html`<option key=${one} value=${one} selected=${one === value}>${one}</option>`)}</select>`;
-  if (kind === "frame")
-    return html`<${PickBox} label=${name} text=${String(value)} onWrite=${set} none=${t("views.frame.none")}
-      choices=${async () => ["<Fixed Frame>", ...(await framesNow()).map((one) => one.name)]} />`;
-  return html`<${NumberEditor} property=${property} value=${Number(value)} set=${set} short=${short} />`;
-}
-
-/** @param {{property: PropertyView, value: number, set: (value: number) => void, short: boolean}} props */
-function NumberEditor({ property: { name, low, high, unit }, value, set, short }) {
-  const step = niceStep(0, Math.max(Math.abs(value), 0.01) * 4);
-  /** @param {string} typed */
-  const write = (typed) => {
-    const number = parseNumber(typed);
-    if (number !== null) set(Math.min(Math.max(number, low ?? number), high ?? number));
-  };
-  return html`<${TextBox} class=${`number ${short ? "third" : "narrow"}`} label=${name} text=${shownNumber(value)} number=${value} step=${step} onWrite=${write} />
-    ${!short && unit && html`<span class="unit">${unit}</span>`}`;
+/**
+ * Properties as rows: the three numbers of a place share one.
+ *
+ * @param {readonly PropertyView[]} properties in their order
+ * @param {(name: string) => unknown} now what another property is, on which one may depend
+ * @returns {{label: string, properties: PropertyView[]}[]}
+ */
+export function propertyRows(properties, now) {
+  /** @type {Map<string, PropertyView[]>} */
+  const rows = new Map();
+  for (const one of properties) {
+    const values = /** @type {readonly unknown[]} */ (one.when_values);
+    if (one.when !== "" && !values.includes(now(one.when))) continue;
+    const label = one.name.replace(/\/[XYZ]$/, "");
+    rows.set(label, [...(rows.get(label) ?? []), one]);
+  }
+  return [...rows].map(([label, own]) => ({ label, properties: own }));
 }
