@@ -22,6 +22,8 @@ ORTHOGRAPHIC: Final = "Orthographic"
 """A property of ours that RViz has not: seen without perspective. TopDownOrtho is so always, and an
 FPS that is so has a `Scale` as it has. RViz passes over both."""
 NAME_MAX: Final = 80
+VIEWS_MAX: Final = 100
+"""So many views can be saved with a document."""
 
 _QUARTER: Final = math.pi / 4
 _PITCH_MAX: Final = math.pi / 2 - 0.001

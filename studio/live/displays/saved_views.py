@@ -18,14 +18,12 @@ from studio.protocol.views import (
     ViewKinds,
     ViewKindView,
 )
-from studio.rviz.views import VIEW_KINDS, ViewSpec
+from studio.rviz.views import VIEW_KINDS, VIEWS_MAX, ViewSpec
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from studio.protocol.listeners import Audience
-
-VIEWS_MAX: Final = 100
 
 _log = logging.getLogger(__name__)
 
