@@ -108,8 +108,8 @@ class DocumentDisplays:
         self._list = DisplayList()
         self._beside = KeptDisplays()
         """What is kept beside the displays: options of the view, and an opened config."""
-        self.views = SavedViews(audience, self._beside_changed)
-        self.tools = DocumentTools(audience, self._beside_changed)
+        self.views = SavedViews(audience, self._kept_changed)
+        self.tools = DocumentTools(audience, self._kept_changed)
         self.offers = TopicOffers(wire)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
@@ -126,7 +126,7 @@ class DocumentDisplays:
         self._settings = LastSent[LiveDisplays](audience)
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
-        """Called when displays were added, removed or changed."""
+        """Called when displays, tools or views were added, removed or changed."""
         self.on_change: Callable[[], object] = lambda: None
         """Called after any change of what is kept."""
 
@@ -472,22 +472,18 @@ class DocumentDisplays:
         """Send, keep and draw the list after a change."""
         self._show_and_hide()
         self._send_displays()
-        self._keep()
         self._checked_s = 0.0
         self._go_on()
-        self.on_list()
-        self.on_change()
+        self._kept_changed()
 
-    def _beside_changed(self) -> None:
-        self._keep()
+    def _kept_changed(self) -> None:
+        self._keeper.keep(self.kept)
+        self.on_list()
         self.on_change()
 
     def _show_and_hide(self) -> None:
         for spec in self._list:
             self._robot.scene.live.show(spec.id, visible=self._list.is_shown(spec))
-
-    def _keep(self) -> None:
-        self._keeper.keep(self.kept)
 
     @property
     def fixed_frame_in_use(self) -> str:
