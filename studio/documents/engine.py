@@ -83,8 +83,8 @@ if TYPE_CHECKING:
 
 _DOCUMENT_LIMIT = 32
 _WATCHED = Limits(per_second=30)
-_TOOL_USES = Limits(per_second=10)
 """Each is answered with a whole document; all tabs of a browser may come back at once."""
+_TOOL_USES = Limits(per_second=10)
 
 
 class Engine:
@@ -422,8 +422,10 @@ def _link_to(engine: Engine, command: GetLink) -> Link:
 async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
     xyz = (command.x, command.y, command.z)
     pointed = Pointed(command.tool, command.fixed_frame, xyz, command.yaw)
-    use = await engine.document(command.document).live.tool_use(pointed)
-    sent = await engine.ros.tools.use(command.document, use, asker.person)
+    live, publishing = engine.document(command.document).live, engine.ros.tools
+    live.tools.on_tools = partial(publishing.keep_only, command.document)
+    use = await live.tool_use(pointed)
+    sent = await publishing.use(command.document, use, asker.person)
     return ToolUsed(
         request=command.request,
         sent_as="action" if sent.operation else "topic",

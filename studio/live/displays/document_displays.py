@@ -432,6 +432,7 @@ class DocumentDisplays:
         """Draw nothing more."""
         self._closed = True
         self._unwatch()
+        self.tools.close()
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)

@@ -25,7 +25,7 @@ from studio.tf.rotations import compose
 from studio.tf.transforms import plain_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Container, Iterable
 
     from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol.listeners import Audience
@@ -81,6 +81,8 @@ class DocumentTools:
         self._changed = changed
         self.list = ToolList()
         self._sent = LastSent[Tools](audience)
+        self.on_tools: Callable[[Container[str]], object] = lambda _: None
+        """Told the ids of the tools that there are, after each change."""
 
     @property
     def kept(self) -> tuple[ToolSpec, ...]:
@@ -153,8 +155,13 @@ class DocumentTools:
         placed = compose((*frame_from_fixed.wxyz, *frame_from_fixed.xyz), (*pose, *pointed.xyz))
         return ToolUse(tool, frame, placed[:4], placed[4:])
 
+    def close(self) -> None:
+        """There are none any more."""
+        self.on_tools(())
+
     def _tell(self) -> None:
         self._sent.send(self.event())
+        self.on_tools([one.id for one in self.list])
         self._changed()
 
 
