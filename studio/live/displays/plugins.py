@@ -37,6 +37,8 @@ class Plugins:
         self._folders = tuple(folders)
         self._files: dict[Path, PluginFile] = {}
         self._kinds: dict[str, type[PluginDisplay]] = {}
+        self._clashes: dict[str, str] = {}
+        """Why files are not shown whose kind another has, too, by their names."""
         self._watching: asyncio.Task[None] | None = None
         self._watchers: set[Callable[[frozenset[str]], Awaitable[None]]] = set()
         self.generation = 0
@@ -108,7 +110,8 @@ class Plugins:
 
     def faults(self) -> dict[str, str]:
         """Return why files are switched off, by their names."""
-        return {one.path.name: one.fault for one in self._files.values() if one.fault}
+        own = {one.path.name: one.fault for one in self._files.values() if one.fault}
+        return own | self._clashes
 
     async def _watch(self) -> None:
         while True:
@@ -148,15 +151,12 @@ class Plugins:
     def _named(self) -> dict[str, type[PluginDisplay]]:
         """Return the kinds by name; of two files with one name the first by path has it."""
         kinds: dict[str, type[PluginDisplay]] = {}
+        self._clashes = {}
         for path in sorted(self._files):
             kind = self._files[path].kind
-            if kind is None:
-                continue
-            if kind.KIND in kinds:
-                other = kinds[kind.KIND].FILE.path.name
-                self._files[path].fault = f"{path.name}: its KIND is that of {other}, too"
-            else:
-                kinds[kind.KIND] = kind
+            if kind is not None and (first := kinds.setdefault(kind.KIND, kind)) is not kind:
+                other = first.FILE.path.name
+                self._clashes[path.name] = f"{path.name}: its KIND is that of {other}, too"
         return kinds
 
 
