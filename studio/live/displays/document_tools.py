@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from studio.displays.properties import FIXED_FRAME
 from studio.errors import ToolError
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.listeners import LastSent
@@ -30,9 +31,6 @@ if TYPE_CHECKING:
     from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol.listeners import Audience
     from studio.rviz.tools import ToolKind, ToolSpec
-
-FIXED_FRAME: Final = "<Fixed Frame>"
-"""What pages and RViz write for it."""
 
 
 @dataclass(frozen=True, slots=True)
