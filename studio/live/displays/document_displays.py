@@ -107,7 +107,7 @@ class DocumentDisplays:
         self._unwatch: Callable[[], None] = lambda: None
         self._list = DisplayList()
         self._beside = KeptDisplays()
-        """What is kept beside the displays: options of the view, and an opened config."""
+        """Of this, options of the view and an opened config; others have the rest."""
         self.views = SavedViews(audience, self._kept_changed)
         self.tools = DocumentTools(audience, self._kept_changed)
         self.offers = TopicOffers(wire)
@@ -151,10 +151,7 @@ class DocumentDisplays:
         """Have these displays, this fixed frame and all else that is kept, instead of what is."""
         for one in tuple(self._list):
             self._remove(one.id)
-        self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
-        self.tools.mirror(kept.tools)
-        self.views.replace(kept.views)
         self._room.renew()
         self._changed()
 
@@ -211,19 +208,16 @@ class DocumentDisplays:
 
     def restore(self) -> None:
         """Take up the displays of the last time."""
-        kept = self._file.read()
-        self.views.restore(kept.views)
-        self.tools.restore(kept.tools)
-        if kept.fixed_frame:
-            self._room.frames.chosen = kept.fixed_frame
-        self._take(kept)
+        self._take(self._file.read())
         self._show_and_hide()
         self._go_on()
 
     def _take(self, kept: KeptDisplays) -> None:
-        self._beside = structs.replace(
-            kept, displays=(), groups_off=(), fixed_frame="", tools=(), views=()
-        )
+        self._beside = kept
+        self.views.restore(kept.views)
+        self.tools.restore(kept.tools)
+        if kept.fixed_frame != self._fixed_frame:
+            self._room.frames.chosen = kept.fixed_frame
         for spec in kept.displays:
             self._restore_one(spec)
         for group in all_groups(one.group for one in self._list):

@@ -90,13 +90,13 @@ class DocumentTools:
     def restore(self, tools: Iterable[ToolSpec]) -> None:
         """Have these tools; none: RViz's first set."""
         self.list.restore(tools)
-        self._sent.send(self.event())
+        self._send()
 
     def mirror(self, others: tuple[ToolSpec, ...]) -> None:
         """Have the tools that another document has."""
         if [_content(one) for one in others] != [_content(one) for one in self.list]:
-            self.list.restore(others)
-            self._tell()
+            self.restore(others)
+            self._changed()
 
     def event(self) -> Tools:
         """Return all tools as pages receive them."""
@@ -158,9 +158,12 @@ class DocumentTools:
         self.on_tools(())
 
     def _tell(self) -> None:
+        self._send()
+        self._changed()
+
+    def _send(self) -> None:
         self._sent.send(self.event())
         self.on_tools([one.id for one in self.list])
-        self._changed()
 
 
 def _content(tool: ToolSpec) -> tuple[str, str, dict[str, object]]:
