@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from contextlib import suppress
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from studio.errors import DisplayError
+from studio.files import is_file, stamp_of
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable, Mapping
     from pathlib import Path
 
     from studio.displays.display import Display
+    from studio.files import Stamp
     from studio.live.displays.plugin_display import PluginDisplay, PluginFile
 
 PREFIX: Final = "plugins/"
 """Before the names of their kinds, so that none is taken for one of the studio's."""
 PLUGINS_MAX: Final = 100
 _LOOK_EVERY_S: Final = 0.5
-Stamp: TypeAlias = tuple[int, int, int]
-"""Time of the change, size and inode: a file that is saved by rename has another inode."""
 
 _log = logging.getLogger(__name__)
 
@@ -164,9 +163,8 @@ def _files_in(folders: Iterable[Path]) -> dict[Path, Stamp]:
     found: dict[Path, Stamp] = {}
     for folder in folders:
         for path in sorted(folder.glob("*.py")):
-            with suppress(OSError):
-                if path.name[0] in "._" or not path.is_file() or len(found) >= PLUGINS_MAX:
-                    continue
-                about = path.stat()
-                found[path] = about.st_mtime_ns, about.st_size, about.st_ino
+            if path.name[0] in "._" or not is_file(path) or len(found) >= PLUGINS_MAX:
+                continue
+            if stamp := stamp_of(path):
+                found[path] = stamp
     return found
