@@ -13,7 +13,7 @@ import secrets
 import stat
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.system import is_running
 
@@ -33,6 +33,9 @@ LFS_REASON: Final = (
 _BEGINNING: Final = b"version https://git-lfs.github.com/spec/"
 _LENGTH_LIMIT: Final = 1024
 """Source: the specification of Git LFS, docs/spec.md."""
+Stamp: TypeAlias = tuple[int, int, int]
+"""Time of the last change, size and inode: one that is saved by rename is another file, even if its
+time and its size are the same."""
 
 
 def write_whole(target: Path, data: bytes, *, mode: int | None = None, flush: bool = False) -> None:
@@ -117,6 +120,15 @@ def is_folder(path: Path) -> bool:
     """Whether a path leads to a folder."""
     mode = _mode(path)
     return mode is not None and stat.S_ISDIR(mode)
+
+
+def stamp_of(path: Path | str) -> Stamp | None:
+    """Return by which signs a change of a file is noticed; None: it is not there."""
+    try:
+        about = os.stat(path)  # noqa: PTH116 - of hundreds of files, each second
+    except (OSError, ValueError):
+        return None
+    return about.st_mtime_ns, about.st_size, about.st_ino
 
 
 def is_writable(path: Path) -> bool:

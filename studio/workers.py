@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
+import signal
 import sys
 from collections import Counter
 from typing import TYPE_CHECKING, TypeVar
@@ -209,11 +211,23 @@ class Worker:
 
 async def _killed(process: asyncio.subprocess.Process) -> int:
     with contextlib.suppress(ProcessLookupError):
-        process.kill()
+        _kill(process)
     assert process.stdout is not None
     with contextlib.suppress(RuntimeError):  # the asker reads it already
         await process.stdout.read()  # to its end, or asyncio holds the pipe for open
     return await process.wait()
+
+
+def _kill(process: asyncio.subprocess.Process) -> None:
+    """Kill a process; one that has ended by itself keeps its exit code.
+
+    asyncio's own `kill` polls first, and so takes the code away from what waits for it, which then
+    reports 255.
+    """
+    if sys.platform == "win32":
+        process.kill()
+    elif process.returncode is None:
+        os.kill(process.pid, signal.SIGKILL)
 
 
 @contextlib.asynccontextmanager

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.files import is_file, is_folder, is_there
+from studio.files import is_file, is_folder, is_there, stamp_of
 from tests.support.permissions import open_folder, unprivileged
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ def test_files_and_folders_are_told_apart(tmp_path: Path):
 def test_what_is_not_there_or_cannot_be_is_not_there(tmp_path: Path, name: str):
     for look in (is_there, is_file, is_folder):
         assert not look(tmp_path / name)
+    assert stamp_of(tmp_path / name) is None
 
 
 @pytest.mark.skipif(os.name == "nt", reason="modes of Unix")

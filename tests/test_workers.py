@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -89,6 +90,26 @@ def test_a_worker_is_closed_once_its_process_has_ended_whoever_began_to_end_it()
             os.kill(pid or 0, 0)
 
     asyncio.run(run())
+
+
+@pytest.mark.skipif(not hasattr(os, "pidfd_open"), reason="asyncio waits for it in a thread")
+def test_a_process_that_ended_by_itself_keeps_its_exit_code_however_late_it_is_noticed(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    async def run() -> int | None:
+        if sys.version_info < (3, 12):  # since then it waits so by itself
+            watcher = asyncio.PidfdChildWatcher()  # pyright: ignore[reportDeprecated]
+            watcher.attach_loop(asyncio.get_running_loop())
+            monkeypatch.setattr("asyncio.events.get_child_watcher", lambda: watcher)
+        worker = Worker("xacro", "studio.description.worker", CODEC)
+        await worker.warm()
+        assert worker.pid is not None
+        os.kill(worker.pid, signal.SIGTERM)
+        # It has ended, and the loop has no turn to notice.
+        os.waitid(os.P_PID, worker.pid, os.WEXITED | os.WNOWAIT)  # noqa: ASYNC222
+        return await worker._end()  # pyright: ignore[reportPrivateUsage]
+
+    assert asyncio.run(run()) == -signal.SIGTERM
 
 
 def test_requests_that_wait_when_a_worker_is_closed_do_not_start_it_anew():

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
     from studio.rviz.config import RvizConfig
 
-ENDINGS = (".rviz", ".studio.yaml")
 _PACKAGE = "package://"
 
 
@@ -47,6 +46,8 @@ def add_view_options(parser: argparse.ArgumentParser) -> None:
 
 def is_view(path: Path | None) -> bool:
     """Whether a path is of a `.rviz` file, and not of a robot."""
+    from studio.rviz.config_text import ENDINGS
+
     return path is not None and path.name.endswith(ENDINGS)
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from studio.displays.display import Status, StillDisplay
-from studio.displays.drawing import FIXED_FRAME, NO_TURN, NOTHING, Axes, Placed
-from studio.displays.properties import Property
+from studio.displays.drawing import NO_TURN, NOTHING, Axes, Placed
+from studio.displays.properties import FIXED_FRAME, Property
 from studio.displays.selection import Item, box_of
 
 if TYPE_CHECKING:

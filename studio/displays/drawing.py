@@ -28,8 +28,6 @@ Wxyz: TypeAlias = tuple[float, float, float, float]
 """A quaternion of length 1."""
 Pose: TypeAlias = tuple[Wxyz, Xyz]
 """Pose of an object in another frame, most often the fixed one."""
-FIXED_FRAME: Final = "<Fixed Frame>"
-"""RViz's name of the fixed frame; `Placed.frame` may be it, too."""
 NO_TURN: Wxyz = (1.0, 0.0, 0.0, 0.0)
 ORIGIN: Xyz = (0.0, 0.0, 0.0)
 BODIES_MAX: Final = 20_000
@@ -343,7 +341,7 @@ class Placed:
     """Shapes in one frame at one moment.
 
     Attributes:
-        frame: Its name on /tf, or FIXED_FRAME.
+        frame: Its name on /tf, or `properties.FIXED_FRAME`.
         stamp_ns: Time of the pose, since the epoch; 0: the newest known.
         shapes: By name, which has no slashes.
         follows: Whether the shapes move with the frame from now on, as `frame_locked` markers do;

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar, Final, Literal
 import numpy as np
 
 from studio.displays.display import Status, StillDisplay
-from studio.displays.drawing import FIXED_FRAME, NOTHING, GridLines, Lines, Placed
-from studio.displays.properties import Property, rgb_of
+from studio.displays.drawing import NOTHING, GridLines, Lines, Placed
+from studio.displays.properties import FIXED_FRAME, Property, rgb_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

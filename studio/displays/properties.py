@@ -29,6 +29,8 @@ PropertyKind: TypeAlias = Literal[
     "marker_server",
 ]
 
+FIXED_FRAME: Final = "<Fixed Frame>"
+"""Stands for the name of the fixed frame, whichever that is, as RViz writes it."""
 _COLOUR: Final = re.compile(r"#[0-9a-f]{6}")
 _TEXT_MAX: Final = 1000
 _NUMBER_MAX: Final = 1e15

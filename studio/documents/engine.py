@@ -18,7 +18,6 @@ from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
 from studio.documents.document import Document
-from studio.documents.examined import seen_document
 from studio.documents.left_work import LeftDrafts
 from studio.documents.lessons.lesson_room import COMMANDS as LESSON_COMMANDS
 from studio.documents.lessons.lesson_room import LessonRoom
@@ -32,6 +31,7 @@ from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import ConnectionCommands
 from studio.live.displays.document_tools import Pointed
+from studio.live.doctor.seen import SeenDisplay, SeenDocument
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
 from studio.packages.listing import list_folder
@@ -75,16 +75,16 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.live.connection.link import WireLink
-    from studio.live.doctor.seen import SeenDocument
     from studio.packages.workspace import Progress
     from studio.protocol import Command
+    from studio.protocol.displays import DisplayStates
     from studio.protocol.listeners import Listener
     from studio.settings import Settings
 
 _DOCUMENT_LIMIT = 32
 _WATCHED = Limits(per_second=30)
-_TOOL_USES = Limits(per_second=10)
 """Each is answered with a whole document; all tabs of a browser may come back at once."""
+_TOOL_USES = Limits(per_second=10)
 
 
 class Engine:
@@ -414,6 +414,31 @@ class Engine:
         self.left_work.trigger()
 
 
+def seen_document(document: Document) -> SeenDocument:
+    """Return the document's robot, displays and problems as they are now."""
+    states = document.live.states
+    by_id = {one.id: one for one in states.states} if states else {}
+    expansion = document.last_run.expansion
+    return SeenDocument(
+        id=document.id,
+        title=document.title,
+        links=frozenset(document.model.kinematics.link_names) if expansion else frozenset(),
+        fixed_trouble=_trouble_of(states),
+        displays=tuple(
+            SeenDisplay(one.id, one.name, by_id.get(one.id)) for one in document.live.kept.displays
+        ),
+        problems=document.findings.all(),
+    )
+
+
+def _trouble_of(states: DisplayStates | None) -> str:
+    """Return why nothing, or not the robot, can be drawn in the fixed frame."""
+    if states is None:
+        return ""
+    fixed = states.fixed_frame
+    return fixed.sentence if fixed.level == "error" else states.fixed_frame_trouble
+
+
 def _link_to(engine: Engine, command: GetLink) -> Link:
     document = engine.document(command.document)
     return link_to(document.sources, document.location, command.request)
@@ -422,8 +447,10 @@ def _link_to(engine: Engine, command: GetLink) -> Link:
 async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
     xyz = (command.x, command.y, command.z)
     pointed = Pointed(command.tool, command.fixed_frame, xyz, command.yaw)
-    use = await engine.document(command.document).live.tool_use(pointed)
-    sent = await engine.ros.tools.use(command.document, use, asker.person)
+    live, publishing = engine.document(command.document).live, engine.ros.tools
+    live.tools.on_tools = partial(publishing.keep_only, command.document)
+    use = await live.tool_use(pointed)
+    sent = await publishing.use(command.document, use, asker.person)
     return ToolUsed(
         request=command.request,
         sent_as="action" if sent.operation else "topic",

@@ -30,6 +30,7 @@ from studio.rviz.config_values import (
     entries_at,
     entry_at,
     number_of,
+    one_line,
     put,
     text_at,
 )
@@ -233,8 +234,7 @@ class _DisplayReader:
 
 def group_name(name: str) -> str:
     """Return the name of a group as one step of a path."""
-    line = "".join(one if one.isprintable() else " " for one in name)
-    return line.replace("/", _SLASH).strip()[:_GROUP_NAME_MAX].strip() or "Group"
+    return one_line(name).replace("/", _SLASH)[:_GROUP_NAME_MAX].strip() or "Group"
 
 
 def _members(entry: Entry) -> list[Entry]:

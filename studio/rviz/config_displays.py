@@ -34,6 +34,7 @@ from studio.rviz.config_values import (
     at,
     leaves,
     merged,
+    name_in,
     number_of,
     path_of,
     put,
@@ -150,8 +151,7 @@ def write_display(display: ConfigDisplay) -> Entry:
 
 def name_of(entry: Entry) -> str:
     """Return the name of a display, on one line and not too long."""
-    name = "".join(one if one.isprintable() else " " for one in text_at(entry, "Name"))
-    return name.strip()[:NAME_MAX] or text_at(entry, "Class").rpartition("/")[2][:NAME_MAX] or "?"
+    return name_in(entry, NAME_MAX) or text_at(entry, "Class").rpartition("/")[2][:NAME_MAX] or "?"
 
 
 def is_enabled(entry: Entry) -> bool:

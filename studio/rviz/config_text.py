@@ -17,6 +17,9 @@ from studio.errors import RvizConfigError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+ENDINGS: Final = (".rviz", ".studio.yaml")
+"""Of RViz's files, and of those that hold the studio's panels, too."""
+
 Tree: TypeAlias = "dict[str, Tree] | list[Tree] | str"
 """Never changed in place: parts are shared."""
 

@@ -10,13 +10,14 @@ from studio.rviz.config_text import scalar_of
 from studio.rviz.config_values import (
     Entry,
     entries_at,
+    kind_in,
     leaves,
-    merged,
+    name_in,
     path_of,
     put,
-    read_value,
-    scalar_at,
     text_at,
+    values_in,
+    with_values,
     write_value,
 )
 from studio.rviz.tools import (
@@ -33,10 +34,8 @@ from studio.rviz.tools import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.displays.properties import Value
     from studio.rviz.config_text import Tree
 
-_PACKAGES: Final = frozenset({"rviz", "rviz_default_plugins"})
 _HEAD: Final = frozenset({("Class",), ("Name",)})
 _OURS: Final = frozenset({FRAME, SEND_AS, ACTION})
 """RViz2 has no such properties."""
@@ -53,7 +52,7 @@ def read_tools(entries: Sequence[Entry]) -> tuple[tuple[ToolSpec, ...], list[Los
     tools: list[ToolSpec] = []
     losses: list[Loss] = []
     for entry in entries:
-        kind = _kind_of(entry)
+        kind = kind_in(entry, TOOL_KINDS)
         if kind is None:
             losses.append(Loss("no_tool", text_at(entry, "Class")))
         else:
@@ -76,7 +75,7 @@ def merge_tools(manager: Entry, tools: Sequence[ToolSpec], *, is_new: bool = Fal
     left = list(tools)
     written: list[Tree] = []
     for entry in before:
-        kind = _kind_of(entry)
+        kind = kind_in(entry, TOOL_KINDS)
         if kind is None:
             written.append(entry)
         elif (same := next((one for one in left if one.kind == kind.kind), None)) is not None:
@@ -98,33 +97,17 @@ def _is_added_here(tool: ToolSpec, before: Sequence[Entry]) -> bool:
     return len(before) > 0 and tool.kind == _ALWAYS_HERE and not tool.values
 
 
-def _kind_of(entry: Entry) -> ToolKind | None:
-    package, _, name = text_at(entry, "Class").partition("/")
-    return TOOL_KINDS.get(name) if package in _PACKAGES else None
-
-
 def _name_of(entry: Entry, kind: ToolKind) -> str:
-    name = "".join(one if one.isprintable() else " " for one in text_at(entry, "Name"))
-    return name.strip()[:NAME_MAX] or kind.name
+    return name_in(entry, NAME_MAX) or kind.name
 
 
 def _read(entry: Entry, kind: ToolKind) -> tuple[ToolSpec, list[Loss]]:
-    values: dict[str, Value] = {}
-    refused: list[str] = []
-    for one in kind.properties:
-        scalar = scalar_at(entry, path_of(one.name))
-        if scalar is None:
-            continue
-        value = read_value(one, scalar)
-        if value is None:
-            refused.append(one.name)
-        elif value != one.default:
-            values[one.name] = value
+    values, refused = values_in(entry, kind.properties)
     known = {path_of(one.name) for one in kind.properties} | _HEAD
     known |= {(*path, "Value") for path in known}
     left = ["/".join(path) for path, _ in leaves(entry) if path not in known]
     class_name = text_at(entry, "Class")
-    losses = [Loss("no_value", class_name, tuple(refused))] if refused else []
+    losses = [Loss("no_value", class_name, refused)] if refused else []
     losses += [Loss("no_property", class_name, tuple(left))] if left else []
     return ToolSpec("", kind.kind, _name_of(entry, kind), values), losses
 
@@ -133,10 +116,7 @@ def _merged(entry: Entry, tool: ToolSpec) -> Entry:
     kind = TOOL_KINDS[tool.kind]
     if _name_of(entry, kind) != tool.name:
         entry = put(entry, ("Name",), scalar_of(tool.name))
-    values = (
-        (path_of(one.name), one, tool.values.get(one.name, one.default)) for one in kind.properties
-    )
-    return merged(entry, values, {})
+    return with_values(entry, kind.properties, tool.values)
 
 
 def _fresh(kind: ToolKind) -> Entry:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 import numpy as np
 
@@ -21,10 +21,14 @@ Path = tuple[str, ...]
 
 VALUE: Final = "Value"
 """Where a property that has others below it keeps its own value."""
+_PACKAGES: Final = frozenset({"rviz", "rviz_default_plugins"})
+"""Of the tools and views of RViz 1 and RViz2."""
 _ON: Final = frozenset({"true", "1", "yes", "on"})
 _OFF: Final = frozenset({"false", "0", "no", "off"})
 _FLOAT32_MAX: Final = 3e38
 _WHOLE_BELOW: Final = 1e15
+
+Kind = TypeVar("Kind")
 
 
 def at(tree: Tree | None, path: Path) -> Tree | None:
@@ -55,6 +59,27 @@ def scalar_at(tree: Tree | None, path: Path) -> str | None:
 def text_at(tree: Tree | None, *path: str) -> str:
     """Return the text of the property at a path; empty: none."""
     return text_of(scalar_at(tree, path) or "")
+
+
+def kind_in(entry: Entry, kinds: Mapping[str, Kind]) -> Kind | None:
+    """Return which of these kinds of tools or views the class of an entry is; None: none of RViz's.
+
+    Args:
+        entry: As it was read.
+        kinds: By RViz's class without its package.
+    """
+    package, _, name = text_at(entry, "Class").partition("/")
+    return kinds.get(name) if package in _PACKAGES else None
+
+
+def name_in(entry: Entry, letters_max: int) -> str:
+    """Return the name of an entry, on one line and not too long; empty: it has none."""
+    return one_line(text_at(entry, "Name"))[:letters_max]
+
+
+def one_line(text: str) -> str:
+    """Return a text with a space for each letter that is not printed, and none around it."""
+    return "".join(one if one.isprintable() else " " for one in text).strip()
 
 
 def entry_at(tree: Tree | None, *path: str) -> Entry:
@@ -119,6 +144,24 @@ def read_value(one: Property, scalar: str) -> Value | None:
         return None
 
 
+def values_in(
+    entry: Entry, properties: Iterable[Property]
+) -> tuple[dict[str, Value], tuple[str, ...]]:
+    """Return the values that differ from their defaults, and the names of those refused."""
+    values: dict[str, Value] = {}
+    refused: list[str] = []
+    for one in properties:
+        scalar = scalar_at(entry, path_of(one.name))
+        if scalar is None:
+            continue
+        value = read_value(one, scalar)
+        if value is None:
+            refused.append(one.name)
+        elif value != one.default:
+            values[one.name] = value
+    return values, tuple(refused)
+
+
 def write_value(one: Property, value: Value) -> str:
     """Return the scalar of a value as RViz2 writes it."""
     if one.kind == "switch":
@@ -161,6 +204,12 @@ def merged(
         if not same(one, scalar_at(entry, path), value, missing.get(one.name, one.default)):
             entry = put(entry, path, write_value(one, value))
     return entry
+
+
+def with_values(entry: Entry, properties: Iterable[Property], values: Mapping[str, Value]) -> Entry:
+    """Return an entry that says these values of properties, which stand under their names."""
+    told = ((path_of(one.name), one, values.get(one.name, one.default)) for one in properties)
+    return merged(entry, told, {})
 
 
 def number_text(number: float) -> str:

@@ -11,28 +11,32 @@ from studio.rviz.config_values import (
     Entry,
     entries_at,
     entry_at,
+    kind_in,
     leaves,
-    merged,
+    name_in,
     path_of,
     put,
-    read_value,
-    scalar_at,
     text_at,
+    values_in,
+    with_values,
     write_value,
 )
-from studio.rviz.views import NAME_MAX, ORTHOGRAPHIC, VIEW_KINDS, ViewKind, ViewSpec
+from studio.rviz.views import (
+    NAME_MAX,
+    ORTHOGRAPHIC,
+    VIEW_KINDS,
+    VIEWS_MAX,
+    ViewKind,
+    ViewSpec,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.displays.properties import Value
     from studio.rviz.config_text import Tree
 
-VIEWS_MAX: Final = 100
-"""As many as a document can have."""
 _CURRENT: Final = "Current View"
 _HEAD: Final = frozenset({("Class",), ("Name",), ("Value",)})
-_PACKAGES: Final = frozenset({"rviz", "rviz_default_plugins"})
 _STEREO: Final[Entry] = {
     "Stereo Eye Separation": "0.05999999865889549",
     "Stereo Focal Distance": "1",
@@ -43,7 +47,7 @@ _STEREO: Final[Entry] = {
 
 def read_current(entry: Entry) -> tuple[ViewSpec | None, list[Loss]]:
     """Return the view in use, and what of it is only kept; None: there is no such view here."""
-    kind = _kind_of(entry)
+    kind = kind_in(entry, VIEW_KINDS)
     if kind is not None:
         return _read(entry, kind)
     class_name = text_at(entry, "Class")
@@ -70,8 +74,7 @@ def read_views(entries: Sequence[Entry]) -> tuple[tuple[ViewSpec, ...], list[Los
 
 def merge_view(manager: Entry, view: ViewSpec) -> Entry:
     """Return the manager's entry with this view in use."""
-    before = entry_at(manager, "Views", "Current")
-    entry = _merged(before if _kind_of(before) is not None else {}, view, _CURRENT)
+    entry = _merged(entry_at(manager, "Views", "Current"), view, _CURRENT)
     return {**manager, "Views": {**entry_at(manager, "Views"), "Current": entry}}
 
 
@@ -81,7 +84,7 @@ def merge_views(manager: Entry, views: Sequence[ViewSpec]) -> Entry:
     left = list(views)
     written: list[Tree] = []
     for entry in before:
-        kind = _kind_of(entry)
+        kind = kind_in(entry, VIEW_KINDS)
         if kind is None:
             written.append(entry)
         elif (same := _same_of(entry, kind, left)) is not None:
@@ -94,53 +97,29 @@ def merge_views(manager: Entry, views: Sequence[ViewSpec]) -> Entry:
 
 
 def _same_of(entry: Entry, kind: ViewKind, views: Sequence[ViewSpec]) -> ViewSpec | None:
-    """Return the view that an entry became: of its kind and name, or what is left of its kind."""
-    name = _name_of(entry)
-    of_kind = [one for one in views if one.kind == kind.kind]
-    return next((one for one in of_kind if one.name == name), None)
-
-
-def _kind_of(entry: Entry) -> ViewKind | None:
-    package, _, name = text_at(entry, "Class").partition("/")
-    return VIEW_KINDS.get(name) if package in _PACKAGES else None
-
-
-def _name_of(entry: Entry) -> str:
-    name = "".join(one if one.isprintable() else " " for one in text_at(entry, "Name"))
-    return name.strip()[:NAME_MAX]
+    """Return the view that an entry became: the first of its kind and name; None: it is gone."""
+    name = name_in(entry, NAME_MAX)
+    return next((one for one in views if (one.kind, one.name) == (kind.kind, name)), None)
 
 
 def _read(entry: Entry, kind: ViewKind) -> tuple[ViewSpec, list[Loss]]:
-    values: dict[str, Value] = {}
-    refused: list[str] = []
-    for one in kind.properties:
-        scalar = scalar_at(entry, path_of(one.name))
-        if scalar is None:
-            continue
-        value = read_value(one, scalar)
-        if value is None:
-            refused.append(one.name)
-        elif value != one.default:
-            values[one.name] = value
+    values, refused = values_in(entry, kind.properties)
     known = {path_of(one.name) for one in kind.properties} | _HEAD
     left = [path for path, _ in leaves(entry) if path not in known]
     names = dict.fromkeys(path[0] for path in left)
     class_name = text_at(entry, "Class")
-    losses = [Loss("no_value", class_name, tuple(refused))] if refused else []
+    losses = [Loss("no_value", class_name, refused)] if refused else []
     losses += [Loss("no_property", class_name, tuple(names))] if names else []
-    return ViewSpec(kind.kind, _name_of(entry), values), losses
+    return ViewSpec(kind.kind, name_in(entry, NAME_MAX), values), losses
 
 
 def _merged(entry: Entry, view: ViewSpec, name: str) -> Entry:
     kind = VIEW_KINDS[view.kind]
-    if (found := _kind_of(entry)) is None or found.kind != view.kind:
+    if (found := kind_in(entry, VIEW_KINDS)) is None or found.kind != view.kind:
         entry = _fresh(kind)
-    if _name_of(entry) != name:
+    if name_in(entry, NAME_MAX) != name:
         entry = put(entry, ("Name",), scalar_of(name))
-    values = (
-        (path_of(one.name), one, view.values.get(one.name, one.default)) for one in kind.properties
-    )
-    return merged(entry, values, {})
+    return with_values(entry, kind.properties, view.values)
 
 
 def _fresh(kind: ViewKind) -> Entry:

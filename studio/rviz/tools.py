@@ -240,14 +240,16 @@ class ToolList:
     def restore(self, tools: Iterable[ToolSpec]) -> None:
         """Have these tools instead, each with an id of its own; none: RViz's first set.
 
-        Kinds that are not known are left out, and so are values that their properties do not take.
+        One of a kind and name that were there keeps its id, for somebody may have it in hand. Kinds
+        that are not known are left out, and so are values that their properties do not take.
         """
         wanted = tuple(filter(None, map(_readable, tools))) or default_tools()
         if not any(one.kind == "Interact" for one in wanted):
             wanted = (default_tools()[0], *wanted)
+        ids = {(one.kind, one.name): one.id for one in self}
         self._tools.clear()
         for one in wanted[:TOOLS_MAX]:
-            self._put(one)
+            self._put(one, ids.pop((one.kind, one.name), ""))
 
     def add(self, kind: str, name: str = "") -> ToolSpec:
         """Add one at the end; without a name it gets that of its kind, or a numbered one.
@@ -297,10 +299,11 @@ class ToolList:
         self._tools[tool] = changed = replace(found, values=values)
         return changed
 
-    def _put(self, spec: ToolSpec) -> ToolSpec:
-        self._given += 1
-        added = replace(spec, id=f"t{self._given}")
-        self._tools[added.id] = added
+    def _put(self, spec: ToolSpec, id_: str = "") -> ToolSpec:
+        if not id_:
+            self._given += 1
+            id_ = f"t{self._given}"
+        self._tools[id_] = added = replace(spec, id=id_)
         return added
 
     def _free_name(self, wanted: str) -> str:

@@ -13,15 +13,15 @@ from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from studio.displays.properties import Property, Value, length, switch
+from studio.displays.properties import FIXED_FRAME, Property, Value, length, switch
 from studio.errors import ViewError
 
-FIXED_FRAME: Final = "<Fixed Frame>"
-"""Value of Target Frame: the camera goes with no frame."""
 ORTHOGRAPHIC: Final = "Orthographic"
 """A property of ours that RViz has not: seen without perspective. TopDownOrtho is so always, and an
 FPS that is so has a `Scale` as it has. RViz passes over both."""
 NAME_MAX: Final = 80
+VIEWS_MAX: Final = 100
+"""So many views can be saved with a document."""
 
 _QUARTER: Final = math.pi / 4
 _PITCH_MAX: Final = math.pi / 2 - 0.001

@@ -2,8 +2,9 @@ import math
 
 import pytest
 
+from studio.displays.properties import FIXED_FRAME
 from studio.errors import DisplayPropertyError, ViewError
-from studio.rviz.views import FIXED_FRAME, VIEW_KINDS, ViewSpec, view_kind
+from studio.rviz.views import VIEW_KINDS, ViewSpec, view_kind
 
 
 def firsts(kind: str) -> dict[str, object]:

@@ -107,9 +107,9 @@ class DocumentDisplays:
         self._unwatch: Callable[[], None] = lambda: None
         self._list = DisplayList()
         self._beside = KeptDisplays()
-        """What is kept beside the displays: options of the view, and an opened config."""
-        self.views = SavedViews(audience, self._beside_changed)
-        self.tools = DocumentTools(audience, self._beside_changed)
+        """Of this, options of the view and an opened config; others have the rest."""
+        self.views = SavedViews(audience, self._kept_changed)
+        self.tools = DocumentTools(audience, self._kept_changed)
         self.offers = TopicOffers(wire)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
@@ -126,7 +126,7 @@ class DocumentDisplays:
         self._settings = LastSent[LiveDisplays](audience)
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
-        """Called when displays were added, removed or changed."""
+        """Called when displays, tools or views were added, removed or changed."""
         self.on_change: Callable[[], object] = lambda: None
         """Called after any change of what is kept."""
 
@@ -151,10 +151,7 @@ class DocumentDisplays:
         """Have these displays, this fixed frame and all else that is kept, instead of what is."""
         for one in tuple(self._list):
             self._remove(one.id)
-        self._room.frames.chosen = kept.fixed_frame
         self._take(kept)
-        self.tools.mirror(kept.tools)
-        self.views.replace(kept.views)
         self._room.renew()
         self._changed()
 
@@ -211,19 +208,16 @@ class DocumentDisplays:
 
     def restore(self) -> None:
         """Take up the displays of the last time."""
-        kept = self._file.read()
-        self.views.restore(kept.views)
-        self.tools.restore(kept.tools)
-        if kept.fixed_frame:
-            self._room.frames.chosen = kept.fixed_frame
-        self._take(kept)
+        self._take(self._file.read())
         self._show_and_hide()
         self._go_on()
 
     def _take(self, kept: KeptDisplays) -> None:
-        self._beside = structs.replace(
-            kept, displays=(), groups_off=(), fixed_frame="", tools=(), views=()
-        )
+        self._beside = kept
+        self.views.restore(kept.views)
+        self.tools.restore(kept.tools)
+        if kept.fixed_frame != self._fixed_frame:
+            self._room.frames.chosen = kept.fixed_frame
         for spec in kept.displays:
             self._restore_one(spec)
         for group in all_groups(one.group for one in self._list):
@@ -432,6 +426,7 @@ class DocumentDisplays:
         """Draw nothing more."""
         self._closed = True
         self._unwatch()
+        self.tools.close()
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)
@@ -472,22 +467,18 @@ class DocumentDisplays:
         """Send, keep and draw the list after a change."""
         self._show_and_hide()
         self._send_displays()
-        self._keep()
         self._checked_s = 0.0
         self._go_on()
-        self.on_list()
-        self.on_change()
+        self._kept_changed()
 
-    def _beside_changed(self) -> None:
-        self._keep()
+    def _kept_changed(self) -> None:
+        self._keeper.keep(self.kept)
+        self.on_list()
         self.on_change()
 
     def _show_and_hide(self) -> None:
         for spec in self._list:
             self._robot.scene.live.show(spec.id, visible=self._list.is_shown(spec))
-
-    def _keep(self) -> None:
-        self._keeper.keep(self.kept)
 
     @property
     def fixed_frame_in_use(self) -> str:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from studio.displays.properties import FIXED_FRAME
 from studio.errors import ToolError
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.listeners import LastSent
@@ -25,14 +26,11 @@ from studio.tf.rotations import compose
 from studio.tf.transforms import plain_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Container, Iterable
 
     from studio.live.displays.scene_frames import SceneFrames
     from studio.protocol.listeners import Audience
     from studio.rviz.tools import ToolKind, ToolSpec
-
-FIXED_FRAME: Final = "<Fixed Frame>"
-"""What pages and RViz write for it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +79,8 @@ class DocumentTools:
         self._changed = changed
         self.list = ToolList()
         self._sent = LastSent[Tools](audience)
+        self.on_tools: Callable[[Container[str]], object] = lambda _: None
+        """Told the ids of the tools that there are, after each change."""
 
     @property
     def kept(self) -> tuple[ToolSpec, ...]:
@@ -90,13 +90,13 @@ class DocumentTools:
     def restore(self, tools: Iterable[ToolSpec]) -> None:
         """Have these tools; none: RViz's first set."""
         self.list.restore(tools)
-        self._sent.send(self.event())
+        self._send()
 
     def mirror(self, others: tuple[ToolSpec, ...]) -> None:
         """Have the tools that another document has."""
         if [_content(one) for one in others] != [_content(one) for one in self.list]:
-            self.list.restore(others)
-            self._tell()
+            self.restore(others)
+            self._changed()
 
     def event(self) -> Tools:
         """Return all tools as pages receive them."""
@@ -153,9 +153,17 @@ class DocumentTools:
         placed = compose((*frame_from_fixed.wxyz, *frame_from_fixed.xyz), (*pose, *pointed.xyz))
         return ToolUse(tool, frame, placed[:4], placed[4:])
 
+    def close(self) -> None:
+        """There are none any more."""
+        self.on_tools(())
+
     def _tell(self) -> None:
-        self._sent.send(self.event())
+        self._send()
         self._changed()
+
+    def _send(self) -> None:
+        self._sent.send(self.event())
+        self.on_tools([one.id for one in self.list])
 
 
 def _content(tool: ToolSpec) -> tuple[str, str, dict[str, object]]:

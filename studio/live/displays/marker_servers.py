@@ -251,9 +251,11 @@ class MarkerServers:
         """Receive nothing more: the connection is about to end."""
         for server in self._servers.values():
             server.wanted = None
-            self._forget_holders(server)
+            server.held.clear()
             if server.working is None:
                 server.disconnect()
+            else:
+                server.working.add_done_callback(lambda _, one=server: one.disconnect())
             server.display.clear()
         self._tell_changes(at_once=True)
 
@@ -279,7 +281,7 @@ class MarkerServers:
         if command.action == "select":
             _check_entry(shown, command)
         else:
-            self._hold(server, shown, command, listener)
+            _hold(server, shown, command, listener)
             _show(server.display, shown, command)
         async with server.turn:
             feedback = self._feedback(server, shown, command)
@@ -325,8 +327,10 @@ class MarkerServers:
         if server not in self._servers.values():
             return  # its display was removed meanwhile
         if news.clears:
-            self._forget_holders(server)
+            server.held.clear()
             display.clear()
+        if server.wanted is None:
+            return  # it is let go of meanwhile
         if news.markers or news.left_out:
             display.put(news.markers, left_out=news.left_out)
         for moved in news.poses:
@@ -354,18 +358,6 @@ class MarkerServers:
         if held is None and command.action in ("move", "hold", "release"):
             raise CommandError(f'"{name}" is not held any more: press on it again.')
 
-    def _hold(
-        self,
-        server: _Server,
-        shown: ShownMarker,
-        command: InteractWithMarker,
-        listener: Listener,
-    ) -> None:
-        if command.action == "release":
-            server.held.pop(shown.number, None)
-        else:
-            server.held[shown.number] = _Held(listener, command, time.monotonic())
-
     def _release(self, server: _Server, number: int, held: _Held) -> None:
         """End a drag of a page that is gone."""
         del server.held[number]
@@ -376,9 +368,6 @@ class MarkerServers:
         feedback = self._feedback(server, shown, command)
         server.display.let_go(shown)
         self._spawn(asyncio.to_thread(_publish, server, feedback))
-
-    def _forget_holders(self, server: _Server) -> None:
-        server.held.clear()
 
     def _feedback(
         self, server: _Server, shown: ShownMarker, command: InteractWithMarker
@@ -459,6 +448,16 @@ class MarkerServers:
         self._tasks.discard(task)
         if not task.cancelled() and (error := task.exception()):
             _log.error("An interactive marker server could not be followed.", exc_info=error)
+
+
+def _hold(
+    server: _Server, shown: ShownMarker, command: InteractWithMarker, listener: Listener
+) -> None:
+    """Note who drags a marker from now on, or that nobody does."""
+    if command.action == "release":
+        server.held.pop(shown.number, None)
+    else:
+        server.held[shown.number] = _Held(listener, command, time.monotonic())
 
 
 def _publish(server: _Server, feedback: Iterable[MessageValue]) -> None:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from studio.displays.display import Received, TopicRole
     from studio.displays.drawing import Drawing
     from studio.displays.properties import Property, Value
-    from studio.live.displays.plugins import Stamp
+    from studio.files import Stamp
     from studio.ros.types.library import TypeLibrary
 
 _IDLE_NS: Final = 100_000_000

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from contextlib import suppress
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final
 
 from studio.errors import DisplayError
+from studio.files import is_file, stamp_of
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable, Mapping
     from pathlib import Path
 
     from studio.displays.display import Display
+    from studio.files import Stamp
     from studio.live.displays.plugin_display import PluginDisplay, PluginFile
 
 PREFIX: Final = "plugins/"
 """Before the names of their kinds, so that none is taken for one of the studio's."""
 PLUGINS_MAX: Final = 100
 _LOOK_EVERY_S: Final = 0.5
-Stamp: TypeAlias = tuple[int, int, int]
-"""Time of the change, size and inode: a file that is saved by rename has another inode."""
 
 _log = logging.getLogger(__name__)
 
@@ -37,6 +36,8 @@ class Plugins:
         self._folders = tuple(folders)
         self._files: dict[Path, PluginFile] = {}
         self._kinds: dict[str, type[PluginDisplay]] = {}
+        self._clashes: dict[str, str] = {}
+        """Why files are not shown whose kind another has, too, by their names."""
         self._watching: asyncio.Task[None] | None = None
         self._watchers: set[Callable[[frozenset[str]], Awaitable[None]]] = set()
         self.generation = 0
@@ -108,7 +109,8 @@ class Plugins:
 
     def faults(self) -> dict[str, str]:
         """Return why files are switched off, by their names."""
-        return {one.path.name: one.fault for one in self._files.values() if one.fault}
+        own = {one.path.name: one.fault for one in self._files.values() if one.fault}
+        return own | self._clashes
 
     async def _watch(self) -> None:
         while True:
@@ -148,15 +150,12 @@ class Plugins:
     def _named(self) -> dict[str, type[PluginDisplay]]:
         """Return the kinds by name; of two files with one name the first by path has it."""
         kinds: dict[str, type[PluginDisplay]] = {}
+        self._clashes = {}
         for path in sorted(self._files):
             kind = self._files[path].kind
-            if kind is None:
-                continue
-            if kind.KIND in kinds:
-                other = kinds[kind.KIND].FILE.path.name
-                self._files[path].fault = f"{path.name}: its KIND is that of {other}, too"
-            else:
-                kinds[kind.KIND] = kind
+            if kind is not None and (first := kinds.setdefault(kind.KIND, kind)) is not kind:
+                other = first.FILE.path.name
+                self._clashes[path.name] = f"{path.name}: its KIND is that of {other}, too"
         return kinds
 
 
@@ -164,9 +163,8 @@ def _files_in(folders: Iterable[Path]) -> dict[Path, Stamp]:
     found: dict[Path, Stamp] = {}
     for folder in folders:
         for path in sorted(folder.glob("*.py")):
-            with suppress(OSError):
-                if path.name[0] in "._" or not path.is_file() or len(found) >= PLUGINS_MAX:
-                    continue
-                about = path.stat()
-                found[path] = about.st_mtime_ns, about.st_size, about.st_ino
+            if path.name[0] in "._" or not is_file(path) or len(found) >= PLUGINS_MAX:
+                continue
+            if stamp := stamp_of(path):
+                found[path] = stamp
     return found

@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from studio.displays.display import Display
     from studio.displays.posed_robot import PosedRobot
     from studio.displays.robot_model import DescriptionSource
+    from studio.files import Stamp
     from studio.live.connection.received_description import ReadsParameters, ReceivedDescription
-    from studio.live.displays.robot_reading import DescribedRobot, RobotReader, Stamp
+    from studio.live.displays.robot_reading import DescribedRobot, RobotReader
     from studio.live.topics.source import TopicSource
     from studio.robot.values import Robot
 

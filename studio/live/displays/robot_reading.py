@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import os
-from typing import TYPE_CHECKING, Final, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from studio.description.values import Expansion, OpenRequest, ReadPolicy
+from studio.files import Stamp, stamp_of
 from studio.robot.assembly import assembled
 from studio.robot.values import Robot
 
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from studio.description.client import DescriptionWorker
 
 _NAME: Final = "robot_description"
-Stamp: TypeAlias = tuple[int, int, int]
-"""Time of the last change, size and inode of a file."""
 
 
 class RobotFiles(Protocol):
@@ -51,16 +50,7 @@ class DescribedRobot(NamedTuple):
 
 def stamps_of(paths: Iterable[str]) -> dict[str, Stamp | None]:
     """Return by which signs a change of files is noticed; None: it is not there."""
-    return {path: _stamp_of(path) for path in paths}
-
-
-def _stamp_of(path: str) -> Stamp | None:
-    try:
-        about = os.stat(path)  # noqa: PTH116 - of hundreds of files, each second
-    except OSError:
-        return None
-    # One that is saved by rename is another file, even if its time and its size are the same.
-    return about.st_mtime_ns, about.st_size, about.st_ino
+    return {path: stamp_of(path) for path in paths}
 
 
 class RobotReader:

@@ -41,6 +41,7 @@ from studio.protocol.rviz_configs import (
     UndoRvizConfig,
     ViewValues,
 )
+from studio.rviz.config_text import ENDINGS, SIZE_LIMIT_BYTES, write_tree
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -52,8 +53,6 @@ if TYPE_CHECKING:
     from studio.rviz.config import RvizConfig
     from studio.rviz.config_displays import ConfigDisplay, Loss
 
-ENDINGS: Final = (".rviz", ".studio.yaml")
-"""Of RViz's files, and of those that hold the studio's panels, too."""
 _RECENT: Final = "recent_rviz.json"
 _QUIET_S: Final = 0.3
 _AS_IT_IS: Final = GetRvizText()
@@ -234,8 +233,6 @@ class RvizConfigs:
         return _opened(config, losses, name, request)
 
     def _read(self, path: str) -> tuple[bytes, Path]:
-        from studio.rviz.config_text import SIZE_LIMIT_BYTES  # noqa: PLC0415 - imports all
-
         found = self._found(path)
         return self._folders.served.read(found, SIZE_LIMIT_BYTES), found
 
@@ -366,7 +363,6 @@ def _is_of_rviz1(kept: KeptDisplays) -> bool:
 def _text_of(kept: KeptDisplays, root: str, asked: GetRvizText | SaveRvizFile) -> str:
     from studio.rviz.config import for_rviz2, tree_of  # noqa: PLC0415 - imports all displays
     from studio.rviz.config_page import PAGE, page_entry  # noqa: PLC0415
-    from studio.rviz.config_text import write_tree  # noqa: PLC0415
     from studio.rviz.config_values import entry_at  # noqa: PLC0415
 
     config = replace(_config_of(kept, asked.view), root=root)

@@ -18,14 +18,12 @@ from studio.protocol.views import (
     ViewKinds,
     ViewKindView,
 )
-from studio.rviz.views import VIEW_KINDS, ViewSpec
+from studio.rviz.views import VIEW_KINDS, VIEWS_MAX, ViewSpec
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from studio.protocol.listeners import Audience
-
-VIEWS_MAX: Final = 100
 
 _log = logging.getLogger(__name__)
 
@@ -52,18 +50,14 @@ class SavedViews:
         return tuple(self._specs.values())
 
     def restore(self, specs: Iterable[ViewSpec]) -> None:
-        """Take up what was kept; what is no view any more is left out."""
+        """Have these and no others; what is no view any more is left out."""
         self._specs = {}
         for spec in tuple(specs)[:VIEWS_MAX]:
             try:
                 self._specs[self._new_id()] = spec.checked()
             except StudioError as error:
                 _log.warning("The view %s was left out: %s", spec.name, error)
-
-    def replace(self, specs: Iterable[ViewSpec]) -> None:
-        """Have these and no others, as they are in a file that was opened."""
-        self.restore(specs)
-        self._tell()
+        self._audience.send(self.event())
 
     def event(self) -> protocol.SavedViews:
         """Return all of them, for pages."""

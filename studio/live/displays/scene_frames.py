@@ -6,7 +6,8 @@ import asyncio
 import threading
 from typing import TYPE_CHECKING, Final
 
-from studio.displays.drawing import FIXED_FRAME, NO_TURN, ORIGIN
+from studio.displays.drawing import NO_TURN, ORIGIN
+from studio.displays.properties import FIXED_FRAME
 from studio.errors import CdrError, FrameError
 from studio.live.displays.clock_watch import CLOCK, ClockWatch
 from studio.live.displays.own_frames import OwnFrames

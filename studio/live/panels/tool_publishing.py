@@ -25,7 +25,7 @@ from studio.rviz.tools import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Container
 
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 _PUBLISHERS_MAX: Final = 100
 _LISTENER_PATIENCE_S: Final = 1.0
-"""So long a subscription, or a server, is waited for where none is known."""
+"""So long a new publisher waits for a subscription, and a goal for its server."""
 _YAW: Final = 5
 
 
@@ -68,7 +68,7 @@ class ToolSent:
 
 
 class ToolPublishing:
-    """Publishes for tools; the publisher of a tool stays until its topic or QoS is another.
+    """Publishes for tools; a publisher stays until its tool goes, or has another topic or QoS.
 
     Used on the event loop only.
     """
@@ -79,6 +79,7 @@ class ToolPublishing:
         """By document and tool, the one used last at the end."""
         self._begins = Begins()
         self._turn = asyncio.Lock()
+        self._closing: set[asyncio.Task[None]] = set()
 
     async def use(self, document: str, use: ToolUse, person: str) -> ToolSent:
         """Publish, or send a goal; return what was sent where.
@@ -104,10 +105,23 @@ class ToolPublishing:
         """Send nothing of what these persons are about to."""
         self._begins.release(may_go_on)
 
+    def keep_only(self, document: str, tools: Container[str]) -> None:
+        """Close the publishers of the tools that a document has no more."""
+        for key in tuple(self._publishers):
+            if key[0] == document and key[1] not in tools:
+                self._close(self._publishers.pop(key))
+
     async def let_go(self) -> None:
         """Close all publishers: the connection is about to end."""
         publishers, self._publishers = tuple(self._publishers.values()), {}
-        await asyncio.gather(*(asyncio.to_thread(one.close) for one in publishers))
+        for one in publishers:
+            self._close(one)
+        await asyncio.gather(*self._closing)
+
+    def _close(self, publisher: ToolPublisher) -> None:
+        closing = asyncio.create_task(asyncio.to_thread(publisher.close))
+        self._closing.add(closing)
+        closing.add_done_callback(self._closing.discard)
 
     async def _goes_to_action(self, tool: ToolSpec, link: WireLink) -> bool:
         if kind_of(tool.kind).kind != "SetGoal" or (send_as := tool.value(SEND_AS)) == "Topic":
@@ -136,8 +150,11 @@ class ToolPublishing:
         from studio.live.panels.requests import came_true  # noqa: PLC0415 - imports zenoh
 
         publisher = await self._publisher(document, use.tool, link)
-        await came_true(lambda: publisher.subscriptions() > 0, _LISTENER_PATIENCE_S)
+        if not publisher.has_sent:  # later it knows of who subscribes
+            await came_true(lambda: publisher.subscriptions() > 0, _LISTENER_PATIENCE_S)
         check()
+        if publisher not in self._publishers.values():
+            raise CommandError("The tool was changed or removed meanwhile: nothing was sent.")
         subscriptions = publisher.subscriptions()
         await asyncio.to_thread(publisher.send, message_values(use))
         return ToolSent(publisher.name, subscriptions)

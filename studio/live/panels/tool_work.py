@@ -53,6 +53,7 @@ class ToolPublisher:
             durability=_DURABILITY[settings.durability],
         )
         self._publisher = link.node.create_publisher(self._kind, self.name, profile)
+        self.has_sent = False
 
     def subscriptions(self) -> int:
         """Count who subscribes to the topic."""
@@ -60,6 +61,7 @@ class ToolPublisher:
 
     def send(self, values: dict[str, Any]) -> None:
         """Publish a message of these fields, in which `now` stands for this time."""
+        self.has_sent = True
         self._publisher.publish(from_dict(self._kind, values, now_ns=time.time_ns()))
 
     def close(self) -> None:

@@ -25,6 +25,7 @@ from studio.protocol.robot import SetJoints, ZeroJoints
 from studio.protocol.roles import Role, Visitor
 from studio.protocol.saving import Save, UndoTo
 from studio.protocol.texts import EditText, GetText, TextChange
+from studio.protocol.tools import AddTool
 from studio.protocol.variants import SaveVariant
 from tests.support.class_room import Page, Room, run
 from tests.support.open_documents import until
@@ -316,6 +317,19 @@ def test_it_shows_the_displays_that_the_class_has_whenever_they_change(tmp_path:
         first = shared.live.kept.displays[0].id
         await room.ask(room.presenter, RemoveDisplay(document="rover", display=first))
         assert names(copy) == names(shared) == ["TF"]
+
+    run(tmp_path, work)
+
+
+def test_it_has_the_tools_that_the_class_has_whenever_they_change(tmp_path: Path):
+    async def work(room: Room) -> None:
+        ada = await room.student("Ada")
+        copy = await room.copy(ada)
+        before = [one.id for one in copy.live.tools.kept]
+        await room.ask(room.presenter, AddTool(document="rover", kind="SetGoal", name="Second"))
+        tools = copy.live.tools.kept
+        assert [one.id for one in tools[:-1]] == before  # one of them may be in hand
+        assert (tools[-1].kind, tools[-1].name) == ("SetGoal", "Second")
 
     run(tmp_path, work)
 

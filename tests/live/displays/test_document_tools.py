@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -23,6 +24,9 @@ from tests.support.memory_source import MemorySource
 from tests.support.open_documents import Ear
 from tests.support.posed import Posed, arm
 from tests.support.transforms import S, Told, columns
+
+if TYPE_CHECKING:
+    from collections.abc import Container
 
 TURN = math.pi / 2
 ORIGIN = (0.0, 0.0, 0.0)
@@ -52,7 +56,11 @@ def test_every_change_is_sent_whole_and_kept():
     added = tools.kept[-1].id
     tools.rename(RenameTool(tool=added, name="Other"))
     tools.set_property(SetToolProperty(tool=added, name="Topic", value="/b/goal"))
-    tools.remove(RemoveTool(tool=tools.kept[1].id))
+    there: list[Container[str]] = []
+    tools.on_tools = there.append
+    gone = tools.kept[1].id
+    tools.remove(RemoveTool(tool=gone))
+    assert (added in there[-1], gone in there[-1]) == (True, False)
     assert len(changes) == 4
     told = ear.events[-1]
     assert [one["kind"] for one in told["tools"]][:2] == ["Interact", "Select"]

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import math
+import threading
 import time
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.displays.interactive_markers import InteractiveMarkersDisplay
 from studio.errors import CommandError
 from studio.live.displays import marker_servers
+from studio.live.displays.scene_frames import SceneFrames
 from studio.protocol.displays import (
     AddDisplay,
     RemoveDisplay,
@@ -20,12 +23,18 @@ from studio.protocol.displays import (
     SwitchDisplays,
 )
 from studio.protocol.markers import InteractWithMarker
-from studio.ros.interactive_markers import InteractiveMarkerServer, MenuHandler
+from studio.ros.interactive_markers import (
+    InteractiveMarkerClient,
+    InteractiveMarkerServer,
+    MenuHandler,
+)
 from studio.ros.interactive_markers.names import FeedbackEvent, Mode
-from studio.ros.messages import message
+from studio.ros.messages import message, shared_types
 from tests.support.interactive_markers import control_of, moving_marker, pose_at
 from tests.support.loop_watch import Stall, stalls
+from tests.support.memory_source import MemorySource
 from tests.support.open_documents import Ear, until
+from tests.support.posed import Posed, arm
 from tests.support.wired_studio import TF, Studio, studio
 
 if TYPE_CHECKING:
@@ -331,6 +340,40 @@ def test_ten_thousand_controls_and_numbers_of_no_sense_hold_up_nobody(
             made.server.apply_changes()
             await until(lambda: made.place("warm") == 2.0)
         assert not found, "\n".join(map(str, found))
+
+    asyncio.run(story())
+
+
+def test_a_server_is_left_that_is_let_go_of_while_it_is_being_joined(
+    endpoint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    joining, may_go_on, joined = threading.Event(), threading.Event(), threading.Event()
+    join, topic = InteractiveMarkerClient.connect, "/hands/update"
+
+    async def story() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            link = await one.engine.ros.connection.link()
+
+            def slowly(client: InteractiveMarkerClient, namespace: str) -> None:
+                joining.set()
+                may_go_on.wait(20)
+                join(client, namespace)
+                while not link.graph.subscriptions(topic):
+                    time.sleep(0.01)
+                joined.set()
+
+            monkeypatch.setattr(InteractiveMarkerClient, "connect", slowly)
+            display = InteractiveMarkersDisplay(shared_types())
+            display.set("Interactive Markers Namespace", "/hands")
+            frames = SceneFrames(Posed(arm()), MemorySource())
+            servers = marker_servers.MarkerServers(frames, lambda _: None)
+            servers.step({"d1": display}, link)
+            await until(joining.is_set)
+            servers.let_go()
+            may_go_on.set()
+            await until(joined.is_set)
+            await until(lambda: not link.graph.subscriptions(topic))
+            await servers.close()
 
     asyncio.run(story())
 

@@ -165,12 +165,17 @@ def test_a_file_that_changes_is_loaded_anew_and_one_that_goes_is_gone(tmp_path: 
     asyncio.run(run())
 
 
-def test_two_files_of_one_name_are_not_both_shown(tmp_path: Path):
+def test_of_two_files_of_one_name_the_second_is_shown_once_the_first_is_gone(tmp_path: Path):
     async def run() -> None:
         for name in ("a", "b"):
             (tmp_path / f"{name}.py").write_text(GOOD)
         async with running(tmp_path) as plugins:
             assert names(plugins).count("plugins/Good") == 1
             assert plugins.faults() == {"b.py": "b.py: its KIND is that of a.py, too"}
+            (tmp_path / "a.py").unlink()
+            await until(lambda: not plugins.faults())
+            second = display_of(plugins, "Good")
+            await drawn(second)
+            assert not second.statuses()
 
     asyncio.run(run())

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from studio.displays.drawing import FIXED_FRAME
+from studio.displays.properties import FIXED_FRAME
 from studio.errors import UnknownFrameError
 from studio.live.displays.scene_frames import SceneFrames
 from studio.protocol.displays import GetTf

@@ -15,7 +15,7 @@ from studio.protocol.goals import CancelGoal
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from studio.rviz.tools import POINT, POSE, POSE_WITH_COVARIANCE, ToolSpec
 from tests.support.bridged import Bridged, bridged
-from tests.support.demos import heard
+from tests.support.demos import heard, message
 from tests.support.navigation import navigator
 from tests.support.open_documents import until
 
@@ -114,6 +114,57 @@ def test_a_publisher_stays_for_who_comes_late_until_its_tool_has_another_topic(
             await until(lambda: not tester.get_publishers_info_by_topic("/goal_pose"))
             with pytest.raises(RosNameError):
                 await used(page, "SetGoal", Topic="/no place")
+
+    asyncio.run(run())
+
+
+def test_only_a_new_publisher_waits_for_somebody_to_hear_it(
+    endpoint: str, tester: Node, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("studio.live.panels.tool_publishing._LISTENER_PATIENCE_S", 600)
+    hearing = tester.create_subscription(message(POINT), "/clicked_point", print, 1)
+
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            assert (await used(page, "PublishPoint")).subscriptions == 1
+            tester.destroy_subscription(hearing)
+            graph = (await page.ros.connection.link()).graph
+            await until(lambda: not graph.subscriptions("/clicked_point"))
+            assert (await used(page, "PublishPoint")).subscriptions == 0
+
+    asyncio.run(run())
+
+
+def test_the_publisher_of_a_tool_that_was_removed_is_closed(endpoint: str, tester: Node):
+    def ends(name: str) -> int:
+        return len(tester.get_publishers_info_by_topic(name))
+
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            await used(page, "PublishPoint")
+            await used(page, "SetGoal", Send_as="Topic")
+            await until(lambda: ends("/clicked_point") == ends("/goal_pose") == 1)
+            page.ros.tools.keep_only("elsewhere", ())
+            page.ros.tools.keep_only("d", ["SetGoal"])
+            await until(lambda: ends("/clicked_point") == 0)
+            assert ends("/goal_pose") == 1
+            page.ros.tools.keep_only("d", ())
+            await until(lambda: ends("/goal_pose") == 0)
+
+    asyncio.run(run())
+
+
+def test_a_tool_that_is_removed_while_it_waits_sends_nothing(
+    endpoint: str, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("studio.live.panels.tool_publishing._LISTENER_PATIENCE_S", 0.5)
+
+    async def run() -> None:
+        async with bridged(endpoint) as page:
+            sending = asyncio.create_task(used(page, "PublishPoint", Topic="/unheard"))
+            await until(lambda: page.ros.tools.keep_only("d", ()) or sending.done())
+            with pytest.raises(CommandError, match="nothing was sent"):
+                await sending
 
     asyncio.run(run())
 
