@@ -219,9 +219,7 @@ class MarkerWalk:
             self._uvs.add_none(reader.at)
             return "", None
         resource = reader.text()
-        sec, nanosec = struct.unpack_from(f"{reader.order}iI", reader.raw, reader.numbers(4, 8))
-        stamp_ns = sec * NANOSECONDS + nanosec
-        texture = Texture(stamp_ns, reader.text(), reader.text(), self._bytes())
+        texture = Texture(reader.time_ns(), reader.text(), reader.text(), self._bytes())
         self._uvs.read(reader, UV_BYTES, 4)
         return resource, None if texture == (0, "", "", b"") else texture
 
