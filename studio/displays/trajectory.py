@@ -373,20 +373,18 @@ class DisplayTrajectoryDisplay(TrajectoryDisplay):
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("moveit_msgs/msg/DisplayTrajectory",)),
     )
-    _model = ""
 
     def read(self, message: Any, kind: str) -> Motion:  # noqa: ANN401 - as the base has it
         """Return the motions of a message, one after the other."""
-        motion = chain_of(message, kind)
-        self._model = str(message.model_id)
-        return motion
+        return chain_of(message, kind)
 
     def statuses(self) -> tuple[Status, ...]:
         """Return whose plan it is, too, if it is another robot's."""
         found = super().statuses()
-        if self._motion is None or self._model in ("", self._of.name) or not self._of.links:
+        model = "" if self._motion is None else self._motion.model
+        if model in ("", self._of.name) or not self._of.links:
             return found
-        plan, own = self._model[:60], self._of.name[:60]
+        plan, own = model[:60], self._of.name[:60]
         sentence = f'The plan is for "{plan}", and this robot is "{own}".'
         return (Status("warn", "other_robot", sentence), *found)
 

@@ -33,6 +33,7 @@ class Motion(NamedTuple):
         start: Positions of other joints, by name.
         frame: Frame that `roots` are in; empty: the root link stays where it is.
         roots: Shape (S, 7): pose of the root link, w, x, y, z and m.
+        model: Name of the robot that it was planned for; empty: it is not said.
     """
 
     names: tuple[str, ...]
@@ -41,6 +42,7 @@ class Motion(NamedTuple):
     start: Mapping[str, float]
     frame: str = ""
     roots: Floats | None = None
+    model: str = ""
 
     @property
     def size(self) -> int:
@@ -94,7 +96,8 @@ def chain_of(message: Any, kind: str) -> Motion:  # noqa: ANN401 - moveit_msgs/D
         columns = [column[name] for name in part.names]
         positions[begin : begin + part.size, columns] = part.positions
         begin += part.size
-    return _with_roots(Motion(names, times_s, positions, start), bases, kind)
+    motion = Motion(names, times_s, positions, start, model=str(message.model_id))
+    return _with_roots(motion, bases, kind)
 
 
 def _joined(parts_s: Sequence[Floats]) -> Floats:

@@ -89,7 +89,7 @@ class Runs:
 
 
 class _Alike(NamedTuple):
-    """What a marker without items is made of but numbers; places from its first byte on.
+    """What a marker without items and text is made of but numbers; places from its first byte on.
 
     The next ones most often are built alike, if they begin at the same alignment.
     """
@@ -142,7 +142,7 @@ class MarkerWalk:
         self._poses: list[int] = []
         self._points, self._colors, self._uvs = Runs(), Runs(), Runs()
         self._alike: dict[int, _Alike] = {}
-        """By alignment, the last marker without items."""
+        """By alignment, the last marker without items and text."""
 
     def run(self) -> MarkerLayout:
         """Walk from the first byte to the last.
@@ -201,7 +201,9 @@ class MarkerWalk:
         self._colors.read(reader, COLOR_BYTES, 4)
         texture = self._texture()
         self._texts.append(MarkerTexts(frame, namespace, *self._mesh(), *texture))
-        if not (self._points.counts[-1] or self._colors.counts[-1] or self._uvs.counts[-1]):
+        lists = (self._points, self._colors, self._uvs)
+        # Texts differ from marker to marker.
+        if not (self._texts[-1].text or any(runs.counts[-1] for runs in lists)):
             self._alike[begin % 8] = _Alike(
                 reader.raw[begin + _STAMP_BYTES : head_end],
                 self._ids[-1] - begin,
