@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-import numpy as np
-
 from studio.displays.display import Status, TopicRole, reading_fields
 from studio.displays.drawing import NOTHING, CameraView, Placed
 from studio.displays.image import IMAGE_TOPICS, SHADE_PROPERTIES, ImageDisplay
-from studio.displays.pinhole import distortion_px, pinhole_of
+from studio.displays.pinhole import calibration_of, distortion_px, pinhole_of
 from studio.displays.properties import Property, switch
 
 if TYPE_CHECKING:
@@ -55,7 +53,6 @@ class CameraDisplay(ImageDisplay):
         ),
         *SHADE_PROPERTIES,
     )  # fmt: skip
-    SETTINGS_MAX: ClassVar[int] = 1000
 
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         self._names: Mapping[str, str] = {}
@@ -108,7 +105,7 @@ class CameraDisplay(ImageDisplay):
 
     def _take_info(self, info: Any) -> None:  # noqa: ANN401 - a sensor_msgs/CameraInfo
         with reading_fields("sensor_msgs/msg/CameraInfo"):
-            same = self._info is not None and _numbers(info) == _numbers(self._info)
+            same = self._info is not None and calibration_of(info) == calibration_of(self._info)
         self._info = info
         if not same:
             self.redraw()
@@ -173,10 +170,3 @@ class CameraDisplay(ImageDisplay):
             return super()._property(name)
         default = self.values.get(_VISIBILITY, True)
         return Property(name, "switch", default=default, doc="Shows it over the picture.")
-
-
-def _numbers(info: Any) -> tuple[object, ...]:  # noqa: ANN401 - a sensor_msgs/CameraInfo
-    roi = info.roi
-    lens = tuple(np.asarray(one, np.float64).tobytes() for one in (info.d, info.k, info.p))
-    region = (roi.x_offset, roi.y_offset, roi.width, roi.height)
-    return (info.width, info.height, info.distortion_model, *region, *lens)

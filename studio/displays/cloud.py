@@ -11,6 +11,8 @@ import numpy as np
 from studio.displays.display import Status
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from studio.displays.drawing import Sweep
@@ -141,6 +143,11 @@ def nothing_of(count: int, shown: NDArray[np.float32]) -> Status | None:
         return Status("warn", "no_points", "The cloud has no points.")
     sentence = f"None of the {count:,} points has a place: all are NaN or infinite."
     return Status("warn", "not_finite", sentence)
+
+
+def rgb_of_shares(parts: Sequence[NDArray[np.float32]]) -> NDArray[np.uint8]:
+    """Return colours, shape (N, 3), of red, green and blue (N,) from 0 to 1; NaN is 0."""
+    return np.rint(np.nan_to_num(np.clip(np.stack(parts, axis=1), 0, 1)) * 255).astype(np.uint8)
 
 
 def listed(names: tuple[str, ...]) -> str:

@@ -12,10 +12,11 @@ import numpy as np
 from studio.displays.cloud import Cloud, evenly_among
 from studio.displays.cloud_display import CLOUD_PROPERTIES, CloudDisplay
 from studio.displays.display import Status, TopicRole, reading_fields, stamp_ns_of
-from studio.displays.image_encodings import read_compressed, read_image
+from studio.displays.image_encodings import COMPRESSED, IMAGE, read_pixels
 from studio.displays.occlusion import Occlusion
-from studio.displays.pinhole import pinhole_of
+from studio.displays.pinhole import calibration_of, pinhole_of
 from studio.displays.properties import Property, switch
+from studio.displays.turning import angle_between_rad
 from studio.errors import DisplayMessageError, StudioError
 
 if TYPE_CHECKING:
@@ -30,8 +31,6 @@ if TYPE_CHECKING:
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames import FramesNow
 
-_IMAGE: Final = "sensor_msgs/msg/Image"
-_COMPRESSED: Final = "sensor_msgs/msg/CompressedImage"
 _INFO_TYPE: Final = "sensor_msgs/msg/CameraInfo"
 _INFO, _COLOUR = "camera_info", "color"
 PIXELS_MAX: Final = 4_000_000
@@ -67,7 +66,7 @@ def _depth_properties() -> tuple[Property, ...]:
         Property(
             "Color Image Topic", "topic", "",
             "The picture whose colours the points have; empty: they have none.",
-            choices=(_IMAGE, _COMPRESSED),
+            choices=(IMAGE, COMPRESSED),
         ),
         Property(
             "Color Transport Hint", "choice", "raw", "How the picture comes packed.",
@@ -102,14 +101,14 @@ class DepthFields:
     def __init__(self, columns: NDArray[np.float32], rows: NDArray[np.float32]) -> None:
         """Make those of points at these pixels, as shares of the width and the height, (N,)."""
         self._columns, self._rows = columns, rows
-        self._own: NDArray[np.uint8] | None = None
         self.picture: NDArray[np.uint8] | None = None
         """Shape (H, W, 3), of any size; None before one came."""
 
     @property
     def size_bytes(self) -> int:
-        """Memory of it, without the picture."""
-        return self._columns.nbytes + self._rows.nbytes
+        """Memory of it, with the picture, which others may have, too."""
+        picture = 0 if self.picture is None else self.picture.nbytes
+        return self._columns.nbytes + self._rows.nbytes + picture
 
     def numbers(self, name: str, raw: NDArray[np.intp] | None) -> NDArray[np.float32] | None:
         """There are no others."""
@@ -144,9 +143,9 @@ class DepthCloudDisplay(CloudDisplay):
     DOC: ClassVar[str] = "A depth image as points in space, in the colours of a picture."
     ICON: ClassVar[str] = "cloud"
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
-        TopicRole("", (_IMAGE, _COMPRESSED), reliable=False),
+        TopicRole("", (IMAGE, COMPRESSED), reliable=False),
         TopicRole(_INFO, (_INFO_TYPE,), beside="/camera_info", reliable=False),
-        TopicRole(_COLOUR, (_IMAGE, _COMPRESSED), reliable=False, newest_only=False),
+        TopicRole(_COLOUR, (IMAGE, COMPRESSED), reliable=False, newest_only=False),
     )
     PROPERTIES: ClassVar[tuple[Property, ...]] = (*_depth_properties(), *CLOUD_PROPERTIES)
 
@@ -156,14 +155,13 @@ class DepthCloudDisplay(CloudDisplay):
 
     def _forget(self) -> None:
         self._info: Any = None
-        self._depth: Received | None = None
         self._stamp_ns, self._frame = 0, ""
         self._pictures: deque[tuple[int, str, Received]] = deque(maxlen=100)
         self._chosen: Received | None = None
         self._occlusion = Occlusion()
         self._at: NDArray[np.float64] | None = None
         self._pinhole: Pinhole | None = None
-        self._pinhole_missing = self._other_frame = False
+        self._other_frame = False
         self._colour_fault = ""
 
     def roles(self) -> tuple[TopicRole, ...]:
@@ -219,8 +217,7 @@ class DepthCloudDisplay(CloudDisplay):
         elif role == _COLOUR:
             self._take_picture(received)
         else:
-            self._depth = received
-            self._take_depth(received)
+            super().take(received)
 
     def read(self, received: Received, limits: Limits) -> Cloud:
         """Return the points of a depth image by the calibration, which is there.
@@ -231,8 +228,9 @@ class DepthCloudDisplay(CloudDisplay):
         message = self.decode(received)
         depth = depth_of(message, received.type_name)
         self._stamp_ns, self._frame = stamp_ns_of(message.header), str(message.header.frame_id)
+        self._choose()
         pinhole = pinhole_of(self._info, depth.size, "k") if self._info is not None else None
-        self._pinhole, self._pinhole_missing = pinhole, pinhole is None
+        self._pinhole = pinhole
         if pinhole is None:
             empty = np.empty((0, 3), np.float32)
             none = np.empty(0, np.float32)
@@ -280,7 +278,8 @@ class DepthCloudDisplay(CloudDisplay):
     def statuses(self) -> tuple[Status, ...]:
         """Return why there are no points, or none in colours."""
         found: list[Status] = []
-        if self._depth is not None and self._pinhole_missing:
+        is_there = self.newest_cloud is not None
+        if is_there and self._pinhole is None:
             came = "has no focal length" if self._info is not None else "has not come"
             sentence = f"The camera info {came}: without it nobody knows where a depth is."
             return (Status("error", "no_camera_info", sentence),)
@@ -289,24 +288,17 @@ class DepthCloudDisplay(CloudDisplay):
         elif self._other_frame:
             sentence = "The picture is of another frame than the depths: its colours may be beside."
             found.append(Status("warn", None, sentence))
-        elif self._depth is not None and self.values["Color Image Topic"] and not self._chosen:
+        elif is_there and self.values["Color Image Topic"] and not self._chosen:
             sentence = "No picture of the time of the depth image has come, so it has no colours."
             found.append(Status("warn", "no_picture", sentence))
         return (*super().statuses(), *found)
 
-    def _take_depth(self, received: Received) -> None:
-        with reading_fields(received.type_name):
-            message = self.decode(received)
-            self._stamp_ns = stamp_ns_of(message.header)
-        self._choose()
-        super().take(received)
-
     def _take_info(self, received: Received) -> None:
         info = self.decode(received)
         with reading_fields(received.type_name):
-            same = self._info is not None and _calibration(info) == _calibration(self._info)
+            same = self._info is not None and calibration_of(info) == calibration_of(self._info)
         self._info = info
-        if not same and self._depth is not None:
+        if not same:
             self.read_again()
 
     def _take_picture(self, received: Received) -> None:
@@ -355,12 +347,6 @@ def _role(
     return replace(role, depth=depth, elsewhere=where, transport=packed, chosen_reliable=reliable)
 
 
-def _calibration(info: Any) -> tuple[object, ...]:  # noqa: ANN401 - a sensor_msgs/CameraInfo
-    roi = info.roi
-    region = (roi.x_offset, roi.y_offset, roi.width, roi.height)
-    return (info.width, info.height, *region, bytes(info.k), bytes(info.p))
-
-
 def _shares(at: NDArray[np.intp], count: int, sent: int) -> NDArray[np.float32]:
     """Return columns of a thinned picture as shares of the whole one."""
     step = max(1, -(-sent // count))
@@ -374,12 +360,7 @@ def depth_of(message: Any, type_name: str) -> _Depth:  # noqa: ANN401 - Image or
         DisplayMessageError: Its pixels are no depths: 16 bits hold mm, 32 bits m.
     """
     with reading_fields(type_name):
-        if type_name == _COMPRESSED:
-            pixels = read_compressed(message, PIXELS_MAX)
-            size = (pixels.shape[1], pixels.shape[0])
-        else:
-            pixels = read_image(message, PIXELS_MAX)
-            size = int(message.width), int(message.height)
+        pixels, size = read_pixels(message, type_name, PIXELS_MAX)
     if pixels.ndim != 2 or (pixels.dtype.kind, pixels.dtype.itemsize) not in {
         ("u", 2), ("f", 4), ("f", 8), ("i", 4),
     }:  # fmt: skip
@@ -400,8 +381,7 @@ def picture_of(message: Any, type_name: str) -> NDArray[np.uint8] | None:  # noq
         DisplayMessageError: It cannot be read, or holds numbers without a colour.
     """
     with reading_fields(type_name):
-        read = read_compressed if type_name == _COMPRESSED else read_image
-        pixels = read(message, PIXELS_MAX)
+        pixels, _ = read_pixels(message, type_name, PIXELS_MAX)
     if not pixels.size:
         return None
     if pixels.ndim == 3:
@@ -416,8 +396,7 @@ def has_moved(before: NDArray[np.float64], now: NDArray[np.float64]) -> bool:
     """Whether a pose (7,) is farther away than noise: as RViz, by 1 cm or half a degree."""
     if math.dist(before[4:], now[4:]) > 0.01:
         return True
-    half = min(1.0, abs(float(before[:4] @ now[:4])))
-    return math.degrees(2.0 * math.acos(half)) > 0.5
+    return math.degrees(angle_between_rad(before[:4], now[:4])) > 0.5
 
 
 def _nothing(count: int, pixels: int) -> Status | None:

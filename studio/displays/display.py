@@ -239,7 +239,7 @@ class Display(ABC):
 
     def close(self) -> None:
         """Let go of what it holds: it is taken away, and is asked for nothing more."""
-        self.limits = Limits()
+        self._codecs.clear()
 
     def picked(self, picked: Picked) -> Sequence[str]:
         """Return the keys of the items that were pointed at in the last drawing, each once.
@@ -317,7 +317,7 @@ def frame_and_stamp(header: Any) -> tuple[str, int]:  # noqa: ANN401 - a message
 def stamp_ns_of(header: object) -> int:
     """Return the stamp of a std_msgs/Header, ns since the epoch."""
     stamp = getattr(header, "stamp")  # noqa: B009 - a std_msgs/Header of any distribution
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+    return int(stamp.sec) * NANOSECONDS + int(stamp.nanosec)
 
 
 @contextmanager

@@ -35,6 +35,8 @@ BODIES_MAX: Final = 20_000
 Items: TypeAlias = "NDArray[np.intp]"
 PointStyle: TypeAlias = Literal["points", "squares", "flat squares", "spheres", "boxes", "tiles"]
 """RViz's names."""
+SolidKind: TypeAlias = Literal["box", "sphere", "cylinder", "cone"]
+GridPlane: TypeAlias = Literal["xy", "xz", "yz"]
 Drawing: TypeAlias = "Mapping[str, Placed]"
 """By path: names with slashes between, unique within the display."""
 NOTHING: Drawing = {}
@@ -179,7 +181,7 @@ class Solids:
         items: Shape (N,), as those of `Points`.
     """
 
-    kind: Literal["box", "sphere", "cylinder", "cone"]
+    kind: SolidKind
     positions: NDArray[np.float32]
     wxyz: NDArray[np.float32]
     scales: NDArray[np.float32]
@@ -308,7 +310,7 @@ class CameraView:
 class GridLines:
     """A grid of lines centred on the origin; `plane` names the two axes that it spans."""
 
-    plane: Literal["xy", "xz", "yz"]
+    plane: GridPlane
     cells: int
     cell_m: float
     width_m: float = 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, ClassVar, Final
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from studio.displays.properties import FIXED_FRAME, Property, rgb_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studio.displays.drawing import Drawing, Shape, Xyz
+    from studio.displays.drawing import Drawing, GridPlane, Shape, Xyz
     from studio.displays.properties import Value
     from studio.displays.selection import Picked
 
@@ -21,7 +21,7 @@ _CELLS_MAX: Final = 1000
 _LAYERS_MAX: Final = 100
 _UPRIGHTS_MAX: Final = 50_000
 _OFFSET_MAX_M: Final = 1e6
-_AXES: Final[dict[str, tuple[Literal["xy", "xz", "yz"], tuple[int, int, int]]]] = {
+_AXES: Final[dict[str, tuple[GridPlane, tuple[int, int, int]]]] = {
     "XY": ("xy", (0, 1, 2)),
     "XZ": ("xz", (0, 2, 1)),
     "YZ": ("yz", (1, 2, 0)),

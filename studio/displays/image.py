@@ -9,9 +9,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 
-from studio.displays.display import Status, StillDisplay, TopicRole, reading_fields, stamp_ns_of
+from studio.displays.display import (
+    Status,
+    StillDisplay,
+    TopicRole,
+    frame_and_stamp,
+    reading_fields,
+)
 from studio.displays.drawing import NOTHING, Frustum, Placed
-from studio.displays.image_encodings import read_compressed, read_image
+from studio.displays.image_encodings import COMPRESSED, IMAGE, read_pixels
 from studio.displays.properties import Property, rgb_of
 from studio.displays.selection import NEWEST, Fact, Item, box_of, number_fact
 
@@ -28,7 +34,6 @@ if TYPE_CHECKING:
 
 _INFO: Final = "camera_info"
 _PATH: Final = "camera"
-_COMPRESSED: Final = "sensor_msgs/msg/CompressedImage"
 _OF_SHADES: Final = ("Normalize Range", "Min Value", "Max Value", "Median window")
 _WINDOW_MAX: Final = 100
 # Of usual cameras, until the camera info comes.
@@ -45,7 +50,7 @@ class _View(NamedTuple):
 
 
 IMAGE_TOPICS: Final = (
-    TopicRole("", ("sensor_msgs/msg/Image", _COMPRESSED), reliable=False),
+    TopicRole("", (IMAGE, COMPRESSED), reliable=False),
     TopicRole(_INFO, ("sensor_msgs/msg/CameraInfo",), beside="/camera_info", reliable=False),
 )
 SHADE_PROPERTIES: Final = (
@@ -89,10 +94,9 @@ class ImageDisplay(StillDisplay):
         """The picture as it was read; None before one came."""
         self._shaded: NDArray[np.uint8] | None = None
         self.size: tuple[int, int] | None = None
-        """Width and height of the picture as it was sent."""
+        """Width and height of the picture as it was sent; of a compressed one as it was read."""
         self.frame, self.stamp_ns = "", 0
-        self._size: tuple[int, int] | None = None
-        self._encoding = ""
+        self._encoding, self._is_packed = "", False
         self._view: _View | None = None
         self._has_info = False
         self._ranges: deque[tuple[float, float]] = deque(maxlen=_WINDOW_MAX)
@@ -133,21 +137,17 @@ class ImageDisplay(StillDisplay):
         if key != NEWEST or self.pixels is None:
             return ()
         found = [Fact("encoding", self._encoding[:300])]
-        if self._size is not None:
-            found += [Fact("width", self._size[1]), Fact("height", self._size[0])]
+        if self.size is not None and not self._is_packed:
+            found += [Fact("width", self.size[0]), Fact("height", self.size[1])]
         if self._view is not None:
             found.append(number_fact("field_of_view", self._view.fov_y_rad, "rad"))
         return tuple(found)
 
     def _take_picture(self, type_name: str, message: Any) -> None:  # noqa: ANN401
-        read = read_compressed if type_name == _COMPRESSED else read_image
-        pixels, stamp_ns = read(message, self.limits.pixels), stamp_ns_of(message.header)
-        self.pixels, self.frame, self.stamp_ns = pixels, message.header.frame_id, stamp_ns
-        rows, columns = pixels.shape[:2]
-        # Of a compressed picture fewer pixels may have been read than it has.
-        is_packed = type_name == _COMPRESSED
-        self.size = (columns, rows) if is_packed else (int(message.width), int(message.height))
-        self._size = None if is_packed else (int(message.height), int(message.width))
+        pixels, size = read_pixels(message, type_name, self.limits.pixels)
+        self.frame, self.stamp_ns = frame_and_stamp(message.header)
+        self.pixels, self.size = pixels, size
+        is_packed = self._is_packed = type_name == COMPRESSED
         self._encoding = str(message.format if is_packed else message.encoding)
         self._shaded = None
         if _is_numbers(pixels):

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 Reader: TypeAlias = "Callable[[Raw], NDArray[Any]]"
 
+IMAGE: Final = "sensor_msgs/msg/Image"
+COMPRESSED: Final = "sensor_msgs/msg/CompressedImage"
 _SIDE_MAX: Final = 65_536
 # Full range BT.601, as cameras send it over USB: red and blue from the two differences.
 _RED_OF_V, _GREEN_OF_U, _GREEN_OF_V, _BLUE_OF_U = 1.402, -0.344136, -0.714136, 1.772
@@ -76,6 +78,21 @@ class Raw:
 def step_for(count: int, limit: int) -> int:
     """Return every how many-th row and column is taken, so that the limit holds."""
     return max(1, int(np.ceil(np.sqrt(count / max(limit, 1)))))
+
+
+def read_pixels(
+    message: Any,  # noqa: ANN401 - of the type that is named
+    type_name: str,
+    pixels_max: int,
+) -> tuple[NDArray[Any], tuple[int, int]]:
+    """Return the pixels of an image of either type, as below, and its width and height.
+
+    Those are as it was sent; of a compressed one, which may be thinned, as it was read.
+    """
+    if type_name == COMPRESSED:
+        pixels = read_compressed(message, pixels_max)
+        return pixels, (pixels.shape[1], pixels.shape[0])
+    return read_image(message, pixels_max), (int(message.width), int(message.height))
 
 
 def read_image(message: Any, pixels_max: int) -> NDArray[Any]:  # noqa: ANN401 - sensor_msgs/Image

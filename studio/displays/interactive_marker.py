@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
+from studio.displays.display import stamp_ns_of
 from studio.displays.drawing import NO_TURN, ORIGIN
 from studio.displays.markers.batches import shapes_of
 from studio.displays.markers.kinds import NOT_DRAWN, SENTENCES, Problem
 from studio.displays.markers.store import MarkerStore
-from studio.displays.turning import FAR
+from studio.displays.selection import wxyz_of
+from studio.displays.turning import FAR, unit_quaternions
 from studio.errors import DisplayMessageError, FrameError
 from studio.ros.cdr import codec_of
 from studio.ros.columns.markers import MarkerCodec
@@ -34,7 +36,6 @@ ENTRIES_MAX: Final = 500
 _MARKER_ARRAY: Final = "visualization_msgs/msg/MarkerArray"
 _OWN: Final = "-"
 """Stands for the axes of the control in the header of its markers."""
-_SHORTEST: Final = 1e-12
 
 SeenFrom: TypeAlias = "Callable[[str, str, int], Pose]"
 """Returns the pose of the second frame in the first one at a stamp, ns; raises a FrameError."""
@@ -138,7 +139,7 @@ def read_marker(message: MessageValue, types: TypeLibrary, seen_from: SeenFrom) 
         name=name,
         description=message.description[:TEXT_MAX],
         frame=message.header.frame_id.removeprefix("/"),
-        stamp_ns=message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec,
+        stamp_ns=stamp_ns_of(message.header),
         pose=pose,
         scale=float(message.scale),
         controls=read,
@@ -166,14 +167,9 @@ def unit_turn(
     wxyz: tuple[float, float, float, float],
 ) -> tuple[float, float, float, float] | None:
     """Return a quaternion at length 1, no turn for one of zeros; None: it is not finite."""
-    largest = max(map(abs, wxyz))
-    if not largest <= FAR or any(one != one for one in wxyz):  # noqa: PLR0124 - NaN
+    if not all(abs(one) <= FAR for one in wxyz):
         return None
-    if largest < _SHORTEST:
-        return NO_TURN
-    length = sum((one / largest) ** 2 for one in wxyz) ** 0.5 * largest
-    w, x, y, z = wxyz
-    return w / length, x / length, y / length, z / length
+    return wxyz_of(unit_quaternions(np.array([wxyz]))[0][0])
 
 
 def shown_name(name: str) -> str:
@@ -262,7 +258,7 @@ class _Reading:
         if not frame:
             return True
         own = self._message.header.frame_id.removeprefix("/")
-        stamp_ns = header.stamp.sec * 1_000_000_000 + header.stamp.nanosec
+        stamp_ns = stamp_ns_of(header)
         try:
             reference_from_frame = (
                 (NO_TURN, ORIGIN) if frame == own else self._seen_from(own, frame, stamp_ns)

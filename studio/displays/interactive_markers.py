@@ -206,7 +206,7 @@ class InteractiveMarkersDisplay(Display):
             return True
         model = shown.model
         if frame is not None and (frame, stamp_ns) != (model.frame, model.stamp_ns):
-            model = _in_frame(model, frame, stamp_ns)
+            model = replace(model, frame=frame, stamp_ns=stamp_ns)
             self.version += 1
         self._set(shown, model.at(pose))
         return True
@@ -374,7 +374,3 @@ def _offset(shown: ShownMarker, control: ControlModel, number: int) -> Pose:
     axis = (1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y))
     sine = float(np.sin(angle))
     return (float(np.cos(angle)), sine * axis[0], sine * axis[1], sine * axis[2]), place
-
-
-def _in_frame(model: MarkerModel, frame: str, stamp_ns: int) -> MarkerModel:
-    return replace(model, frame=frame, stamp_ns=stamp_ns)

@@ -77,6 +77,14 @@ def _region(info: Any, size: tuple[int, int]) -> tuple[int, int, int, int]:  # n
     return 0, 0, int(info.width) or max(size[0], 1), int(info.height) or max(size[1], 1)
 
 
+def calibration_of(info: Any) -> tuple[object, ...]:  # noqa: ANN401 - a sensor_msgs/CameraInfo
+    """Return all that says what a camera sees: two of one calibration are equal."""
+    roi = info.roi
+    lens = tuple(np.asarray(one, np.float64).tobytes() for one in (info.d, info.k, info.p))
+    region = (roi.x_offset, roi.y_offset, roi.width, roi.height)
+    return (info.width, info.height, info.distortion_model, *region, *lens)
+
+
 def distortion_px(info: Any, size: tuple[int, int]) -> float | None:  # noqa: ANN401
     """Return how far the lens moves a pixel of the picture's edge from where a pinhole has it.
 

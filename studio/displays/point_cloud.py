@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 import numpy as np
 
-from studio.displays.cloud import Cloud, kept, nothing_of
+from studio.displays.cloud import Cloud, kept, nothing_of, rgb_of_shares
 from studio.displays.cloud_display import CloudDisplay
 from studio.displays.display import TopicRole
 from studio.ros.columns.clouds import POINT_CLOUD, read_point_cloud
@@ -62,10 +62,7 @@ class ChannelFields:
         """Colours of channels r, g and b between 0 and 1, shape (N, 3); None without them."""
         parts = [self.numbers(one, raw) for one in _PARTS]
         there = [one for one in parts if one is not None]
-        if len(there) < len(_PARTS):
-            return None
-        whole = np.nan_to_num(np.clip(np.stack(there, axis=1), 0, 1))
-        return np.rint(whole * 255).astype(np.uint8)
+        return rgb_of_shares(there) if len(there) == len(_PARTS) else None
 
 
 class PointCloudDisplay(CloudDisplay):

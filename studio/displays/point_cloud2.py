@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
 
-from studio.displays.cloud import Cloud, kept, listed, nothing_of
+from studio.displays.cloud import Cloud, kept, listed, nothing_of, rgb_of_shares
 from studio.displays.cloud_display import CloudDisplay
 from studio.displays.display import TopicRole, stamp_ns_of
 from studio.displays.selection import FACTS_MAX, Fact, number_fact, numbers_fact
@@ -111,8 +111,7 @@ class CloudFields:
         if not self._are_parts(7):
             return None
         parts = [self.numbers(one, raw) for one in _PARTS]
-        whole = np.nan_to_num(np.clip(np.stack([p for p in parts if p is not None], axis=1), 0, 1))
-        return np.rint(whole * 255).astype(np.uint8)
+        return rgb_of_shares([one for one in parts if one is not None])
 
     def facts(self, index: int) -> tuple[Fact, ...]:
         """Return the fields of one point as they were sent, but for its place."""

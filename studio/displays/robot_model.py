@@ -155,9 +155,9 @@ class RobotModelDisplay(StillDisplay):
     def see(self, frames: FramesNow) -> None:
         """Go on with the trails."""
         self._fixed = frames.fixed
-        places = {self.frame_of(link): link for link in self._trailing}
-        self._trails.keep(places, frames.fixed)
-        for frame in places:
+        trailing = [self.frame_of(link) for link in self._trailing]
+        self._trails.keep(trailing, frames.fixed)
+        for frame in trailing:
             pose = frames.pose_of(frame)
             if pose is not None:
                 self._trails.add(frame, pose[4:], 0)

@@ -316,7 +316,8 @@ def _of_solids(shape: Solids) -> NDArray[np.float64]:
 def _of_picture(shape: Picture | Frustum) -> NDArray[np.float64]:
     if isinstance(shape, Picture):
         wide, high = shape.size_m
-        return np.array([shape.position, np.add(shape.position, (wide, high, 0.0))])
+        corners = np.array([(x, y, 0.0) for x in (0.0, wide) for y in (0.0, high)])
+        return turned(np.tile(shape.wxyz, (4, 1)), corners) + shape.position
     half_m = shape.far_m * math.tan(shape.fov_y_rad / 2)
     wide = half_m * shape.aspect
     far = [(x * wide, y * half_m, shape.far_m) for x in (-1, 1) for y in (-1, 1)]

@@ -231,7 +231,6 @@ class TfDisplay(Display):
     DOC = "Shows all frames with their names, and arrows to their parents."
     ICON = "frames"
     OF_TYPES: ClassVar[tuple[str, ...]] = ("tf2_msgs/msg/TFMessage",)
-    """Messages that this display shows, although it subscribes to none."""
     PROPERTIES: ClassVar[tuple[Property, ...]] = (
         Property("Show Names", "switch", default=True, doc="Writes the name of each frame."),
         Property("Show Axes", "switch", default=True, doc="Shows the axes of each frame."),
@@ -285,10 +284,14 @@ class TfDisplay(Display):
     )
     SETTINGS_MAX = 25_000
 
+    # Its properties ask for these while an instance is made.
+    _frames: FramesNow | None = None
+    _ages: tuple[int, ...] = ()
+    """Of each frame in whole seconds, while they are shown."""
+
     def __init__(self, types: TypeLibrary, values: Mapping[str, Value] | None = None) -> None:
         super().__init__(types, values)
         self._choice = FrameChoice(self.values)
-        self._frames: FramesNow | None = None
         self._seen: _Seen | None = None
         self._drawing: Drawing = NOTHING
         self._drawn_ns = 0
@@ -296,8 +299,7 @@ class TfDisplay(Display):
         self._names: dict[str, Placed] = {}
         self._checks: tuple[object, tuple[Property, ...]] = ((), ())
         self._trails = Trails(width_m=0.005)
-        self._ages: tuple[int, ...] = ()
-        """Of each frame in whole seconds, while they are shown."""
+        self._trailed: tuple[tuple[str, ...], list[int]] | None = None
 
     @property
     def wants_frames(self) -> bool:
@@ -324,6 +326,7 @@ class TfDisplay(Display):
             for each in [one for one in self.values if one.startswith(f"{name}/")]:
                 del self.values[each]
         self._choice.changed()
+        self._trailed = None
         self._names = {}
         self._seen = None
 
@@ -467,19 +470,25 @@ class TfDisplay(Display):
     def _go_on(self, frames: FramesNow, now_ns: int) -> None:
         """Take where the frames are for their trails, and how old they are."""
         shown = self._choice.of(frames.names) & frames.connected
-        rows = [row for row in _rows(shown) if self._is_trailed(frames.names[row])][:TRAILS_MAX]
+        rows = [row for row in self._trailed_rows(frames.names) if shown[row]][:TRAILS_MAX]
         self._trails.keep([frames.names[row] for row in rows], frames.fixed)
         for row in rows:
             place: list[float] = frames.wxyz_xyz[row, 4:].tolist()
             self._trails.add(frames.names[row], place, now_ns)
         self._trails.forget_before(now_ns - round(float(self.values["Trail Time"]) * 1e9))
-        ages = tuple(np.nan_to_num(frames.ages_s, posinf=0.0).astype(int).tolist())
-        wanted = ages if self.values[SHOW_AGES] else ()
-        if wanted != self._ages:
-            self._ages, self._seen = wanted, None
+        ages: tuple[int, ...] = ()
+        if self.values[SHOW_AGES]:
+            ages = tuple(np.nan_to_num(frames.ages_s, posinf=0.0).astype(int).tolist())
+        if ages != self._ages:
+            self._ages, self._seen = ages, None
 
-    def _is_trailed(self, name: str) -> bool:
-        return bool(self.values.get(f"{TRAILS}/{name}", self.values[TRAILS]))
+    def _trailed_rows(self, names: tuple[str, ...]) -> list[int]:
+        """Return the rows of frames whose trails are wanted; names are gone through once."""
+        if self._trailed is None or self._trailed[0] is not names:
+            every, values = self.values[TRAILS], self.values
+            rows = [row for row, name in enumerate(names) if values.get(f"{TRAILS}/{name}", every)]
+            self._trailed = names, rows
+        return self._trailed[1]
 
     def _axes(self, seen: _Seen) -> dict[str, Shape]:
         poses, fresh = seen.frames.wxyz_xyz, seen.shown & seen.shades.fresh
@@ -540,7 +549,7 @@ class TfDisplay(Display):
         return Property(name, "switch", default=default, doc=self._doc_of(name))
 
     def _doc_of(self, name: str) -> str:
-        frames = getattr(self, "_frames", None)
+        frames = self._frames
         row = frames.rows.get(name.removeprefix(f"{FRAMES}/")) if frames is not None else None
         if row is None or row >= len(self._ages):
             return "Shows this frame."

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import deque
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
@@ -24,13 +23,24 @@ _STEP_M: Final = 0.005
 """A frame that moved less is where it was."""
 
 
+class _Trail(NamedTuple):
+    """Where a frame was, shape (N, 3), m, and when, shape (N,), ns since the epoch."""
+
+    places: NDArray[np.float64]
+    times_ns: NDArray[np.int64]
+
+    def since(self, row: int) -> _Trail:
+        """Return it from a row on."""
+        return _Trail(self.places[row:], self.times_ns[row:])
+
+
 class Trails:
     """Where some frames were; each keeps what is no longer or older than is given."""
 
     def __init__(self, *, length_m: float = math.inf, width_m: float = 0.01) -> None:
         self._length_m, self._width_m = length_m, width_m
-        self._points: dict[str, deque[tuple[int, float, float, float]]] = {}
-        """By frame: when it was where, ns since the epoch and m."""
+        self._trails: dict[str, _Trail] = {}
+        """By frame."""
         self._fixed = ""
         self._lines: Lines | None = None
         self._changed = True
@@ -38,51 +48,58 @@ class Trails:
     def keep(self, frames: Collection[str], fixed: str) -> None:
         """Forget all other frames, and all if they are seen from another one now."""
         if fixed != self._fixed:
-            self._fixed, self._points, self._changed = fixed, {}, True
-        for gone in self._points.keys() - frozenset(frames):
-            del self._points[gone]
+            self._fixed, self._trails, self._changed = fixed, {}, True
+        for gone in self._trails.keys() - frozenset(frames):
+            del self._trails[gone]
             self._changed = True
 
     def add(self, frame: str, xyz: Iterable[float], now_ns: int) -> None:
         """Take where a frame is; it goes on its trail if it moved."""
-        x, y, z = xyz
-        points = self._points.get(frame)
-        if points is None:
-            if len(self._points) >= TRAILS_MAX:
-                return
-            points = self._points[frame] = deque(maxlen=POINTS_MAX)
-        if not points or math.dist(points[-1][1:], (x, y, z)) >= _STEP_M:
-            points.append((now_ns, x, y, z))
+        place, time_ns = np.array([[*xyz]], np.float64), np.array([now_ns], np.int64)
+        trail = self._trails.get(frame)
+        if trail is None:
+            if len(self._trails) < TRAILS_MAX:
+                self._trails[frame] = _Trail(place, time_ns)
+                self._changed = True
+        elif math.dist(trail.places[-1], place[0]) >= _STEP_M:
+            before = trail.since(max(0, len(trail.places) + 1 - POINTS_MAX))
+            longer = _Trail(
+                np.concatenate((before.places, place)), np.concatenate((before.times_ns, time_ns))
+            )
+            self._trails[frame] = self._shortened(longer)
             self._changed = True
-            self._shorten(points)
 
     def forget_before(self, ns: int) -> None:
         """Drop what is older, but for the place that a frame still has."""
-        for points in self._points.values():
-            while len(points) > 1 and points[0][0] < ns:
-                points.popleft()
+        for frame, trail in self._trails.items():
+            if trail.times_ns[0] < ns and len(trail.places) > 1:
+                old = int(np.searchsorted(trail.times_ns, ns))
+                self._trails[frame] = trail.since(min(old, len(trail.places) - 1))
                 self._changed = True
 
     def lines(self, rgb: Rgb) -> Lines | None:
         """Return all trails, the same object as long as nothing moved; None: there is none."""
         if self._changed:
             self._changed = False
-            ends = [_ends(points) for points in self._points.values() if len(points) > 1]
+            ends = _ends([one.places for one in self._trails.values()])
             colour = np.array(rgb, np.uint8)
-            made = Lines(np.concatenate(ends), colour, self._width_m) if ends else None
-            self._lines = made
+            self._lines = Lines(ends, colour, self._width_m) if len(ends) else None
         return self._lines
 
-    def _shorten(self, points: deque[tuple[int, float, float, float]]) -> None:
+    def _shortened(self, trail: _Trail) -> _Trail:
         if self._length_m == math.inf:
-            return
-        rows = np.array(points)[:, 1:]
-        steps = np.linalg.norm(np.diff(rows, axis=0), axis=1)[::-1]
-        kept = 1 + int(np.count_nonzero(np.cumsum(steps) <= self._length_m))
-        while len(points) > max(kept, 2):
-            points.popleft()
+            return trail
+        steps_m = np.linalg.norm(np.diff(trail.places, axis=0), axis=1)[::-1]
+        kept = 1 + int(np.count_nonzero(np.cumsum(steps_m) <= self._length_m))
+        return trail.since(max(0, len(trail.places) - max(kept, 2)))
 
 
-def _ends(points: deque[tuple[int, float, float, float]]) -> NDArray[np.float32]:
-    rows = np.array(points)[:, 1:].astype(np.float32)
-    return np.stack((rows[:-1], rows[1:]), axis=1)
+def _ends(trails: list[NDArray[np.float64]]) -> NDArray[np.float32]:
+    """Return the pieces of trails (N, 3), one after the other, shape (P, 2, 3)."""
+    ends = np.empty((sum(len(one) - 1 for one in trails), 2, 3), np.float32)
+    begin = 0
+    for places in trails:
+        pieces = ends[begin : begin + len(places) - 1]
+        pieces[:, 0], pieces[:, 1] = places[:-1], places[1:]
+        begin += len(pieces)
+    return ends

@@ -103,9 +103,12 @@ class TrajectoryDisplay(Display):
         self._states: States | None = None
         self._began_ns: int | None = None
         self._place = 0.0
-        self._trail: dict[str, Placed] = {}
+        self._trail: dict[int, dict[str, Placed]] = {}
+        """By state, the robot there."""
+        self._passed: tuple[int, dict[str, Placed]] = (0, {})
+        """How many robots of the trail were passed, and all of their links."""
         self._drawing: Drawing = NOTHING
-        self._drawn_at: tuple[float, int] | None = None
+        self._drawn_at: float | None = None
         self._left_out = 0
 
     @abstractmethod
@@ -158,11 +161,10 @@ class TrajectoryDisplay(Display):
         if motion is None or states is None or not motion.size or not self._of.links:
             return NOTHING
         state = self._state()
-        passed = int(state)
-        if self._drawn_at != (state, passed):
-            self._drawn_at = (state, passed)
+        if self._drawn_at != state:
+            self._drawn_at = state
             ghost = self._ghost("ghost", states.poses_at(state), state)
-            self._drawing = {**self._passed(passed), **ghost}
+            self._drawing = {**self._trail_until(state), **ghost}
         return self._drawing
 
     def statuses(self) -> tuple[Status, ...]:
@@ -288,7 +290,7 @@ class TrajectoryDisplay(Display):
 
     def _lay_trail(self) -> None:
         """Place the robots of a trail; those that were passed are drawn."""
-        self._trail, self._left_out = {}, 0
+        self._trail, self._passed, self._left_out = {}, (0, {}), 0
         motion, states = self._motion, self._states
         if motion is None or states is None or not self.values["Show Trail"] or not motion.size:
             return
@@ -302,14 +304,15 @@ class TrajectoryDisplay(Display):
             kept: list[int] = np.linspace(0, len(rows) - 1, most).round().astype(int).tolist()
             rows = [rows[at] for at in kept]
         for row, poses in zip(rows, states.poses_of(rows), strict=True):
-            self._trail |= self._ghost(str(row), poses, row)
+            self._trail[row] = self._ghost(str(row), poses, row)
 
-    def _passed(self, state: int) -> dict[str, Placed]:
-        return {
-            path: placed
-            for path, placed in self._trail.items()
-            if int(path.partition("/")[0]) <= state
-        }
+    def _trail_until(self, state: float) -> dict[str, Placed]:
+        """Return the robots of the trail that were passed; the same object until it is one more."""
+        rows = [row for row in self._trail if row <= state]
+        if self._passed[0] != len(rows):
+            links = {path: one for row in rows for path, one in self._trail[row].items()}
+            self._passed = len(rows), links
+        return self._passed[1]
 
     def _empty(self) -> Status | None:
         if self._motion is None or self._motion.size:
@@ -370,20 +373,18 @@ class DisplayTrajectoryDisplay(TrajectoryDisplay):
     TOPICS: ClassVar[tuple[TopicRole, ...]] = (
         TopicRole("", ("moveit_msgs/msg/DisplayTrajectory",)),
     )
-    _model = ""
 
     def read(self, message: Any, kind: str) -> Motion:  # noqa: ANN401 - as the base has it
         """Return the motions of a message, one after the other."""
-        motion = chain_of(message, kind)
-        self._model = str(message.model_id)
-        return motion
+        return chain_of(message, kind)
 
     def statuses(self) -> tuple[Status, ...]:
         """Return whose plan it is, too, if it is another robot's."""
         found = super().statuses()
-        if self._motion is None or self._model in ("", self._of.name) or not self._of.links:
+        model = "" if self._motion is None else self._motion.model
+        if model in ("", self._of.name) or not self._of.links:
             return found
-        plan, own = self._model[:60], self._of.name[:60]
+        plan, own = model[:60], self._of.name[:60]
         sentence = f'The plan is for "{plan}", and this robot is "{own}".'
         return (Status("warn", "other_robot", sentence), *found)
 

@@ -10,7 +10,7 @@ from studio.errors import DisplayMessageError
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 STATES_MAX: Final = 10_000
 """Of a longer trajectory as many states are kept, spread evenly."""
+_POSITIONS_MAX: Final = 10_000_000
+"""Of all joints in all states of a plan: a joint that one part names has a row in each."""
 
 
 class Motion(NamedTuple):
@@ -31,6 +33,7 @@ class Motion(NamedTuple):
         start: Positions of other joints, by name.
         frame: Frame that `roots` are in; empty: the root link stays where it is.
         roots: Shape (S, 7): pose of the root link, w, x, y, z and m.
+        model: Name of the robot that it was planned for; empty: it is not said.
     """
 
     names: tuple[str, ...]
@@ -39,6 +42,7 @@ class Motion(NamedTuple):
     start: Mapping[str, float]
     frame: str = ""
     roots: Floats | None = None
+    model: str = ""
 
     @property
     def size(self) -> int:
@@ -81,18 +85,29 @@ def chain_of(message: Any, kind: str) -> Motion:  # noqa: ANN401 - moveit_msgs/D
     parts = [motion_of(one.joint_trajectory, kind) for one in message.trajectory]
     bases = [one.multi_dof_joint_trajectory for one in message.trajectory]
     names = tuple(dict.fromkeys(name for one in parts for name in one.names))
-    times: list[Floats] = []
-    rows: list[Floats] = []
+    times_s = _joined([part.times_s for part in parts])
+    if len(times_s) * len(names) > _POSITIONS_MAX:
+        reason = f"{len(times_s):,} states of {len(names):,} joints are more than can be shown"
+        raise DisplayMessageError(kind, reason)
+    column = {name: at for at, name in enumerate(names)}
+    positions = np.full((len(times_s), len(names)), np.nan)
+    begin = 0
     for part in parts:
-        columns = [names.index(name) for name in part.names]
-        spread = np.full((part.size, len(names)), np.nan)
-        spread[:, columns] = part.positions
-        begin_s = float(times[-1][-1]) if times and len(times[-1]) else 0.0
-        times.append(part.times_s + begin_s)
-        rows.append(spread)
-    positions = np.concatenate(rows) if rows else np.empty((0, len(names)))
-    made = Motion(names, np.concatenate(times) if times else np.empty(0), positions, start)
-    return _with_roots(made, bases, kind)
+        columns = [column[name] for name in part.names]
+        positions[begin : begin + part.size, columns] = part.positions
+        begin += part.size
+    motion = Motion(names, times_s, positions, start, model=str(message.model_id))
+    return _with_roots(motion, bases, kind)
+
+
+def _joined(parts_s: Sequence[Floats]) -> Floats:
+    """Return the times of parts that follow each other: each begins when the one before ends."""
+    joined, end_s = [np.empty(0)], 0.0
+    for times_s in parts_s:
+        if len(times_s):
+            joined.append(times_s + end_s)
+            end_s = float(joined[-1][-1])
+    return np.concatenate(joined)
 
 
 def _with_roots(motion: Motion, bases: Sequence[Any], kind: str) -> Motion:
@@ -101,7 +116,8 @@ def _with_roots(motion: Motion, bases: Sequence[Any], kind: str) -> Motion:
     if not moving:
         return motion
     frame = str(moving[0].header.frame_id)
-    roots = np.array([row for one in moving for row in _roots(one)]).reshape(-1, 7)
+    placed = [[each for each in one.points if each.transforms] for one in moving]
+    roots = np.array([_root(each) for one in placed for each in one]).reshape(-1, 7)
     if not np.isfinite(roots).all():
         raise DisplayMessageError(kind, "a pose of the robot is NaN or infinite")
     lengths = np.linalg.norm(roots[:, :4], axis=1, keepdims=True)
@@ -112,18 +128,17 @@ def _with_roots(motion: Motion, bases: Sequence[Any], kind: str) -> Motion:
         return motion._replace(frame=frame, roots=roots)
     if motion.size:
         return motion
-    times_s = np.concatenate([_times_s(one.points) for one in moving])
-    nothing = np.empty((len(roots), len(motion.names)))
     return motion._replace(
-        times_s=np.maximum.accumulate(times_s), positions=nothing, frame=frame, roots=roots
+        times_s=_joined([_times_s(one) for one in placed]),
+        positions=np.full((len(roots), len(motion.names)), np.nan),
+        frame=frame,
+        roots=roots,
     )
 
 
-def _roots(base: Any) -> Iterable[tuple[float, ...]]:  # noqa: ANN401
-    for each in base.points:
-        if each.transforms:
-            move, turn = each.transforms[0].translation, each.transforms[0].rotation
-            yield turn.w, turn.x, turn.y, turn.z, move.x, move.y, move.z
+def _root(point: Any) -> tuple[float, ...]:  # noqa: ANN401
+    move, turn = point.transforms[0].translation, point.transforms[0].rotation
+    return turn.w, turn.x, turn.y, turn.z, move.x, move.y, move.z
 
 
 def _times_s(points: Sequence[Any]) -> Floats:

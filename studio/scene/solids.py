@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from viser import _messages
@@ -17,9 +17,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.displays.drawing import Arrows
+    from studio.displays.drawing import Arrows, SolidKind
 
-Kind: TypeAlias = Literal["box", "sphere", "cylinder", "cone"]
 _SEGMENTS: Final = 24
 """Of a circle."""
 _LEVELS: Final = 32
@@ -41,7 +40,7 @@ class UnitMesh:
 
 
 @cache
-def unit_mesh(kind: Kind) -> UnitMesh:
+def unit_mesh(kind: SolidKind) -> UnitMesh:
     """Return a box, ball or cylinder around the origin, or a cone from there to z = 1.
 
     All reach 0.5 m from the z axis.
@@ -117,7 +116,7 @@ def _cone() -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     )
 
 
-_MAKERS: Final[dict[Kind, Callable[[], tuple[NDArray[np.float64], NDArray[np.intp]]]]] = {
+_MAKERS: Final[dict[SolidKind, Callable[[], tuple[NDArray[np.float64], NDArray[np.intp]]]]] = {
     "box": _box,
     "sphere": _sphere,
     "cylinder": _cylinder,

@@ -162,6 +162,14 @@ def test_a_picture_of_another_frame_is_drawn_and_said():
     assert [one.level for one in display.statuses()] == ["warn"]
 
 
+def test_that_a_picture_is_of_another_frame_is_said_of_the_first_depth_image_too():
+    display = DepthCloudDisplay(TYPES, COLOURED)
+    display.take(info(1, 1), "camera_info")
+    display.take(picture([[[1, 2, 3]]], frame="elsewhere"), "color")
+    display.take(depth([[1.0]]))
+    assert [one.level for one in display.statuses()] == ["warn"]
+
+
 def test_a_point_is_as_large_as_its_pixel_or_as_was_set():
     display = DepthCloudDisplay(TYPES)
     display.take(info(), "camera_info")

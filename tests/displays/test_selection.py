@@ -9,7 +9,7 @@ import pytest
 
 from studio.displays.catalogue import DISPLAYS, display_of_kind
 from studio.displays.display import Display, Received
-from studio.displays.drawing import Arrows, Axes, Lines, Points, Solids, Triangles
+from studio.displays.drawing import Arrows, Axes, Lines, Picture, Points, Solids, Triangles
 from studio.displays.robot_model import RobotModelDisplay
 from studio.displays.selection import Box, Item, Picked, box_of, message_facts
 from studio.displays.tf import TfDisplay
@@ -348,3 +348,14 @@ def test_a_box_is_around_all_shapes_and_unknown_where_one_of_them_is():
     assert box.middle == pytest.approx((1, 0, 0))
     assert box.size_m == pytest.approx((1, 2, 1), abs=1e-6)
     assert box_of({}) is None
+
+
+def test_a_box_is_around_a_picture_as_it_is_turned():
+    half = 0.5**0.5
+    picture = Picture(
+        np.zeros((1, 1, 4), np.uint8), (2.0, 1.0), (5.0, 0.0, 1.0), (half, 0.0, 0.0, half)
+    )
+    box = box_of({"picture": picture})
+    assert box is not None
+    np.testing.assert_allclose(box.middle, (4.5, 1.0, 1.0))
+    np.testing.assert_allclose(box.size_m[:2], (1.0, 2.0))

@@ -189,7 +189,7 @@ def test_a_bad_message_leaves_the_one_before():
 def test_a_plan_for_another_robot_is_drawn_and_said():
     display = DisplayTrajectoryDisplay(TYPES)
     display.stand(Posed(seen_arm()))
-    plan = {"model_id": "panda", "trajectory": [{"joint_trajectory": way(0.3)}]}
+    plan = {"model_id": "panda", "trajectory": [{"joint_trajectory": way(0.3, 0.4)}]}
     display.take(planned(plan))
     assert display.draw(BEGIN_NS)
     assert said(display) == [("warn", "other_robot")]
@@ -210,3 +210,5 @@ def test_a_robot_that_flies_is_where_the_plan_has_its_root():
     assert placed.frame == "world"
     assert placed.offset is not None
     assert_allclose(placed.offset[1], (0.5, 0.0, 2.0))
+    display.take(planned({**plan, "model_id": "arm"}))
+    assert said(display) == [("warn", "other_robot")], "the plan that is waiting is not shown yet"

@@ -67,6 +67,20 @@ def test_trajectories_of_a_plan_follow_each_other_and_joints_keep_what_they_had(
     assert_allclose(states.poses_of([0, 1]), expected)
 
 
+def test_a_part_without_points_does_not_set_the_time_back():
+    one = {"joint_trajectory": {"joint_names": ["a"], "points": points((0.5, (1,)))}}
+    message = decoded(PLAN, trajectory=[one, {}, one])
+    assert_allclose(chain_of(message, "DisplayTrajectory").times_s, [0.5, 1.0])
+
+
+def test_a_plan_of_too_many_states_and_joints_is_refused():
+    many = {"joint_names": [f"j{at}" for at in range(5000)]}
+    rests = {"points": points(*[(0.0, ())] * 3000)}
+    message = decoded(PLAN, trajectory=[{"joint_trajectory": one} for one in (many, rests)])
+    with pytest.raises(DisplayMessageError, match="3,000 states of 5,000 joints"):
+        chain_of(message, "DisplayTrajectory")
+
+
 def test_a_joint_of_six_degrees_moves_the_whole_robot():
     def transform(x: float) -> dict[str, object]:
         return {"translation": {"x": x, "y": 0.0, "z": 0.0}, "rotation": {"w": 2.0}}
@@ -84,6 +98,21 @@ def test_a_joint_of_six_degrees_moves_the_whole_robot():
     assert_allclose(motion.times_s, [1, 3])
     assert motion.roots is not None
     assert_allclose(motion.roots, [[1, 0, 0, 0, 1, 0, 0], [1, 0, 0, 0, 3, 0, 0]])
+
+
+def test_a_robot_that_only_moves_as_a_whole_keeps_its_joints_and_skips_points_without_a_pose():
+    turn = {"transforms": [{"rotation": {"w": 1.0}}], "time_from_start": {"sec": 1}}
+    base = {"joint_names": ["virtual"], "points": [turn, {"time_from_start": {"sec": 2}}, turn]}
+    parts = [{"joint_trajectory": {"joint_names": ["shoulder"]},
+              "multi_dof_joint_trajectory": base}] * 2  # fmt: skip
+    motion = chain_of(decoded(PLAN, trajectory=parts), "DisplayTrajectory")
+    assert motion.roots is not None
+    assert len(motion.roots) == motion.size == 4
+    assert_allclose(motion.times_s, [1, 1, 2, 2])
+    robot = Posed(seen_arm())
+    robot.joints.set({"shoulder": 0.2})
+    expected = robot.kinematics.wxyz_xyz(np.array([0.2, 0.0]))
+    assert_allclose(States(motion, robot).poses_at(3), expected)
 
 
 def test_between_two_states_the_joints_are_between_their_positions():

@@ -1,11 +1,16 @@
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pytest
 
-from studio.scene.solids import Kind, unit_mesh
+from studio.scene.solids import unit_mesh
 
-VOLUMES_M3: dict[Kind, float] = {
+if TYPE_CHECKING:
+    from studio.displays.drawing import SolidKind
+
+VOLUMES_M3: dict[SolidKind, float] = {
     "box": 1.0,
     "sphere": np.pi / 6,
     "cylinder": np.pi / 4,
@@ -14,7 +19,7 @@ VOLUMES_M3: dict[Kind, float] = {
 
 
 @pytest.mark.parametrize("kind", VOLUMES_M3)
-def test_a_unit_mesh_fits_into_its_cube_and_touches_all_sides_of_it(kind: Kind):
+def test_a_unit_mesh_fits_into_its_cube_and_touches_all_sides_of_it(kind: SolidKind):
     mesh = unit_mesh(kind)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     z_low, z_high = (0.0, 1.0) if kind == "cone" else (-0.5, 0.5)
@@ -23,7 +28,7 @@ def test_a_unit_mesh_fits_into_its_cube_and_touches_all_sides_of_it(kind: Kind):
 
 
 @pytest.mark.parametrize("kind", VOLUMES_M3)
-def test_a_unit_mesh_is_closed_and_faces_outwards(kind: Kind):
+def test_a_unit_mesh_is_closed_and_faces_outwards(kind: SolidKind):
     mesh = unit_mesh(kind)
     a, b, c = np.moveaxis(mesh.vertices[mesh.faces].astype(np.float64), 1, 0)
     # The sum over all triangles is the volume when each is seen from outside against the clock.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
@@ -21,11 +21,10 @@ from studio.displays.turning import products, turns_from_z
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from studio.displays.drawing import Shape
+    from studio.displays.drawing import Shape, SolidKind
     from studio.displays.markers.kinds import Flags, Floats, Whole
     from studio.displays.markers.table import Rows
 
-SolidKind = Literal["box", "sphere", "cylinder", "cone"]
 
 _KINDS: Final[tuple[tuple[str, SolidKind, Kind, Kind | None], ...]] = (
     ("boxes", "box", Kind.CUBE, Kind.CUBE_LIST),

@@ -10,18 +10,13 @@ import numpy as np
 
 from studio.displays.display import Status, TopicRole
 from studio.displays.drawing import (
-    Arrows,
-    Axes,
-    Frustum,
-    GridLines,
-    Lines,
-    MeshFile,
-    Picture,
+    CameraView,
+    GridPlane,
+    LinkParts,
     Placed,
-    Points,
     PointStyle,
-    Solids,
-    Text,
+    Shape,
+    SolidKind,
     Triangles,
 )
 from studio.displays.plugins.requests import (
@@ -31,7 +26,7 @@ from studio.displays.plugins.requests import (
     PackedShape,
     PackedStatus,
 )
-from studio.displays.properties import Property
+from studio.displays.properties import Property, PropertyKind
 from studio.errors import DisplayError
 
 if TYPE_CHECKING:
@@ -39,16 +34,15 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.displays.drawing import Drawing, Shape
+    from studio.displays.drawing import Drawing
 
 Size: TypeAlias = tuple[int | str, ...]
 """Of an array, with letters for what may be any number; the same letter is the same number."""
 
 SHAPES: Final[dict[str, type[Any]]] = {
-    one.__name__: one
-    for one in (Arrows, Axes, Frustum, GridLines, Lines, MeshFile, Picture, Points, Solids, Text,
-                Triangles)
-}  # fmt: skip
+    one.__name__: one for one in get_args(Shape) if one not in (CameraView, LinkParts)
+}
+"""By name, those that a plug-in may draw: the others are of the document's robot or the page's."""
 _F4, _U1, _U4 = "float32", "uint8", "uint32"
 _ARRAYS: Final[dict[str, tuple[str, tuple[Size, ...]]]] = {
     "positions": (_F4, (("N", 3),)),
@@ -67,9 +61,11 @@ _ARRAYS: Final[dict[str, tuple[str, tuple[Size, ...]]]] = {
 _TUPLES: Final = {"rgb": 3, "position": 3, "scale": 3, "size_m": 2, "wxyz": 4}
 _CHOICES: Final[dict[tuple[str, str], tuple[str, ...]]] = {
     ("Points", "style"): get_args(PointStyle),
-    ("Solids", "kind"): ("box", "sphere", "cylinder", "cone"),
-    ("GridLines", "plane"): ("xy", "xz", "yz"),
+    ("Solids", "kind"): get_args(SolidKind),
+    ("GridLines", "plane"): get_args(GridPlane),
 }
+_PROPERTY_KINDS: Final = tuple(one for one in get_args(PropertyKind) if one != "marker_server")
+"""A server of markers has a client in the studio, which is that of its own display alone."""
 _NONE: Final = {"palette", "image", "rgb"}
 _TEXT_MAX: Final = 2_000
 _FAR: Final = 1e15
@@ -329,9 +325,9 @@ def unpack_property(one: PackedProperty) -> Property:
     Raises:
         DisplayError: Its kind is none, or its default is none of its values.
     """
-    kinds = ("switch", "whole", "number", "colour", "choice", "text", "frame", "topic", "fact")
-    if one.kind not in kinds:
-        raise DisplayError(f'The property "{one.name[:60]}" has a kind of {", ".join(kinds)}.')
+    if one.kind not in _PROPERTY_KINDS:
+        kinds = ", ".join(_PROPERTY_KINDS)
+        raise DisplayError(f'The property "{one.name[:60]}" has a kind of {kinds}.')
     made = Property(
         one.name[:_PATH_MAX], cast("Any", one.kind), one.default, one.doc[:_TEXT_MAX],
         -math.inf if one.low is None else one.low, math.inf if one.high is None else one.high,

@@ -9,7 +9,6 @@ from itertools import islice
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.displays.display import Status, TopicRole
-from studio.displays.failed import FailedDisplay
 from studio.displays.posed_robot import PosedRobot
 from studio.errors import CommandError, DisplayError, SceneError
 from studio.live.displays.catalogue_views import property_view
@@ -113,13 +112,17 @@ class DrawingRoom:
     def _made(self, spec: DisplaySpec, types: TypeLibrary, *, is_kept: bool) -> Display:
         """Return the display of a spec; for one of an `.rviz` file that is not here, why not."""
         if spec.entry and "/" in spec.kind and not spec.kind.startswith(PREFIX):
-            return FailedDisplay(types, spec.kind)
+            return MissingDisplay(types, partial(_unsupported, spec.kind))
         try:
             return self._plugins.of_kind(spec.kind)(types)
         except DisplayError:
             if not is_kept:
                 raise
-            return MissingDisplay(types, partial(self._plugins.why_not, spec.kind))
+            return MissingDisplay(types, partial(self._not_here, spec.kind))
+
+    def _not_here(self, kind: str) -> Status:
+        sentence = f"{self._plugins.why_not(kind)} Its settings are kept."
+        return Status("error", "not_here", sentence)
 
     def get(self, display: str) -> RunningDisplay:
         """Return the one of an id.
@@ -369,3 +372,11 @@ def _more_properties(display: Display) -> tuple[PropertyView, ...]:
     own = frozenset(display.PROPERTIES)
     more = (one for one in display.properties() if one not in own)
     return tuple(map(property_view, islice(more, _MORE_MAX)))
+
+
+def _unsupported(class_name: str) -> Status:
+    """Return what is said of a display of an `.rviz` file whose class the studio has not."""
+    sentence = (
+        f"The studio has no display {class_name[:80]}: it is kept, and written back as it is."
+    )
+    return Status("error", "unsupported", sentence)

@@ -275,13 +275,13 @@ class PluginDisplay(Display):
 
 
 class MissingDisplay(Display):
-    """Keeps the place of a display that was saved and cannot be made here."""
+    """Keeps the place of a display that was saved and cannot be made here, as RViz's own does."""
 
     KIND: ClassVar[str] = "Missing"
     DOC: ClassVar[str] = "A display that is not here."
     ICON: ClassVar[str] = "alert"
 
-    def __init__(self, types: TypeLibrary, why: Callable[[], str]) -> None:
+    def __init__(self, types: TypeLibrary, why: Callable[[], Status]) -> None:
         super().__init__(types)
         self._why = why
 
@@ -291,8 +291,8 @@ class MissingDisplay(Display):
         return NOTHING
 
     def statuses(self) -> tuple[Status, ...]:
-        """Return what would bring it here."""
-        return (Status("error", "not_here", f"{self._why()} Its settings are kept."),)
+        """Return why it is not here, and what would bring it."""
+        return (self._why(),)
 
 
 def _kind_of(file: PluginFile, described: Described) -> type[PluginDisplay]:

@@ -8,7 +8,6 @@ import numpy as np
 
 from studio.errors import CdrError
 from studio.ros.columns.layout import BytesReader
-from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -46,10 +45,7 @@ def read_point_cloud(data: bytes | bytearray | memoryview) -> CloudColumns:
         CdrError: The bytes are none.
     """
     reader = BytesReader(bytes(data), POINT_CLOUD)
-    at = reader.numbers(4, 8)
-    seconds = int(np.frombuffer(reader.raw, f"{reader.order}i4", 1, at)[0])
-    rest_ns = int(np.frombuffer(reader.raw, f"{reader.order}u4", 1, at + 4)[0])
-    frame = reader.text()
+    stamp_ns, frame = reader.time_ns(), reader.text()
     points = _floats(reader, reader.count(_POINT_BYTES) * 3).reshape(-1, 3)
     count = reader.count(_CHANNEL_BYTES_LEAST)
     if count > _CHANNELS_MAX:
@@ -58,7 +54,7 @@ def read_point_cloud(data: bytes | bytearray | memoryview) -> CloudColumns:
     for _ in range(count):
         name = reader.text()
         channels.setdefault(name, _floats(reader, reader.count(4)))
-    return CloudColumns(frame, seconds * NANOSECONDS + rest_ns, points, channels)
+    return CloudColumns(frame, stamp_ns, points, channels)
 
 
 def _floats(reader: BytesReader, count: int) -> NDArray[np.float32]:

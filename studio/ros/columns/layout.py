@@ -109,6 +109,15 @@ class BytesReader:
             raise self.cut_off()
         return begin
 
+    def time_ns(self) -> int:
+        """Read a builtin_interfaces/Time, ns since the epoch.
+
+        Raises:
+            CdrError: The bytes end before it does.
+        """
+        sec, nanosec = struct.unpack_from(f"{self.order}iI", self.raw, self.numbers(4, 8))
+        return sec * NANOSECONDS + nanosec
+
     def cut_off(self) -> CdrError:
         """Make the error for bytes that end too early."""
         return CdrError(self._type_name, "they end in the middle")

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from studio.ros.columns.layout import BytesReader
-from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -51,7 +50,7 @@ def read_pose_array(data: bytes | bytearray | memoryview) -> StampedRows:
         CdrError: The bytes are none.
     """
     reader = BytesReader(bytes(data), POSE_ARRAY)
-    stamp_ns, frame = _stamp_ns(reader), reader.text()
+    stamp_ns, frame = reader.time_ns(), reader.text()
     return StampedRows(frame, stamp_ns, _rows(reader, _POSE_NUMBERS, 8))
 
 
@@ -62,7 +61,7 @@ def read_polygon(data: bytes | bytearray | memoryview) -> StampedRows:
         CdrError: The bytes are none.
     """
     reader = BytesReader(bytes(data), POLYGON)
-    stamp_ns, frame = _stamp_ns(reader), reader.text()
+    stamp_ns, frame = reader.time_ns(), reader.text()
     return StampedRows(frame, stamp_ns, _rows(reader, 3, 4))
 
 
@@ -73,7 +72,7 @@ def read_grid_cells(data: bytes | bytearray | memoryview) -> CellRows:
         CdrError: The bytes are none.
     """
     reader = BytesReader(bytes(data), GRID_CELLS)
-    stamp_ns, frame = _stamp_ns(reader), reader.text()
+    stamp_ns, frame = reader.time_ns(), reader.text()
     at = reader.numbers(4, 8)
     width_m, height_m = np.frombuffer(reader.raw, f"{reader.order}f4", 2, at).tolist()
     return CellRows(StampedRows(frame, stamp_ns, _rows(reader, 3, 8)), width_m, height_m)
@@ -86,7 +85,7 @@ def read_path(data: bytes | bytearray | memoryview) -> StampedRows:
         CdrError: The bytes are none.
     """
     reader = BytesReader(bytes(data), PATH)
-    stamp_ns, frame = _stamp_ns(reader), reader.text()
+    stamp_ns, frame = reader.time_ns(), reader.text()
     count = reader.count(_POSE_STAMPED_BYTES_LEAST)
     places = [_pose_place(reader) for _ in range(min(count, 1))]
     alike = _poses_alike(reader, count - 1) if count > 1 else None
@@ -129,12 +128,6 @@ def _pose_place(reader: BytesReader) -> int:
     reader.numbers(4, _STAMP_BYTES)
     reader.text()
     return reader.numbers(8, _POSE_BYTES)
-
-
-def _stamp_ns(reader: BytesReader) -> int:
-    at = reader.numbers(4, _STAMP_BYTES)
-    seconds = int(np.frombuffer(reader.raw, f"{reader.order}i4", 1, at)[0])
-    return seconds * NANOSECONDS + int(np.frombuffer(reader.raw, f"{reader.order}u4", 1, at + 4)[0])
 
 
 def _rows(reader: BytesReader, width: int, each_bytes: int) -> NDArray[np.float64]:

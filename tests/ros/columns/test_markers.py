@@ -26,7 +26,7 @@ FAST = MarkerCodec()
 
 
 def marker(number: int = 0, **fields: Any) -> Any:  # noqa: ANN401
-    made: Any = MARKER(ns="lane", id=number, type=4, **fields)
+    made: Any = MARKER(**{"ns": "lane", "id": number, "type": 4, **fields})
     made.header.frame_id = "map"
     made.pose.position.x = number / 2
     made.color.a = 1.0
@@ -76,6 +76,16 @@ def test_lists_of_several_markers_lie_one_after_another():
     assert_same(read, marker_columns(lines(6)))
     third = read.points[read.point_starts[3] : read.point_starts[4]]
     assert third[:, 0].tolist() == [0.0, 1.0, 2.0]
+
+
+@pytest.mark.parametrize("little", [True, False])
+def test_markers_built_alike_are_read_one_by_one_where_they_differ(little: bool):
+    odd = [{}, {"text": "x"}, {"ns": "lanf"}, {"points": [POINT(x=1.0)]}, {"frame_locked": True},
+           {"mesh_use_embedded_materials": True}, {"uv_coordinates": [UV(u=0.5)]}]  # fmt: skip
+    rows = [marker(number, **(odd[number // 4 % len(odd)])) for number in range(60)]
+    message = MARKERS(markers=[one for pair in zip(rows, rows[::-1], strict=True) for one in pair])
+    written = CODEC.encode(message, little_endian=little)
+    assert_same(MarkerCodec().decode(written), marker_columns(message))
 
 
 def test_the_bytes_are_those_of_the_codec():
