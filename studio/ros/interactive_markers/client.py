@@ -39,7 +39,7 @@ MessageCallback: TypeAlias = "Callable[[MessageValue], object]"
 StatusCallback: TypeAlias = "Callable[[ClientStatus, str], object]"
 _QUEUE_MAX: Final = 100
 _BYTES_MAX: Final = 32 << 20
-"""Limit of one update, and of all that wait."""
+"""Limit of the answer, of one update, and of all that wait."""
 _NO_NUMBER: Final = -1
 _PAUSE_S: Final = 0.2
 """Between a failure and the next request."""
@@ -104,7 +104,9 @@ class InteractiveMarkerClient:
         self._node, self._lookup, self._target = node, lookup, target_frame
         self._timeout_s = request_timeout_s
         self._depths = update_sub_qos, feedback_pub_qos
+        self._service = node.wire.types.service(SERVICE)
         self._codec = codec_of(node.wire.types.message(UPDATE))
+        self._answer_codec = codec_of(self._service.Response)
         self._on_initialize: MessageCallback = _ignore
         self._on_update: MessageCallback = _ignore
         self._on_reset: Callable[[], object] = _do_nothing
@@ -178,9 +180,7 @@ class InteractiveMarkerClient:
             return
         types, (update_depth, feedback_depth) = self._node.wire.types, self._depths
         try:
-            self._client = self._node.create_client(
-                types.service(SERVICE), topic_namespace + SERVICE_NAME
-            )
+            self._client = self._node.create_client(self._service, topic_namespace + SERVICE_NAME)
             self._publisher = self._node.create_publisher(
                 types.message(FEEDBACK), topic_namespace + FEEDBACK_TOPIC, feedback_depth
             )
@@ -250,8 +250,8 @@ class InteractiveMarkerClient:
         if self._future is not None:
             client.remove_pending_request(self._future)
         self._asked_s = time.monotonic()
-        kind = self._node.wire.types.service(SERVICE)
-        self._future = client.call_async(kind.Request())
+        # Raw: a large answer is read by `update`, and not by the node's thread, which others need.
+        self._future = client.call_async(self._service.Request(), raw=True)
         self._say(ClientStatus.INFO, "Sending request for interactive markers")
 
     def _initialize(self, client: Client) -> None:
@@ -284,11 +284,12 @@ class InteractiveMarkerClient:
         future = self._future
         if future is not None and future.done():
             self._future = None
-            failure = future.exception()
-            if failure is None:
-                self._initial = self._completed(future.result())
+            try:
+                self._initial = self._completed(self._read_answer(future.result()))
+            except WireError as failure:
+                self._say(ClientStatus.WARN, f"The server did not answer: {failure}")
+            else:
                 return True
-            self._say(ClientStatus.WARN, f"The server did not answer: {failure}")
         if time.monotonic() - self._asked_s > self._timeout_s:
             self._say(
                 ClientStatus.WARN,
@@ -296,6 +297,11 @@ class InteractiveMarkerClient:
             )
             self._ask(client)
         return False
+
+    def _read_answer(self, payload: bytes) -> MessageValue:
+        if len(payload) > _BYTES_MAX:
+            raise CdrError(SERVICE, f"{len(payload):,} bytes are more than {_BYTES_MAX:,}")
+        return self._answer_codec.decode(payload)
 
     def _run(self) -> None:
         self._take_incoming()

@@ -12,6 +12,7 @@ from studio.ros.interactive_markers import (
     InteractiveMarkerClient,
     InteractiveMarkerServer,
     MenuHandler,
+    client,
 )
 from studio.ros.interactive_markers.names import FeedbackEvent
 from tests.support.interactive_markers import feedback_of, moving_marker, pose_at
@@ -190,6 +191,30 @@ def test_markers_are_gone_with_their_server_and_back_with_it(ends: Ends):
     ends.server = InteractiveMarkerServer(ends.nodes[0], "/markers")
     ends.add("again")
     ends.until(lambda: set(ends.markers) == {"again"})
+
+
+def test_an_answer_that_is_too_large_is_not_read_and_asked_for_again(
+    ends: Ends, monkeypatch: pytest.MonkeyPatch
+):
+    ends.add("one")
+    said: list[str] = []
+    monkeypatch.setattr(client, "_BYTES_MAX", 10)
+    other = InteractiveMarkerClient(ends.nodes[1], request_timeout_s=0.05)
+    other.set_status_callback(lambda _status, text: said.append(text))
+    other.connect("/markers")
+
+    def until(condition: Callable[[], bool]) -> None:
+        def holds() -> bool:
+            other.update()
+            return condition()
+
+        ends.until(holds)
+
+    until(lambda: any("bytes are more than 10" in text for text in said))
+    assert other.state is ClientState.INITIALIZE
+    monkeypatch.undo()
+    until(lambda: other.state is ClientState.RUNNING)
+    other.disconnect()
 
 
 def test_a_server_that_never_answers_is_asked_again(nodes: tuple[Node, Node]):
