@@ -213,8 +213,9 @@ class InteractiveMarkerClient:
     def publish_feedback(self, feedback: MessageValue) -> None:
         """Send a feedback under this client's id; nothing without a connection."""
         feedback.client_id = self.client_id
-        if self._publisher is not None:
-            self._publisher.publish(feedback)
+        publisher = self._publisher  # `disconnect` may come between, from another thread
+        if publisher is not None:
+            publisher.publish(feedback)
 
     def update(self) -> None:
         """Take a step, and call back; call it many times a second."""
