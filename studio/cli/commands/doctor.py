@@ -98,10 +98,8 @@ def _seen(options: argparse.Namespace) -> Seen:
     Raises:
         NoRouterError: None answers.
     """
-    from studio.live.doctor.asking import ask, look
-    from studio.live.doctor.here import look_here
+    from studio.live.doctor.asking import ask, look, look_here
     from studio.live.doctor.seen import Seen
-    from studio.live.doctor.subjects.network import NAMES
     from studio.live.doctor.watching import Watching
     from studio.ros.graph.diagnosis import DistroHashes
     from studio.ros.node.context import Context
@@ -127,19 +125,18 @@ def _seen(options: argparse.Namespace) -> Seen:
             heard = watching.heard(system) if watching is not None else None
         finally:
             context.shutdown()
-    return Seen(here=look_here(NAMES), system=system, heard=heard, answers=answers)
+    return Seen(here=look_here(), system=system, heard=heard, answers=answers)
 
 
 def _seen_without_router(options: argparse.Namespace) -> Seen:
     """Look at the place where a router should be."""
     from studio.live.connection.report import examine
-    from studio.live.doctor.here import look_here
+    from studio.live.doctor.asking import look_here
     from studio.live.doctor.seen import Seen
-    from studio.live.doctor.subjects.network import NAMES
     from studio.settings import WireChoice
 
     choice = WireChoice("off", tuple(options.connect), options.domain, options.distro or "")
-    return Seen(here=look_here(NAMES), place=examine(choice, ()))
+    return Seen(here=look_here(), place=examine(choice, ()))
 
 
 def _is_fault(finding: Finding) -> bool:

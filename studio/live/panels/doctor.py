@@ -9,7 +9,6 @@ from datetime import datetime
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import NotJoinedError, RouterGoneError, StudioError
-from studio.live.doctor.here import look_here
 from studio.live.doctor.seen import Seen, SeenBrowser
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.doctor import DoctorReport, ExamineSystem, GetDoctorReport, SystemExamined
@@ -234,9 +233,9 @@ def _look_at_place(connection: RosConnection) -> WireReport | None:
 
 
 def _look_here() -> Here:
-    from studio.live.doctor.subjects.network import NAMES  # noqa: PLC0415
+    from studio.live.doctor.asking import look_here  # noqa: PLC0415
 
-    return look_here(NAMES)
+    return look_here()
 
 
 def _concluded(seen: Seen) -> dict[SubjectName, Concluded]:
