@@ -8,7 +8,6 @@ import math
 import platform
 import sys
 import time
-from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -250,7 +249,7 @@ def _print_sections(sections: list[_Section]) -> None:
 
 
 def _as_json(seen: Seen, found: Examination) -> dict[str, object]:
-    from studio.live.panels.doctor import facts_of
+    from studio.live.doctor.report import facts_of
 
     return {
         "facts": dict(facts_of(seen)),
@@ -262,15 +261,10 @@ def _as_json(seen: Seen, found: Examination) -> dict[str, object]:
 
 def _write_html(file: Path, seen: Seen, found: Examination) -> None:
     from studio.files import write_whole
-    from studio.live.doctor.report import About, report_html, words_of
-    from studio.live.panels.doctor import facts_of
-    from studio.settings import repository_or_wheel
+    from studio.live.doctor.report import report_of
 
-    words = words_of(repository_or_wheel("frontend_assets"), "en")
-    made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    html = report_html(found, About("en", facts_of(seen), made), words)
     try:
-        write_whole(file, html.encode())
+        write_whole(file, report_of(seen, found, "en").encode())
     except OSError as error:
         raise SettingsError(f"{file} cannot be written: {error.strerror}.") from error
     print(f"Report: {file}", file=sys.stderr)

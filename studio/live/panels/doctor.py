@@ -5,14 +5,12 @@ from __future__ import annotations
 import asyncio
 import time
 from dataclasses import dataclass, field, replace
-from datetime import datetime
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import NotJoinedError, RouterGoneError, StudioError
 from studio.live.doctor.seen import Seen, SeenBrowser
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.doctor import DoctorReport, ExamineSystem, GetDoctorReport, SystemExamined
-from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping
@@ -20,6 +18,7 @@ if TYPE_CHECKING:
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.doctor.examination import Concluded, Examination
+    from studio.live.doctor.report import Language
     from studio.live.doctor.seen import Answers, Heard, Here, SeenDocument, System, Unanswered
     from studio.live.doctor.watching import Watching
     from studio.protocol.connection import WireReport
@@ -100,7 +99,7 @@ class Doctor:
     async def report(self, command: GetDoctorReport, asker: Listener) -> DoctorReport:
         """Return the same as an HTML file."""
         seen, found = await self._found(command, asker)
-        html = await asyncio.to_thread(_reported, seen, found, command)
+        html = await asyncio.to_thread(_reported, seen, found, command.language)
         return DoctorReport(request=command.request, html=html)
 
     async def let_go(self) -> None:
@@ -254,25 +253,10 @@ def _completed(seen: Seen, shared: Mapping[SubjectName, Concluded]) -> Examinati
     return examination_of({**shared, **concluded(seen, OF_WHO_ASKS)})
 
 
-def _reported(seen: Seen, found: Examination, command: GetDoctorReport) -> str:
-    from studio.live.doctor.report import About, report_html, words_of  # noqa: PLC0415
+def _reported(seen: Seen, found: Examination, language: Language) -> str:
+    from studio.live.doctor.report import report_of  # noqa: PLC0415
 
-    words = words_of(repository_or_wheel("frontend_assets"), command.language)
-    made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    return report_html(found, About(command.language, facts_of(seen), made), words)
-
-
-def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:
-    """Return what was examined, by the names of its facts."""
-    if seen.system is not None:
-        place = (seen.system.endpoint, seen.system.domain, seen.system.profile.distro)
-    elif seen.place is not None:
-        place = (seen.place.endpoint, seen.place.domain, seen.place.distro)
-    else:
-        return ()
-    router, domain, distro = place
-    nodes = (("nodes", str(len(seen.system.others))),) if seen.system else ()
-    return (("router", router), ("domain", str(domain)), ("distribution", distro), *nodes)
+    return report_of(seen, found, language)
 
 
 COMMANDS: Final = Commands[Doctor](Scope.ROS)
