@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import NAMED_MAX, Looked, short
+from studio.live.doctor.seen import NAMED_MAX, Looked, short, shown_nodes
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.qos import DurabilityPolicy
 
@@ -98,9 +98,9 @@ def _silent(topic: HeardTopic, system: System, sentence: str) -> Finding:
         line=f"ros2 topic hz {short(topic.topic)}",
         about=(Concern(kind="topic", name=topic.topic),),
         talk=Talk(
-            sources=tuple(dict.fromkeys(short(one.node.path) for one in senders))[:NAMED_MAX],
+            sources=shown_nodes(senders),
             name=short(topic.topic),
-            targets=tuple(dict.fromkeys(short(one.node.path) for one in receivers))[:NAMED_MAX],
+            targets=shown_nodes(receivers),
             meets=False,
         ),
     )
