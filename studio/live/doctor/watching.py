@@ -5,6 +5,7 @@ It imports Zenoh (through `ros`), so it is imported when somebody asks.
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import defaultdict
@@ -54,6 +55,8 @@ _FRAMES_MAX: Final = 2_000
 _FRAME_LETTERS_MAX: Final = 300
 """More than TF takes, so that a frame is compared whole."""
 _NOTICES_MAX: Final = 40
+_NOTICE_S: Final = 60.0
+"""What was amiss on /tf and is not for so long was mended; /tf_static says its own only once."""
 _PARAMETERS_MAX: Final = 200
 _CLOCKS_MAX: Final = 16
 _NODES_NAMED: Final = 8
@@ -84,7 +87,7 @@ class Watching:
         """Know nothing yet, but which parameters were changed before."""
         self._began_s = self._clock()
         self._watches: dict[str, TopicWatch] = {}
-        self._frames, self._times = _Frames(self._name_of), _Times()
+        self._frames, self._times = _Frames(self._name_of, self._clock), _Times()
 
     def heard(self, system: System) -> Heard:
         """Return what was heard, and go on listening to what is published now."""
@@ -195,10 +198,11 @@ class Watching:
 class _Frames:
     """TF in a buffer of its own; taken in by the drain's thread."""
 
-    def __init__(self, name_of: Callable[[bytes], str]) -> None:
+    def __init__(self, name_of: Callable[[bytes], str], clock: Callable[[], float]) -> None:
         self._buffer, self._codecs = TransformBuffer(), (TransformCodec(), TransformCodec())
-        self._name_of = name_of
-        self._notices: dict[str, Notice] = {}
+        self._name_of, self._clock = name_of, clock
+        self._notices: dict[str, tuple[Notice, float]] = {}
+        """By their sentences, the newest last, each with the time until which it counts."""
 
     def take(self, payload: bytes, sent: Attachment, _received_ns: int) -> None:
         """Take a message of /tf."""
@@ -210,11 +214,11 @@ class _Frames:
 
     def heard(self) -> HeardFrames:
         """Return all that is known of frames now."""
-        reports = self._buffer.report(most=_FRAMES_MAX)
+        reports, now_s = self._buffer.report(most=_FRAMES_MAX), self._clock()
         return HeardFrames(
             tuple(reports),
             tuple(self._buffer.roots()),
-            tuple(self._notices.values()),
+            tuple(one for one, until_s in tuple(self._notices.values()) if now_s < until_s),
             time.time_ns(),
             max(0, self._buffer.count() - len(reports)),
         )
@@ -225,8 +229,10 @@ class _Frames:
         except CdrError:
             return  # its type says why, among the types
         publisher = self._name_of(sent.gid) or sent.gid.hex()
+        until_s = math.inf if static else self._clock() + _NOTICE_S
         for one in self._buffer.put(columns, static=static, publisher=publisher):
-            self._notices[one.sentence] = one
+            self._notices.pop(one.sentence, None)
+            self._notices[one.sentence] = one, until_s
         while len(self._notices) > _NOTICES_MAX:
             self._notices.pop(next(iter(self._notices)))
 

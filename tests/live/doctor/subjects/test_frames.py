@@ -9,6 +9,7 @@ import pytest
 
 from studio.live.doctor.examination import examine
 from studio.live.doctor.seen import SeenDocument
+from studio.live.topics.topic_rates import KEPT_S
 from studio.ros.qos import DurabilityPolicy, QoSProfile
 from tests.support.patient import SCAN, TF, Patient, stamped, transform
 from tests.support.wire import wait_until
@@ -135,6 +136,13 @@ def test_a_frame_that_its_own_publisher_hangs_elsewhere_is_a_note(patient: Patie
     assert (found.level, found.about[0].name) == ("note", "m_cup")
     assert "m_table" in found.sentence
     assert "m_gripper" in found.sentence
+
+    def is_over() -> bool:
+        patient.later_s += KEPT_S - 1  # so that it goes on listening
+        return "frame-moved" not in patient.codes("m_cup")
+
+    wait_until("what is long ago is not found any more", is_over)
+    assert patient.later_s > 50  # and was so until then
 
 
 def test_trees_that_nothing_connects_are_a_warning(patient: Patient):
