@@ -28,6 +28,8 @@ RING: Final = 64
 RING_OF_ALL: Final = 1_024
 """Where each message counts, and not only how many come."""
 _SENDERS_MAX: Final = 64
+_OFFSETS_S: Final = 60.0
+"""Offsets are forgotten after one to two of these: clocks are set, and senders end."""
 _LARGE_BYTES: Final = 1 << 16
 _READ_LARGE_EVERY_S: Final = 1.0
 """A header costs a copy of its message."""
@@ -101,6 +103,8 @@ class TopicWatch:
         self._asked_s = self.began_s = clock()
         self._arrivals, self._pace = Arrivals(time.monotonic_ns()), Pace()
         self._offsets: dict[bytes, LeastOffset] = {}
+        self._offsets_before: dict[bytes, LeastOffset] = {}
+        self._offsets_since_s = self.began_s
         self._header: SentHeader | None = None
         self._read_s = -_READ_LARGE_EVERY_S
         self.samples = self.not_understood = 0
@@ -130,7 +134,11 @@ class TopicWatch:
     def offsets(self) -> dict[bytes, LeastOffset]:
         """Return the least offset of each sender, by its GID."""
         with self._lock:
-            return dict(self._offsets)
+            self._forget_offsets()
+            found = dict(self._offsets_before)
+            for gid, one in self._offsets.items():
+                found[gid] = _both(one, found[gid]) if gid in found else one
+            return found
 
     @property
     def listened_s(self) -> float:
@@ -158,6 +166,7 @@ class TopicWatch:
         with self._lock:
             self.samples += len(samples)
             self._pace.count(now_s, len(samples))
+            self._forget_offsets()
             noted = [(one, sent) for one in samples if (sent := self._sent(one, now_ns))]
         if self._take is not None:
             for sample, sent in noted:
@@ -177,11 +186,16 @@ class TopicWatch:
         return sent
 
     def _note_offset(self, gid: bytes, offset_ns: int) -> None:
-        before = self._offsets.get(gid)
+        before, now = self._offsets.get(gid), LeastOffset(offset_ns, 1)
         if before is not None:
-            self._offsets[gid] = LeastOffset(min(before.least_ns, offset_ns), before.samples + 1)
+            self._offsets[gid] = _both(before, now)
         elif len(self._offsets) < _SENDERS_MAX:
-            self._offsets[gid] = LeastOffset(offset_ns, 1)
+            self._offsets[gid] = now
+
+    def _forget_offsets(self) -> None:
+        if self._clock() - self._offsets_since_s > _OFFSETS_S:
+            self._offsets_before, self._offsets = self._offsets, {}
+            self._offsets_since_s = self._clock()
 
     def _read(self, sample: Sample, sent: Attachment, now_ns: int, now_s: float) -> None:
         is_large = len(sample.payload) > _LARGE_BYTES
@@ -190,6 +204,10 @@ class TopicWatch:
         self._read_s = now_s
         if (found := header_of(sample.payload.to_bytes())) is not None:
             self._header = SentHeader(*found, sent.source_time_ns, now_ns, sent.gid)
+
+
+def _both(one: LeastOffset, other: LeastOffset) -> LeastOffset:
+    return LeastOffset(min(one.least_ns, other.least_ns), one.samples + other.samples)
 
 
 def header_of(payload: bytes) -> tuple[int, str] | None:
