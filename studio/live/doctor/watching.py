@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import CdrError, RosNameError, StudioError
 from studio.live.doctor.seen import (
-    NAME_MAX,
     ChangedParameter,
     Header,
     Heard,
@@ -58,6 +57,8 @@ _NOTICES_MAX: Final = 40
 _NOTICE_S: Final = 60.0
 """What was amiss on /tf and is not for so long was mended; /tf_static says its own only once."""
 _PARAMETERS_MAX: Final = 200
+_EVENTS_BYTES_MAX: Final = 4_000_000
+"""So many bytes of /parameter_events wait to be read; more are left out."""
 _CLOCKS_MAX: Final = 16
 _NODES_NAMED: Final = 8
 
@@ -268,9 +269,26 @@ class _Parameters:
     def __init__(self, types: TypeLibrary) -> None:
         self._types = types
         self._changed: dict[tuple[str, str], ChangedParameter] = {}
+        self._lock = threading.Lock()
+        self._waiting: list[bytes] = []
+        self._waiting_bytes = 0
 
     def take(self, payload: bytes, _sent: Attachment, _received_ns: int) -> None:
-        """Take a message of /parameter_events."""
+        """Keep a message of /parameter_events: to read a large one would hold up all topics."""
+        with self._lock:
+            if self._waiting_bytes + len(payload) <= _EVENTS_BYTES_MAX:
+                self._waiting.append(payload)
+                self._waiting_bytes += len(payload)
+
+    def heard(self) -> tuple[ChangedParameter, ...]:
+        """Read what came, and return all with their newest values."""
+        with self._lock:
+            waiting, self._waiting, self._waiting_bytes = self._waiting, [], 0
+        for payload in waiting:
+            self._read(payload)
+        return tuple(self._changed.values())
+
+    def _read(self, payload: bytes) -> None:
         try:
             event = codec_of(self._types.message(_EVENT_TYPE)).decode(payload)
         except StudioError:
@@ -282,11 +300,7 @@ class _Parameters:
             except StudioError:
                 value = "?"
             if len(self._changed) < _PARAMETERS_MAX or (node, name) in self._changed:
-                self._changed[node, name] = ChangedParameter(node, name, short(value, NAME_MAX))
-
-    def heard(self) -> tuple[ChangedParameter, ...]:
-        """Return them with their newest values."""
-        return tuple(self._changed.values())
+                self._changed[node, name] = ChangedParameter(node, name, short(value))
 
 
 def has_header(types: TypeLibrary, type_name: str) -> bool:
