@@ -130,7 +130,9 @@ class Doctor:
     def _visit_of(self, link: WireLink | None) -> _Visit:
         """Return what is known of a system; those that nobody asks for any more are forgotten."""
         for other, visit in tuple(self._visits.items()):
-            if visit.shared and other is not link and _is_due(visit.shared.at_s, _FORGOTTEN_S):
+            is_looking = other is link or visit.turn.locked()
+            # One that was never seen had ended before.
+            if not is_looking and (not visit.shared or _is_due(visit.shared.at_s, _FORGOTTEN_S)):
                 del self._visits[other]  # what it listened to has ended by itself
         return self._visits.setdefault(link, _Visit(link))
 
