@@ -42,13 +42,13 @@ if TYPE_CHECKING:
     from studio.ros.types.library import TypeLibrary
     from studio.tf.transforms import Notice
 
-CLOCK: Final = "/clock"
+_CLOCK: Final = "/clock"
 _TF, _TF_STATIC, _EVENTS, _LOG = "/tf", "/tf_static", "/parameter_events", "/rosout"
 _UNPACED: Final = frozenset({_TF_STATIC, _EVENTS, _LOG})
 """They come when something happens, and are silent otherwise."""
 _HEADER: Final = "std_msgs/msg/Header"
 _EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
-BYTES_MAX: Final = 8_000_000
+_BYTES_MAX: Final = 8_000_000
 """So much a second is received beside what others do; a camera beyond it is heard now and then."""
 _FRAMES_MAX: Final = 2_000
 _FRAME_LETTERS_MAX: Final = 300
@@ -79,7 +79,7 @@ class Watching:
     ) -> None:
         self._context, self._types, self._clock = context, types, clock
         self._lock = threading.Lock()
-        self._rates = TopicRates(self._watch, BYTES_MAX)
+        self._rates = TopicRates(self._watch, _BYTES_MAX)
         self._system: System | None = None
         self._parameters = _Parameters(types)
         self._begin()
@@ -107,7 +107,7 @@ class Watching:
                 name: self._heard_topic(one, system.topics[name]) for name, one in watches.items()
             },
             left_out=left_out,
-            clock=self._times.heard() if CLOCK in topics else None,
+            clock=self._times.heard() if _CLOCK in topics else None,
             frames=self._frames.heard(),
             parameters=self._parameters.heard(),
             offsets=tuple(self._offsets(watches.values(), system.own)),
@@ -132,7 +132,7 @@ class Watching:
         takers = {
             _TF: self._frames.take,
             _TF_STATIC: self._frames.take_static,
-            CLOCK: self._times.take,
+            _CLOCK: self._times.take,
             _EVENTS: self._parameters.take,
         }
         try:
@@ -319,7 +319,7 @@ def _key_of(publisher: GraphEndpoint, context: Context) -> str:
 
 def _chosen(system: System) -> tuple[list[str], int]:
     """Return the topics to listen to, those of TF and time first, and how many are left out."""
-    first = [_TF, _TF_STATIC, CLOCK, _EVENTS]
+    first = [_TF, _TF_STATIC, _CLOCK, _EVENTS]
     others = [
         name
         for name, ends in system.topics.items()

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from studio.protocol.doctor import SubjectName
 
 SUBJECT: Final[SubjectName] = "rates"
-NEVER_HEARD_S: Final = 2.5
+_NEVER_HEARD_S: Final = 2.5
 """A sensor that is published has said something by then."""
 _SENSORS: Final = frozenset({"sensor_msgs"})
 _STREAMS: Final = frozenset(
@@ -42,7 +42,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
         yield from _of_topic(one, seen.system)
 
 
-def is_sensor(type_name: str) -> bool:
+def _is_sensor(type_name: str) -> bool:
     """Whether messages of a type come all the time."""
     is_stream = type_name.partition("/")[0] in _SENSORS or type_name in _STREAMS
     return is_stream and type_name not in _SELDOM
@@ -53,7 +53,7 @@ def _of_topic(topic: HeardTopic, system: System) -> Iterator[Finding]:
     if pace is None:
         return
     if topic.samples == 0:
-        if is_sensor(topic.type_name) and topic.listened_s >= NEVER_HEARD_S:
+        if _is_sensor(topic.type_name) and topic.listened_s >= _NEVER_HEARD_S:
             yield _silent(
                 topic,
                 system,
