@@ -41,6 +41,8 @@ _QUEUE_MAX: Final = 100
 _BYTES_MAX: Final = 32 << 20
 """Limit of the answer, of one update, and of all that wait."""
 _NO_NUMBER: Final = -1
+_PATIENCE_MAX_S: Final = 60.0
+"""A large answer takes its time on a slow network; it would never come if it were given up early."""
 _PAUSE_S: Final = 0.2
 """Between a failure and the next request."""
 
@@ -78,7 +80,7 @@ class InteractiveMarkerClient:
         lookup: Where frames are; None: markers are handed on in their own frames, at once.
         target_frame: Markers with a stamp are brought into it.
         topic_namespace: Of the server; if one is given, it connects at once.
-        request_timeout_s: After this time without an answer it asks again.
+        request_timeout_s: After this time without an answer it asks again, and waits twice as long.
         controls_max: So many controls of one message are completed and handed on.
         update_sub_qos: Depth of the subscription to updates.
         feedback_pub_qos: Depth of the publisher of feedback.
@@ -102,7 +104,7 @@ class InteractiveMarkerClient:
         """Controls that were too many, in all."""
         self._controls_max = controls_max
         self._node, self._lookup, self._target = node, lookup, target_frame
-        self._timeout_s = request_timeout_s
+        self._timeout_s = self._patience_s = request_timeout_s
         self._depths = update_sub_qos, feedback_pub_qos
         self._service = node.wire.types.service(SERVICE)
         self._codec = codec_of(node.wire.types.message(UPDATE))
@@ -291,11 +293,12 @@ class InteractiveMarkerClient:
                 self._say(ClientStatus.WARN, f"The server did not answer: {failure}")
             else:
                 return True
-        if time.monotonic() - self._asked_s > self._timeout_s:
+        if time.monotonic() - self._asked_s > self._patience_s:
             self._say(
                 ClientStatus.WARN,
                 "Did not receive response with interactive markers, resending request...",
             )
+            self._patience_s = min(2 * self._patience_s, _PATIENCE_MAX_S)
             self._ask(client)
         return False
 
@@ -381,7 +384,7 @@ class InteractiveMarkerClient:
         self._reset()
 
     def _reset(self) -> None:
-        self._state = ClientState.IDLE
+        self._state, self._patience_s = ClientState.IDLE, self._timeout_s
         if self._future is not None and self._client is not None:
             self._client.remove_pending_request(self._future)
         self._future = self._initial = self._last_number = None

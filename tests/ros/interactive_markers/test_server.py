@@ -15,6 +15,7 @@ from studio.ros.interactive_markers import (
     client,
 )
 from studio.ros.interactive_markers.names import FeedbackEvent
+from studio.ros.node.task import Future
 from tests.support.interactive_markers import feedback_of, moving_marker, pose_at
 from tests.support.node_pair import node_pair, spin_until
 
@@ -249,6 +250,30 @@ def test_a_server_that_never_answers_is_asked_again(nodes: tuple[Node, Node]):
     finally:
         client.disconnect()
         server.destroy_service(service)
+
+
+def test_a_server_that_takes_longer_than_the_timeout_is_waited_for(nodes: tuple[Node, Node]):
+    server, other = nodes
+
+    async def slowly(_request: object, response: object) -> object:
+        waited: Future[None] = Future()
+        timer = server.create_timer(0.2, lambda: waited.set_result(None))
+        await waited
+        server.destroy_timer(timer)
+        return response
+
+    kind = server.wire.types.service(_SERVICE[1])
+    service = server.create_service(kind, "/slow/get_interactive_markers", slowly)
+    client = InteractiveMarkerClient(other, request_timeout_s=0.1)
+    client.connect("/slow")
+
+    def is_running() -> bool:
+        client.update()
+        return client.state is ClientState.RUNNING
+
+    spin_until(is_running, server, other)
+    client.disconnect()
+    server.destroy_service(service)
 
 
 class _SilenceError(Exception):
