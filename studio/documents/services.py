@@ -31,7 +31,7 @@ USED_LATER: Final = (
     "studio.live.panels.tool_work",
     "studio.documents.lessons.graph_checks",
     *("studio.live.doctor.asking", "studio.live.doctor.examination", "studio.live.doctor.report"),
-    *("studio.live.doctor.subjects.network", "studio.live.doctor.watching"),
+    "studio.live.doctor.watching",
     *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )

@@ -13,7 +13,6 @@ import { shortTime } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
 import { askOrKeepWhy, polled, useLooking } from "../../model/asking.js";
 import { mayEdit, mayManage } from "../../model/connection.js";
-
 import { chooseNode } from "../../model/parameters.js";
 import { ask } from "../../model/requests.js";
 import { setTarget } from "../../model/tf.js";

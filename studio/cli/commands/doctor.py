@@ -8,7 +8,6 @@ import math
 import platform
 import sys
 import time
-from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -98,10 +97,8 @@ def _seen(options: argparse.Namespace) -> Seen:
     Raises:
         NoRouterError: None answers.
     """
-    from studio.live.doctor.asking import ask, look
-    from studio.live.doctor.here import look_here
+    from studio.live.doctor.asking import ask, look, look_here
     from studio.live.doctor.seen import Seen
-    from studio.live.doctor.subjects.network import NAMES
     from studio.live.doctor.watching import Watching
     from studio.ros.graph.diagnosis import DistroHashes
     from studio.ros.node.context import Context
@@ -127,19 +124,18 @@ def _seen(options: argparse.Namespace) -> Seen:
             heard = watching.heard(system) if watching is not None else None
         finally:
             context.shutdown()
-    return Seen(here=look_here(NAMES), system=system, heard=heard, answers=answers)
+    return Seen(here=look_here(), system=system, heard=heard, answers=answers)
 
 
 def _seen_without_router(options: argparse.Namespace) -> Seen:
     """Look at the place where a router should be."""
     from studio.live.connection.report import examine
-    from studio.live.doctor.here import look_here
+    from studio.live.doctor.asking import look_here
     from studio.live.doctor.seen import Seen
-    from studio.live.doctor.subjects.network import NAMES
     from studio.settings import WireChoice
 
     choice = WireChoice("off", tuple(options.connect), options.domain, options.distro or "")
-    return Seen(here=look_here(NAMES), place=examine(choice, ()))
+    return Seen(here=look_here(), place=examine(choice, ()))
 
 
 def _is_fault(finding: Finding) -> bool:
@@ -253,7 +249,7 @@ def _print_sections(sections: list[_Section]) -> None:
 
 
 def _as_json(seen: Seen, found: Examination) -> dict[str, object]:
-    from studio.live.panels.doctor import facts_of
+    from studio.live.doctor.report import facts_of
 
     return {
         "facts": dict(facts_of(seen)),
@@ -265,15 +261,10 @@ def _as_json(seen: Seen, found: Examination) -> dict[str, object]:
 
 def _write_html(file: Path, seen: Seen, found: Examination) -> None:
     from studio.files import write_whole
-    from studio.live.doctor.report import About, report_html, words_of
-    from studio.live.panels.doctor import facts_of
-    from studio.settings import repository_or_wheel
+    from studio.live.doctor.report import report_of
 
-    words = words_of(repository_or_wheel("frontend_assets"), "en")
-    made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    html = report_html(found, About("en", facts_of(seen), made), words)
     try:
-        write_whole(file, html.encode())
+        write_whole(file, report_of(seen, found, "en").encode())
     except OSError as error:
         raise SettingsError(f"{file} cannot be written: {error.strerror}.") from error
     print(f"Report: {file}", file=sys.stderr)

@@ -1,16 +1,22 @@
 """What the Doctor asks of routers and nodes: who is there, of which version, and who answers.
 
+And of this machine: its network interfaces and variables, as far as they matter to ROS.
+
 It imports Zenoh (through `ros`), so it is imported when somebody asks.
 """
 
 from __future__ import annotations
 
+import os
 import secrets
+import socket
 import time
 from collections import Counter
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import Answers, Ends, System
+from studio.live.doctor.seen import Answers, Ends, Here, Interface, System, short
+from studio.live.doctor.subjects.network import NAMES
 from studio.ros.attachment import GID_BYTES, packed
 from studio.ros.graph.diagnosis import (
     DistroHashes,
@@ -22,6 +28,8 @@ from studio.ros.tokens import DataKey, EndpointKind
 from studio.ros.wire.zenoh import Replies, ZError, declare_querier
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.graph.graph import Graph
     from studio.ros.types.library import TypeLibrary
@@ -37,6 +45,29 @@ _CHECK_EVERY_S: Final = 0.01
 _ANSWERING: Final = "/get_parameters"
 """A service that every node has and that changes nothing: it is asked for no parameter at all."""
 _NO_PARAMETERS: Final = bytes((0, 1, 0, 0, 0, 0, 0, 0))
+
+_SYSTEM: Final = Path("/sys/class/net")
+"""Of Linux; elsewhere only names are known."""
+_UP, _LOOPBACK, _MULTICAST = 0x1, 0x8, 0x1000
+_INTERFACES_MAX: Final = 64
+
+
+def look_here(environment: Mapping[str, str] = os.environ) -> Here:
+    """Return interfaces, without their addresses, and those variables of ROS that are set."""
+    return Here(
+        tuple(_interface(name) for _, name in socket.if_nameindex()[:_INTERFACES_MAX]),
+        {name: environment[name] for name in NAMES if environment.get(name)},
+    )
+
+
+def _interface(name: str) -> Interface:
+    try:
+        flags = int((_SYSTEM / name / "flags").read_text(encoding="ascii"), 16)
+        state = (_SYSTEM / name / "operstate").read_text(encoding="ascii").strip()
+    except (OSError, ValueError):
+        return Interface(short(name), None, None, None)
+    is_up = bool(flags & _UP) and state != "down"
+    return Interface(short(name), is_up, bool(flags & _LOOPBACK), bool(flags & _MULTICAST))
 
 
 def look(

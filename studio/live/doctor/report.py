@@ -9,39 +9,35 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import dataclass
+from datetime import datetime
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast, get_args
 
 from studio.protocol.doctor import Level
+from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from studio.live.doctor.examination import Examination
+    from studio.live.doctor.seen import Seen
     from studio.protocol.doctor import Finding, SubjectView, Talk
 
 _HOMES: Final = re.compile(r"(?:/home|/Users|[A-Za-z]:\\Users)[/\\][^/\\\s\"'<>:]+")
-_Language: TypeAlias = Literal["en", "de"]
-_FACTS: Final[dict[_Language, dict[str, str]]] = {
-    "en": {
-        "router": "Router",
-        "domain": "Domain",
-        "distribution": "Distribution",
-        "nodes": "Nodes",
-    },
-    "de": {
-        "router": "Router",
-        "domain": "Domain",
-        "distribution": "Distribution",
-        "nodes": "Nodes",
-    },
+Language: TypeAlias = Literal["en", "de"]
+_FACTS: Final = {
+    "router": "Router",
+    "domain": "Domain",
+    "distribution": "Distribution",
+    "nodes": "Nodes",
 }
-_TITLE: Final[dict[_Language, str]] = {
+"""In German as in English."""
+_TITLE: Final[dict[Language, str]] = {
     "en": "Report of the Doctor",
     "de": "Bericht des Doktors",
 }
-_PRIVATE: Final[dict[_Language, str]] = {
+_PRIVATE: Final[dict[Language, str]] = {
     "en": "This report holds names of nodes, topics and files of the robot, and no names or "
     "addresses of persons.",
     "de": "Dieser Bericht enthält Namen von Nodes, Topics und Dateien des Roboters, aber keine "
@@ -86,12 +82,32 @@ class About:
         made: When, as it is shown.
     """
 
-    language: _Language
+    language: Language
     facts: tuple[tuple[str, str], ...]
     made: str
 
 
-def words_of(assets: Path, language: _Language) -> dict[str, str]:
+def report_of(seen: Seen, found: Examination, language: Language) -> str:
+    """Write the report of what was just seen and found."""
+    words = words_of(repository_or_wheel("frontend_assets"), language)
+    made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
+    return report_html(found, About(language, facts_of(seen), made), words)
+
+
+def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:
+    """Return what was examined, by the names of its facts."""
+    if seen.system is not None:
+        place = (seen.system.endpoint, seen.system.domain, seen.system.profile.distro)
+    elif seen.place is not None:
+        place = (seen.place.endpoint, seen.place.domain, seen.place.distro)
+    else:
+        return ()
+    router, domain, distro = place
+    nodes = (("nodes", str(len(seen.system.others))),) if seen.system else ()
+    return (("router", router), ("domain", str(domain)), ("distribution", distro), *nodes)
+
+
+def words_of(assets: Path, language: Language) -> dict[str, str]:
     """Return the words of the Doctor's panel, which the report shares.
 
     Args:
@@ -114,7 +130,7 @@ def report_html(examination: Examination, about: About, words: Mapping[str, str]
         f"<title>{_TITLE[about.language]}</title><style>{_STYLE}</style></head><body>",
         f"<h1>{_TITLE[about.language]}</h1>",
         f'<p class="quiet">{_text(about.made)}</p>',
-        _table(tuple((_FACTS[about.language][name], value) for name, value in about.facts)),
+        _table(tuple((_FACTS[name], value) for name, value in about.facts)),
         *_findings(examination, words),
         f"<h2>{_text(words['doctor.looked'])}</h2>",
         _subjects(examination.subjects, words),

@@ -310,6 +310,11 @@ def short(name: str, most: int = NAME_MAX) -> str:
     return f"{name[:half]}…{name[-half:]}"
 
 
+def shown_nodes(ends: Iterable[GraphEndpoint]) -> tuple[str, ...]:
+    """Return the first nodes of endpoints, each once."""
+    return tuple(dict.fromkeys(short(one.node.path) for one in ends))[:NAMED_MAX]
+
+
 def listed(names: Iterable[str], most: int = NAMED_MAX) -> str:
     """Return names in their order, each once, and how many more there are."""
     all_of_them = list(dict.fromkeys(names))

@@ -10,24 +10,21 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from studio.errors import AttachmentError
 from studio.live.doctor.pace import Pace
 from studio.ros.attachment import unpack
-from studio.ros.names import check_full_name
-from studio.ros.node.topic_statistics import Arrivals
-from studio.ros.tokens import whatever_type_key
-from studio.ros.wire.zenoh import declare_subscription
+from studio.ros.node.topic_statistics import RING, TopicStatistics
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from studio.live.doctor.pace import PaceNow
     from studio.ros.attachment import Attachment
     from studio.ros.node.context import Context
-    from studio.ros.node.topic_statistics import Flow
     from studio.ros.wire.zenoh import Sample
 
-RING: Final = 64
 RING_OF_ALL: Final = 1_024
 """Where each message counts, and not only how many come."""
 _SENDERS_MAX: Final = 64
+_OFFSETS_S: Final = 60.0
+"""Offsets are forgotten after one to two of these: clocks are set, and senders end."""
 _LARGE_BYTES: Final = 1 << 16
 _READ_LARGE_EVERY_S: Final = 1.0
 """A header costs a copy of its message."""
@@ -68,15 +65,13 @@ class LeastOffset(NamedTuple):
     samples: int
 
 
-class TopicWatch:
-    """Receives a topic of any type without a token, so that the graph shows nothing of it.
-
-    It ends by itself when nobody asked for `kept_s`.
+class TopicWatch(TopicStatistics):
+    """Statistics of a topic, and what else is known of its samples.
 
     Args:
         context: Of the session.
         topic: In full.
-        kept_s: See above.
+        kept_s: It ends by itself when nobody asked for `flow` for so long.
         reading: What is read of its messages.
         clock: Seconds that never go back.
 
@@ -92,31 +87,19 @@ class TopicWatch:
         reading: Reading,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._context, self._kept_s, self._clock = context, kept_s, clock
-        latched_key = reading.latched_key
-        self.topic, self.has_header, self.is_latched = topic, reading.has_header, bool(latched_key)
-        self._take = reading.take
-        self._ring = RING if self._take is None else RING_OF_ALL
-        self._lock = threading.Lock()
-        self._asked_s = self.began_s = clock()
-        self._arrivals, self._pace = Arrivals(time.monotonic_ns()), Pace()
+        self.topic, self.has_header, self._take = topic, reading.has_header, reading.take
+        self.is_latched = bool(reading.latched_key)
+        self._lock, self._pace = threading.Lock(), Pace()
+        self.began_s = clock()
         self._offsets: dict[bytes, LeastOffset] = {}
+        self._offsets_before: dict[bytes, LeastOffset] = {}
+        self._offsets_since_s = self.began_s
         self._header: SentHeader | None = None
         self._read_s = -_READ_LARGE_EVERY_S
         self.samples = self.not_understood = 0
-        key = latched_key or whatever_type_key(context.wire.domain, check_full_name(topic))
-        wanted = self._ring if latched_key else None
-        session = context.wire.zenoh
-        self._incoming = declare_subscription(
-            session, key, self._ring, reliable=bool(latched_key), wanted=wanted
-        )
-        self.is_open = True
-        context.drain.add(self)
-
-    def flow(self) -> Flow:
-        """Return rate, bandwidth and age; it goes on for `kept_s` from now on."""
-        self._asked_s = self._clock()
-        return self._arrivals.flow(time.monotonic_ns())
+        ring = RING if reading.take is None else RING_OF_ALL
+        # Last, for samples come from then on.
+        super().__init__(context, topic, kept_s, clock, ring, reading.latched_key)
 
     def pace(self) -> PaceNow | None:
         """Return how it comes now; None once it has ended."""
@@ -130,34 +113,25 @@ class TopicWatch:
     def offsets(self) -> dict[bytes, LeastOffset]:
         """Return the least offset of each sender, by its GID."""
         with self._lock:
-            return dict(self._offsets)
+            self._forget_offsets()
+            found = dict(self._offsets_before)
+            for gid, one in self._offsets.items():
+                found[gid] = _both(one, found[gid]) if gid in found else one
+            return found
 
     @property
     def listened_s(self) -> float:
         """Since when it is received."""
         return self._clock() - self.began_s
 
-    def close(self) -> None:
-        """Receive nothing more; again is harmless."""
-        self.is_open = False
-        self._context.forget_source(self)
-        self._incoming.undeclare()
-
-    def drain(self) -> int:
-        """Take in what came; of the drain's thread."""
-        if samples := self._incoming.take(self._ring):
-            self._count(samples)
-        if self._clock() - self._asked_s > self._kept_s:
-            self.close()
-        return len(samples)
-
-    def _count(self, samples: list[Sample]) -> None:
+    def _count(self, samples: Sequence[Sample]) -> None:
         now_ns, now_s = time.time_ns(), self._clock()
         size = sum(len(one.payload) for one in samples)
         self._arrivals.count(time.monotonic_ns(), len(samples), size)
         with self._lock:
             self.samples += len(samples)
             self._pace.count(now_s, len(samples))
+            self._forget_offsets()
             noted = [(one, sent) for one in samples if (sent := self._sent(one, now_ns))]
         if self._take is not None:
             for sample, sent in noted:
@@ -177,11 +151,16 @@ class TopicWatch:
         return sent
 
     def _note_offset(self, gid: bytes, offset_ns: int) -> None:
-        before = self._offsets.get(gid)
+        before, now = self._offsets.get(gid), LeastOffset(offset_ns, 1)
         if before is not None:
-            self._offsets[gid] = LeastOffset(min(before.least_ns, offset_ns), before.samples + 1)
+            self._offsets[gid] = _both(before, now)
         elif len(self._offsets) < _SENDERS_MAX:
-            self._offsets[gid] = LeastOffset(offset_ns, 1)
+            self._offsets[gid] = now
+
+    def _forget_offsets(self) -> None:
+        if self._clock() - self._offsets_since_s > _OFFSETS_S:
+            self._offsets_before, self._offsets = self._offsets, {}
+            self._offsets_since_s = self._clock()
 
     def _read(self, sample: Sample, sent: Attachment, now_ns: int, now_s: float) -> None:
         is_large = len(sample.payload) > _LARGE_BYTES
@@ -190,6 +169,10 @@ class TopicWatch:
         self._read_s = now_s
         if (found := header_of(sample.payload.to_bytes())) is not None:
             self._header = SentHeader(*found, sent.source_time_ns, now_ns, sent.gid)
+
+
+def _both(one: LeastOffset, other: LeastOffset) -> LeastOffset:
+    return LeastOffset(min(one.least_ns, other.least_ns), one.samples + other.samples)
 
 
 def header_of(payload: bytes) -> tuple[int, str] | None:

@@ -5,6 +5,7 @@ It imports Zenoh (through `ros`), so it is imported when somebody asks.
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import defaultdict
@@ -12,7 +13,6 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import CdrError, RosNameError, StudioError
 from studio.live.doctor.seen import (
-    NAME_MAX,
     ChangedParameter,
     Header,
     Heard,
@@ -42,19 +42,23 @@ if TYPE_CHECKING:
     from studio.ros.types.library import TypeLibrary
     from studio.tf.transforms import Notice
 
-CLOCK: Final = "/clock"
+_CLOCK: Final = "/clock"
 _TF, _TF_STATIC, _EVENTS, _LOG = "/tf", "/tf_static", "/parameter_events", "/rosout"
 _UNPACED: Final = frozenset({_TF_STATIC, _EVENTS, _LOG})
 """They come when something happens, and are silent otherwise."""
 _HEADER: Final = "std_msgs/msg/Header"
 _EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
-BYTES_MAX: Final = 8_000_000
+_BYTES_MAX: Final = 8_000_000
 """So much a second is received beside what others do; a camera beyond it is heard now and then."""
 _FRAMES_MAX: Final = 2_000
 _FRAME_LETTERS_MAX: Final = 300
 """More than TF takes, so that a frame is compared whole."""
 _NOTICES_MAX: Final = 40
+_NOTICE_S: Final = 60.0
+"""What was amiss on /tf and is not for so long was mended; /tf_static says its own only once."""
 _PARAMETERS_MAX: Final = 200
+_EVENTS_BYTES_MAX: Final = 4_000_000
+"""So many bytes of /parameter_events wait to be read; more are left out."""
 _CLOCKS_MAX: Final = 16
 _NODES_NAMED: Final = 8
 
@@ -75,7 +79,7 @@ class Watching:
     ) -> None:
         self._context, self._types, self._clock = context, types, clock
         self._lock = threading.Lock()
-        self._rates = TopicRates(self._watch, BYTES_MAX)
+        self._rates = TopicRates(self._watch, _BYTES_MAX)
         self._system: System | None = None
         self._parameters = _Parameters(types)
         self._begin()
@@ -84,7 +88,7 @@ class Watching:
         """Know nothing yet, but which parameters were changed before."""
         self._began_s = self._clock()
         self._watches: dict[str, TopicWatch] = {}
-        self._frames, self._times = _Frames(self._name_of), _Times()
+        self._frames, self._times = _Frames(self._name_of, self._clock), _Times()
 
     def heard(self, system: System) -> Heard:
         """Return what was heard, and go on listening to what is published now."""
@@ -103,7 +107,7 @@ class Watching:
                 name: self._heard_topic(one, system.topics[name]) for name, one in watches.items()
             },
             left_out=left_out,
-            clock=self._times.heard() if CLOCK in topics else None,
+            clock=self._times.heard() if _CLOCK in topics else None,
             frames=self._frames.heard(),
             parameters=self._parameters.heard(),
             offsets=tuple(self._offsets(watches.values(), system.own)),
@@ -128,7 +132,7 @@ class Watching:
         takers = {
             _TF: self._frames.take,
             _TF_STATIC: self._frames.take_static,
-            CLOCK: self._times.take,
+            _CLOCK: self._times.take,
             _EVENTS: self._parameters.take,
         }
         try:
@@ -195,10 +199,11 @@ class Watching:
 class _Frames:
     """TF in a buffer of its own; taken in by the drain's thread."""
 
-    def __init__(self, name_of: Callable[[bytes], str]) -> None:
+    def __init__(self, name_of: Callable[[bytes], str], clock: Callable[[], float]) -> None:
         self._buffer, self._codecs = TransformBuffer(), (TransformCodec(), TransformCodec())
-        self._name_of = name_of
-        self._notices: dict[str, Notice] = {}
+        self._name_of, self._clock = name_of, clock
+        self._notices: dict[str, tuple[Notice, float]] = {}
+        """By their sentences, the newest last, each with the time until which it counts."""
 
     def take(self, payload: bytes, sent: Attachment, _received_ns: int) -> None:
         """Take a message of /tf."""
@@ -210,11 +215,11 @@ class _Frames:
 
     def heard(self) -> HeardFrames:
         """Return all that is known of frames now."""
-        reports = self._buffer.report(most=_FRAMES_MAX)
+        reports, now_s = self._buffer.report(most=_FRAMES_MAX), self._clock()
         return HeardFrames(
             tuple(reports),
             tuple(self._buffer.roots()),
-            tuple(self._notices.values()),
+            tuple(one for one, until_s in tuple(self._notices.values()) if now_s < until_s),
             time.time_ns(),
             max(0, self._buffer.count() - len(reports)),
         )
@@ -225,8 +230,10 @@ class _Frames:
         except CdrError:
             return  # its type says why, among the types
         publisher = self._name_of(sent.gid) or sent.gid.hex()
+        until_s = math.inf if static else self._clock() + _NOTICE_S
         for one in self._buffer.put(columns, static=static, publisher=publisher):
-            self._notices[one.sentence] = one
+            self._notices.pop(one.sentence, None)
+            self._notices[one.sentence] = one, until_s
         while len(self._notices) > _NOTICES_MAX:
             self._notices.pop(next(iter(self._notices)))
 
@@ -262,9 +269,26 @@ class _Parameters:
     def __init__(self, types: TypeLibrary) -> None:
         self._types = types
         self._changed: dict[tuple[str, str], ChangedParameter] = {}
+        self._lock = threading.Lock()
+        self._waiting: list[bytes] = []
+        self._waiting_bytes = 0
 
     def take(self, payload: bytes, _sent: Attachment, _received_ns: int) -> None:
-        """Take a message of /parameter_events."""
+        """Keep a message of /parameter_events: to read a large one would hold up all topics."""
+        with self._lock:
+            if self._waiting_bytes + len(payload) <= _EVENTS_BYTES_MAX:
+                self._waiting.append(payload)
+                self._waiting_bytes += len(payload)
+
+    def heard(self) -> tuple[ChangedParameter, ...]:
+        """Read what came, and return all with their newest values."""
+        with self._lock:
+            waiting, self._waiting, self._waiting_bytes = self._waiting, [], 0
+        for payload in waiting:
+            self._read(payload)
+        return tuple(self._changed.values())
+
+    def _read(self, payload: bytes) -> None:
         try:
             event = codec_of(self._types.message(_EVENT_TYPE)).decode(payload)
         except StudioError:
@@ -276,11 +300,7 @@ class _Parameters:
             except StudioError:
                 value = "?"
             if len(self._changed) < _PARAMETERS_MAX or (node, name) in self._changed:
-                self._changed[node, name] = ChangedParameter(node, name, short(value, NAME_MAX))
-
-    def heard(self) -> tuple[ChangedParameter, ...]:
-        """Return them with their newest values."""
-        return tuple(self._changed.values())
+                self._changed[node, name] = ChangedParameter(node, name, short(value))
 
 
 def has_header(types: TypeLibrary, type_name: str) -> bool:
@@ -299,7 +319,7 @@ def _key_of(publisher: GraphEndpoint, context: Context) -> str:
 
 def _chosen(system: System) -> tuple[list[str], int]:
     """Return the topics to listen to, those of TF and time first, and how many are left out."""
-    first = [_TF, _TF_STATIC, CLOCK, _EVENTS]
+    first = [_TF, _TF_STATIC, _CLOCK, _EVENTS]
     others = [
         name
         for name, ends in system.topics.items()

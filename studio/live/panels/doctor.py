@@ -5,15 +5,12 @@ from __future__ import annotations
 import asyncio
 import time
 from dataclasses import dataclass, field, replace
-from datetime import datetime
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import NotJoinedError, RouterGoneError, StudioError
-from studio.live.doctor.here import look_here
 from studio.live.doctor.seen import Seen, SeenBrowser
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.doctor import DoctorReport, ExamineSystem, GetDoctorReport, SystemExamined
-from studio.settings import repository_or_wheel
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Mapping
@@ -21,6 +18,7 @@ if TYPE_CHECKING:
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.doctor.examination import Concluded, Examination
+    from studio.live.doctor.report import Language
     from studio.live.doctor.seen import Answers, Heard, Here, SeenDocument, System, Unanswered
     from studio.live.doctor.watching import Watching
     from studio.protocol.connection import WireReport
@@ -101,7 +99,7 @@ class Doctor:
     async def report(self, command: GetDoctorReport, asker: Listener) -> DoctorReport:
         """Return the same as an HTML file."""
         seen, found = await self._found(command, asker)
-        html = await asyncio.to_thread(_reported, seen, found, command)
+        html = await asyncio.to_thread(_reported, seen, found, command.language)
         return DoctorReport(request=command.request, html=html)
 
     async def let_go(self) -> None:
@@ -132,7 +130,9 @@ class Doctor:
     def _visit_of(self, link: WireLink | None) -> _Visit:
         """Return what is known of a system; those that nobody asks for any more are forgotten."""
         for other, visit in tuple(self._visits.items()):
-            if visit.shared and other is not link and _is_due(visit.shared.at_s, _FORGOTTEN_S):
+            is_looking = other is link or visit.turn.locked()
+            # One that was never seen had ended before.
+            if not is_looking and (not visit.shared or _is_due(visit.shared.at_s, _FORGOTTEN_S)):
                 del self._visits[other]  # what it listened to has ended by itself
         return self._visits.setdefault(link, _Visit(link))
 
@@ -234,9 +234,9 @@ def _look_at_place(connection: RosConnection) -> WireReport | None:
 
 
 def _look_here() -> Here:
-    from studio.live.doctor.subjects.network import NAMES  # noqa: PLC0415
+    from studio.live.doctor.asking import look_here  # noqa: PLC0415
 
-    return look_here(NAMES)
+    return look_here()
 
 
 def _concluded(seen: Seen) -> dict[SubjectName, Concluded]:
@@ -255,25 +255,10 @@ def _completed(seen: Seen, shared: Mapping[SubjectName, Concluded]) -> Examinati
     return examination_of({**shared, **concluded(seen, OF_WHO_ASKS)})
 
 
-def _reported(seen: Seen, found: Examination, command: GetDoctorReport) -> str:
-    from studio.live.doctor.report import About, report_html, words_of  # noqa: PLC0415
+def _reported(seen: Seen, found: Examination, language: Language) -> str:
+    from studio.live.doctor.report import report_of  # noqa: PLC0415
 
-    words = words_of(repository_or_wheel("frontend_assets"), command.language)
-    made = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M:%S %Z")
-    return report_html(found, About(command.language, facts_of(seen), made), words)
-
-
-def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:
-    """Return what was examined, by the names of its facts."""
-    if seen.system is not None:
-        place = (seen.system.endpoint, seen.system.domain, seen.system.profile.distro)
-    elif seen.place is not None:
-        place = (seen.place.endpoint, seen.place.domain, seen.place.distro)
-    else:
-        return ()
-    router, domain, distro = place
-    nodes = (("nodes", str(len(seen.system.others))),) if seen.system else ()
-    return (("router", router), ("domain", str(domain)), ("distribution", distro), *nodes)
+    return report_of(seen, found, language)
 
 
 COMMANDS: Final = Commands[Doctor](Scope.ROS)

@@ -39,8 +39,10 @@ MessageCallback: TypeAlias = "Callable[[MessageValue], object]"
 StatusCallback: TypeAlias = "Callable[[ClientStatus, str], object]"
 _QUEUE_MAX: Final = 100
 _BYTES_MAX: Final = 32 << 20
-"""Limit of one update, and of all that wait."""
+"""Limit of the answer, of one update, and of all that wait."""
 _NO_NUMBER: Final = -1
+_PATIENCE_MAX_S: Final = 60.0
+"""A large answer takes its time on a slow network; it would never come if it were given up early."""
 _PAUSE_S: Final = 0.2
 """Between a failure and the next request."""
 
@@ -78,7 +80,7 @@ class InteractiveMarkerClient:
         lookup: Where frames are; None: markers are handed on in their own frames, at once.
         target_frame: Markers with a stamp are brought into it.
         topic_namespace: Of the server; if one is given, it connects at once.
-        request_timeout_s: After this time without an answer it asks again.
+        request_timeout_s: After this time without an answer it asks again, and waits twice as long.
         controls_max: So many controls of one message are completed and handed on.
         update_sub_qos: Depth of the subscription to updates.
         feedback_pub_qos: Depth of the publisher of feedback.
@@ -102,9 +104,11 @@ class InteractiveMarkerClient:
         """Controls that were too many, in all."""
         self._controls_max = controls_max
         self._node, self._lookup, self._target = node, lookup, target_frame
-        self._timeout_s = request_timeout_s
+        self._timeout_s = self._patience_s = request_timeout_s
         self._depths = update_sub_qos, feedback_pub_qos
+        self._service = node.wire.types.service(SERVICE)
         self._codec = codec_of(node.wire.types.message(UPDATE))
+        self._answer_codec = codec_of(self._service.Response)
         self._on_initialize: MessageCallback = _ignore
         self._on_update: MessageCallback = _ignore
         self._on_reset: Callable[[], object] = _do_nothing
@@ -178,9 +182,7 @@ class InteractiveMarkerClient:
             return
         types, (update_depth, feedback_depth) = self._node.wire.types, self._depths
         try:
-            self._client = self._node.create_client(
-                types.service(SERVICE), topic_namespace + SERVICE_NAME
-            )
+            self._client = self._node.create_client(self._service, topic_namespace + SERVICE_NAME)
             self._publisher = self._node.create_publisher(
                 types.message(FEEDBACK), topic_namespace + FEEDBACK_TOPIC, feedback_depth
             )
@@ -213,8 +215,9 @@ class InteractiveMarkerClient:
     def publish_feedback(self, feedback: MessageValue) -> None:
         """Send a feedback under this client's id; nothing without a connection."""
         feedback.client_id = self.client_id
-        if self._publisher is not None:
-            self._publisher.publish(feedback)
+        publisher = self._publisher  # `disconnect` may come between, from another thread
+        if publisher is not None:
+            publisher.publish(feedback)
 
     def update(self) -> None:
         """Take a step, and call back; call it many times a second."""
@@ -250,8 +253,8 @@ class InteractiveMarkerClient:
         if self._future is not None:
             client.remove_pending_request(self._future)
         self._asked_s = time.monotonic()
-        kind = self._node.wire.types.service(SERVICE)
-        self._future = client.call_async(kind.Request())
+        # Raw: a large answer is read by `update`, and not by the node's thread, which others need.
+        self._future = client.call_async(self._service.Request(), raw=True)
         self._say(ClientStatus.INFO, "Sending request for interactive markers")
 
     def _initialize(self, client: Client) -> None:
@@ -284,18 +287,25 @@ class InteractiveMarkerClient:
         future = self._future
         if future is not None and future.done():
             self._future = None
-            failure = future.exception()
-            if failure is None:
-                self._initial = self._completed(future.result())
+            try:
+                self._initial = self._completed(self._read_answer(future.result()))
+            except WireError as failure:
+                self._say(ClientStatus.WARN, f"The server did not answer: {failure}")
+            else:
                 return True
-            self._say(ClientStatus.WARN, f"The server did not answer: {failure}")
-        if time.monotonic() - self._asked_s > self._timeout_s:
+        if time.monotonic() - self._asked_s > self._patience_s:
             self._say(
                 ClientStatus.WARN,
                 "Did not receive response with interactive markers, resending request...",
             )
+            self._patience_s = min(2 * self._patience_s, _PATIENCE_MAX_S)
             self._ask(client)
         return False
+
+    def _read_answer(self, payload: bytes) -> MessageValue:
+        if len(payload) > _BYTES_MAX:
+            raise CdrError(SERVICE, f"{len(payload):,} bytes are more than {_BYTES_MAX:,}")
+        return self._answer_codec.decode(payload)
 
     def _run(self) -> None:
         self._take_incoming()
@@ -374,7 +384,7 @@ class InteractiveMarkerClient:
         self._reset()
 
     def _reset(self) -> None:
-        self._state = ClientState.IDLE
+        self._state, self._patience_s = ClientState.IDLE, self._timeout_s
         if self._future is not None and self._client is not None:
             self._client.remove_pending_request(self._future)
         self._future = self._initial = self._last_number = None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 from studio.ros.interactive_markers.names import MENU_ENTRY, CommandKind, FeedbackEvent
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from studio.ros.interactive_markers.server import InteractiveMarkerServer
     from studio.ros.types.classes import MessageValue
@@ -125,7 +125,7 @@ class MenuHandler:
         if entry is not None and entry.callback is not None:
             entry.callback(feedback)
 
-    def _visible(self, handles: Iterable[int], parent: int) -> Iterable[tuple[int, int]]:
+    def _visible(self, handles: Iterable[int], parent: int) -> Iterator[tuple[int, int]]:
         """Yield the entries to show with their parents, parents first."""
         for handle in handles:
             if self._entries[handle].visible:

@@ -57,6 +57,7 @@ class _Call:
 
     future: Future[Any]
     replies: Replies
+    raw: bool = False
     answered: bool = False
     was_served: bool = False
     checks_without_server: int = 0
@@ -91,7 +92,7 @@ class Client(Work):
         self._check_at_s = 0.0
         self._lock = threading.Lock()
         self._calls: dict[int, _Call] = {}
-        self._done: deque[tuple[Future[Any], bytes | WireError]] = deque()
+        self._done: deque[tuple[_Call, bytes | WireError]] = deque()
         self._querier: Querier | None = declare_querier(
             endpoint.wire.zenoh, endpoint.key, timeout_s
         )
@@ -148,8 +149,8 @@ class Client(Work):
             raise NoAnswerError("service", self.srv_name, timeout_sec or 0.0)
         return future.result()
 
-    def call_async(self, request: MessageValue) -> Future[Any]:
-        """Call, and return the future of the answer.
+    def call_async(self, request: MessageValue, *, raw: bool = False) -> Future[Any]:
+        """Call, and return the future of the answer; with `raw`, of its bytes, as they came.
 
         Raises:
             MessageValueError: It is no request of this service, or a field holds what it does
@@ -166,7 +167,7 @@ class Client(Work):
             number = self._sequence
             attachment = packed(number, time.time_ns(), self.endpoint.gid)
             replies = Replies(self._querier, payload, attachment)
-            self._calls[number] = _Call(future, replies, was_served=was_served)
+            self._calls[number] = _Call(future, replies, raw, was_served=was_served)
         future.listen(lambda: self._give_up(number, future))
         self._node.context.drain.hurry(self)
         return future
@@ -192,10 +193,10 @@ class Client(Work):
     def take(self) -> Callable[[], object] | None:
         """Take the oldest answer, and return what sets its future."""
         try:
-            future, answer = self._done.popleft()
+            call, answer = self._done.popleft()
         except IndexError:
             return None
-        return lambda: self._settle(future, answer)
+        return lambda: self._settle(call, answer)
 
     def destroy(self) -> None:
         """End the client; pending requests are cancelled."""
@@ -231,7 +232,7 @@ class Client(Work):
             call.failure = ForeignAnswerError(self.srv_name, reason)
         elif sample is not None and not call.answered:
             call.answered = True
-            self._done.append((call.future, sample.payload.to_bytes()))
+            self._done.append((call, sample.payload.to_bytes()))
         elif not self._warned_of_several:
             self._warned_of_several = True
             self._node.get_logger().warning(
@@ -254,7 +255,7 @@ class Client(Work):
         known = self._forget(number)
         if known and not call.answered:
             failure = call.failure or NotServedError("service", self.srv_name)
-            self._done.append((call.future, failure))
+            self._done.append((call, failure))
 
     def _end_lost(self, calls: list[tuple[int, _Call]]) -> None:
         """End calls whose server has been gone for a while, and that Zenoh did not end.
@@ -270,14 +271,14 @@ class Client(Work):
                 call.replies.cancel()
                 self._ended(number, call)
 
-    def _settle(self, future: Future[Any], answer: bytes | WireError) -> None:
+    def _settle(self, call: _Call, answer: bytes | WireError) -> None:
         if isinstance(answer, WireError):
-            future.set_exception(answer)
+            call.future.set_exception(answer)
             return
         try:
-            future.set_result(self._codecs[1].decode(answer))
+            call.future.set_result(answer if call.raw else self._codecs[1].decode(answer))
         except CdrError as error:
-            future.set_exception(error)
+            call.future.set_exception(error)
 
     def _give_up(self, number: int, future: Future[Any]) -> None:
         if future.cancelled():

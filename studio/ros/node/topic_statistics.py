@@ -17,7 +17,7 @@ from studio.ros.tokens import whatever_type_key
 from studio.ros.wire.zenoh import declare_subscription
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from studio.ros.node.context import Context
     from studio.ros.wire.zenoh import Sample
@@ -116,23 +116,43 @@ class TopicStatistics:
 
     It declares no token, so the graph shows no further subscription; payloads are never copied.
 
+    Args:
+        context: Of the session.
+        topic: In full.
+        kept_s: See above.
+        clock: Seconds that never go back.
+        ring: Samples that are kept between two reads.
+        latched_key: The data key, where samples that were sent before are wanted, too.
+
     Raises:
         RosNameError: The name of the topic is not valid.
     """
 
-    def __init__(self, context: Context, topic: str, kept_s: float) -> None:
-        self._context, self._kept_s = context, kept_s
-        self._asked_s = time.monotonic()
+    def __init__(
+        self,
+        context: Context,
+        topic: str,
+        kept_s: float,
+        clock: Callable[[], float] = time.monotonic,
+        ring: int = RING,
+        latched_key: str = "",
+    ) -> None:
+        self._context, self._kept_s, self._clock, self._ring = context, kept_s, clock, ring
+        self._asked_s = clock()
         self._arrivals = Arrivals(time.monotonic_ns())
         self._gaps = Gaps()
-        key = whatever_type_key(context.wire.domain, check_full_name(topic))
-        self._incoming = declare_subscription(context.wire.zenoh, key, RING, reliable=False)
+        key = latched_key or whatever_type_key(context.wire.domain, check_full_name(topic))
+        is_latched = bool(latched_key)
+        wanted = ring if is_latched else None
+        self._incoming = declare_subscription(
+            context.wire.zenoh, key, ring, reliable=is_latched, wanted=wanted
+        )
         self.is_open = True
         context.drain.add(self)
 
     def flow(self) -> Flow:
         """Return what comes of the topic; it stays subscribed for `kept_s` from now on."""
-        self._asked_s = time.monotonic()
+        self._asked_s = self._clock()
         return self._arrivals.flow(time.monotonic_ns())
 
     def close(self) -> None:
@@ -143,14 +163,17 @@ class TopicStatistics:
 
     def drain(self) -> int:
         """Count what came; of the drain's thread."""
-        if samples := self._incoming.take(RING):
-            sizes, missed = [len(one.payload) for one in samples], self._missed(samples)
-            bytes_missed = missed * sum(sizes) // len(sizes)
-            now_ns = time.monotonic_ns()
-            self._arrivals.count(now_ns, len(sizes) + missed, sum(sizes) + bytes_missed)
-        if time.monotonic() - self._asked_s > self._kept_s:
+        if samples := self._incoming.take(self._ring):
+            self._count(samples)
+        if self._clock() - self._asked_s > self._kept_s:
             self.close()
         return len(samples)
+
+    def _count(self, samples: Sequence[Sample]) -> None:
+        sizes, missed = [len(one.payload) for one in samples], self._missed(samples)
+        bytes_missed = missed * sum(sizes) // len(sizes)
+        now_ns = time.monotonic_ns()
+        self._arrivals.count(now_ns, len(sizes) + missed, sum(sizes) + bytes_missed)
 
     def _missed(self, samples: Sequence[Sample]) -> int:
         """Count samples dropped from the ring, as far as senders number them."""
@@ -160,4 +183,4 @@ class TopicStatistics:
             with suppress(AttachmentError):
                 numbered = unpack(None if attachment is None else attachment.to_bytes())
                 missed += self._gaps.count(numbered)
-        return min(missed, _MISSED_MAX) if len(samples) == RING else 0
+        return min(missed, _MISSED_MAX) if len(samples) == self._ring else 0

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.errors import RouterGoneError
 from studio.live.connection.link import WireLink
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.doctor.seen import SeenDocument, Unanswered
@@ -160,6 +161,25 @@ def test_a_member_with_own_nodes_is_told_of_their_system_alone(endpoint: str):
                 assert "unknown-type" not in codes(theirs)
         finally:
             await asyncio.to_thread(own.close)
+
+    asyncio.run(run())
+
+
+def test_a_system_that_ended_before_it_was_seen_is_forgotten(endpoint: str):
+    async def run() -> None:
+        own = await asyncio.to_thread(WireLink, WireChoice("off", (endpoint,), 23), lambda: None)
+        await asyncio.to_thread(own.close)
+
+        async def own_link(document: str, _person: str) -> WireLink | None:
+            return own if document == "copy" else None
+
+        async with doctor_at(endpoint) as (made, connection):
+            link = await connection.link()
+            made.own_link = own_link
+            with pytest.raises(RouterGoneError):
+                await made.examine(ExamineSystem(document="copy"), ME)
+            await made.examine(ExamineSystem(), ME)
+            assert list(made._visits) == [link]  # pyright: ignore[reportPrivateUsage]
 
     asyncio.run(run())
 

@@ -12,8 +12,10 @@ from studio.ros.interactive_markers import (
     InteractiveMarkerClient,
     InteractiveMarkerServer,
     MenuHandler,
+    client,
 )
 from studio.ros.interactive_markers.names import FeedbackEvent
+from studio.ros.node.task import Future
 from tests.support.interactive_markers import feedback_of, moving_marker, pose_at
 from tests.support.node_pair import node_pair, spin_until
 
@@ -192,6 +194,30 @@ def test_markers_are_gone_with_their_server_and_back_with_it(ends: Ends):
     ends.until(lambda: set(ends.markers) == {"again"})
 
 
+def test_an_answer_that_is_too_large_is_not_read_and_asked_for_again(
+    ends: Ends, monkeypatch: pytest.MonkeyPatch
+):
+    ends.add("one")
+    said: list[str] = []
+    monkeypatch.setattr(client, "_BYTES_MAX", 10)
+    other = InteractiveMarkerClient(ends.nodes[1], request_timeout_s=0.05)
+    other.set_status_callback(lambda _status, text: said.append(text))
+    other.connect("/markers")
+
+    def until(condition: Callable[[], bool]) -> None:
+        def holds() -> bool:
+            other.update()
+            return condition()
+
+        ends.until(holds)
+
+    until(lambda: any("bytes are more than 10" in text for text in said))
+    assert other.state is ClientState.INITIALIZE
+    monkeypatch.undo()
+    until(lambda: other.state is ClientState.RUNNING)
+    other.disconnect()
+
+
 def test_a_server_that_never_answers_is_asked_again(nodes: tuple[Node, Node]):
     asked: list[object] = []
     server, other = nodes
@@ -224,6 +250,30 @@ def test_a_server_that_never_answers_is_asked_again(nodes: tuple[Node, Node]):
     finally:
         client.disconnect()
         server.destroy_service(service)
+
+
+def test_a_server_that_takes_longer_than_the_timeout_is_waited_for(nodes: tuple[Node, Node]):
+    server, other = nodes
+
+    async def slowly(_request: object, response: object) -> object:
+        waited: Future[None] = Future()
+        timer = server.create_timer(0.2, lambda: waited.set_result(None))
+        await waited
+        server.destroy_timer(timer)
+        return response
+
+    kind = server.wire.types.service(_SERVICE[1])
+    service = server.create_service(kind, "/slow/get_interactive_markers", slowly)
+    client = InteractiveMarkerClient(other, request_timeout_s=0.1)
+    client.connect("/slow")
+
+    def is_running() -> bool:
+        client.update()
+        return client.state is ClientState.RUNNING
+
+    spin_until(is_running, server, other)
+    client.disconnect()
+    server.destroy_service(service)
 
 
 class _SilenceError(Exception):

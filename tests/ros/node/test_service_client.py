@@ -55,7 +55,10 @@ def test_sv2_a_service_answers(nodes: tuple[Node, Node]):
         assert client.wait_for_service(timeout_sec=30)
         future = client.call_async(REQUEST)
         spin_until(future.done, asker)
+        raw = client.call_async(REQUEST, raw=True)
+        spin_until(raw.done, asker)
     assert future.result().sum == 42
+    assert codec_of(AddTwoInts.Response).decode(raw.result()).sum == 42
 
 
 def test_a_response_is_executors_work(nodes: tuple[Node, Node]):

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from studio.protocol.doctor import SubjectName
 
 SUBJECT: Final[SubjectName] = "clocks"
-CLOCK: Final = "/clock"
-AHEAD_NS: Final = 20_000_000
+_CLOCK: Final = "/clock"
+_AHEAD_NS: Final = 20_000_000
 """A message that came so long before it was sent shows that a clock is ahead."""
-BEHIND_NS: Final = 500_000_000
+_BEHIND_NS: Final = 500_000_000
 """The quickest of some messages should not take so long."""
-SAMPLES_MIN: Final = 3
-_OWN_TOPICS: Final = frozenset({"/rosout", "/parameter_events", CLOCK})
+_SAMPLES_MIN: Final = 3
+_OWN_TOPICS: Final = frozenset({"/rosout", "/parameter_events", _CLOCK})
 
 
 def looked_at(seen: Seen) -> Looked | None:
@@ -36,17 +36,16 @@ def findings(seen: Seen) -> Iterator[Finding]:
     for one in seen.heard.offsets if seen.heard else ():
         yield from _of_offset(one)
     if seen.system is not None:
-        yield from _of_simulated_time(seen, seen.system)
+        yield from _of_simulated_time(seen.system)
 
 
-def is_off(offset: Offset) -> bool:
-    """Whether the clock of a process differs from that of this machine."""
-    enough = offset.samples >= SAMPLES_MIN
-    return offset.least_ns < -AHEAD_NS or (enough and offset.least_ns > BEHIND_NS)
+def _is_off(offset: Offset) -> bool:
+    enough = offset.samples >= _SAMPLES_MIN
+    return offset.least_ns < -_AHEAD_NS or (enough and offset.least_ns > _BEHIND_NS)
 
 
 def _of_offset(offset: Offset) -> Iterator[Finding]:
-    if not is_off(offset):
+    if not _is_off(offset):
         return
     off_s, who = abs(offset.least_ns) / 1e9, listed(offset.nodes)
     about = tuple(Concern(kind="node", name=one) for one in offset.nodes[:3])
@@ -74,8 +73,8 @@ def _of_offset(offset: Offset) -> Iterator[Finding]:
     )
 
 
-def _of_simulated_time(seen: Seen, system: System) -> Iterator[Finding]:
-    clock = system.topics.get(CLOCK)
+def _of_simulated_time(system: System) -> Iterator[Finding]:
+    clock = system.topics.get(_CLOCK)
     # A node of rclcpp or rclpy subscribes to /clock exactly when its use_sim_time is true.
     simulated = (
         {one.node.path for one in clock.receivers if not system.is_own(one)}
@@ -94,7 +93,7 @@ def _of_simulated_time(seen: Seen, system: System) -> Iterator[Finding]:
                 "still. Start the simulation, or set use_sim_time to false."
             ),
             line=f"ros2 param set {short(min(simulated))} use_sim_time false",
-            about=(Concern(kind="topic", name=CLOCK),),
+            about=(Concern(kind="topic", name=_CLOCK),),
         )
     if len(publishers) > 1:
         yield Finding(
@@ -102,7 +101,7 @@ def _of_simulated_time(seen: Seen, system: System) -> Iterator[Finding]:
             level="warn",
             subject=SUBJECT,
             sentence=f"/clock is published by {listed(publishers)}: time jumps between them.",
-            about=(Concern(kind="topic", name=CLOCK),),
+            about=(Concern(kind="topic", name=_CLOCK),),
         )
     if publishers:
         yield from _mixed(system, simulated, set(publishers))

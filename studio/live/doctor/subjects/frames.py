@@ -13,7 +13,7 @@ from studio.tf.transforms import plain_name
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.live.doctor.seen import HeardFrames, Seen
+    from studio.live.doctor.seen import Heard, HeardFrames, Seen
     from studio.protocol.doctor import Level, SubjectName
     from studio.tf.transforms import Kind, Notice
 
@@ -48,22 +48,21 @@ def findings(seen: Seen) -> Iterator[Finding]:
     if seen.heard is None:
         return
     frames = seen.heard.frames
-    yield from _missing(seen)
+    links = seen.document.links if seen.document else frozenset[str]()
+    yield from _missing(seen.heard, links)
     yield from _two_authors(frames)
     yield from _of_notices(frames)
     yield from _trees(frames)
 
 
-def _missing(seen: Seen) -> Iterator[Finding]:
+def _missing(heard: Heard, links: frozenset[str]) -> Iterator[Finding]:
     """Frames that headers of data name, and that no transform names nor the robot has."""
-    assert seen.heard is not None
-    frames = seen.heard.frames
-    if seen.heard.listened_s < _HEARD_S or frames.more:
+    frames = heard.frames
+    if heard.listened_s < _HEARD_S or frames.more:
         return
-    known = {one.frame for one in frames.reports}
-    known |= seen.document.links if seen.document else frozenset[str]()
+    known = {one.frame for one in frames.reports} | links
     by_frame: dict[str, list[str]] = defaultdict(list)
-    for one in seen.heard.topics.values():
+    for one in heard.topics.values():
         if one.header is not None and is_placed(one.type_name, one.topic):
             by_frame[plain_name(one.header.frame)].append(one.topic)
     for frame, topics in by_frame.items():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import NAMED_MAX, Looked, short
+from studio.live.doctor.seen import NAMED_MAX, Looked, short, shown_nodes
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.qos import DurabilityPolicy
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from studio.protocol.doctor import SubjectName
 
 SUBJECT: Final[SubjectName] = "rates"
-NEVER_HEARD_S: Final = 2.5
+_NEVER_HEARD_S: Final = 2.5
 """A sensor that is published has said something by then."""
 _SENSORS: Final = frozenset({"sensor_msgs"})
 _STREAMS: Final = frozenset(
@@ -42,7 +42,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
         yield from _of_topic(one, seen.system)
 
 
-def is_sensor(type_name: str) -> bool:
+def _is_sensor(type_name: str) -> bool:
     """Whether messages of a type come all the time."""
     is_stream = type_name.partition("/")[0] in _SENSORS or type_name in _STREAMS
     return is_stream and type_name not in _SELDOM
@@ -53,7 +53,7 @@ def _of_topic(topic: HeardTopic, system: System) -> Iterator[Finding]:
     if pace is None:
         return
     if topic.samples == 0:
-        if is_sensor(topic.type_name) and topic.listened_s >= NEVER_HEARD_S:
+        if _is_sensor(topic.type_name) and topic.listened_s >= _NEVER_HEARD_S:
             yield _silent(
                 topic,
                 system,
@@ -98,9 +98,9 @@ def _silent(topic: HeardTopic, system: System, sentence: str) -> Finding:
         line=f"ros2 topic hz {short(topic.topic)}",
         about=(Concern(kind="topic", name=topic.topic),),
         talk=Talk(
-            sources=tuple(dict.fromkeys(short(one.node.path) for one in senders))[:NAMED_MAX],
+            sources=shown_nodes(senders),
             name=short(topic.topic),
-            targets=tuple(dict.fromkeys(short(one.node.path) for one in receivers))[:NAMED_MAX],
+            targets=shown_nodes(receivers),
             meets=False,
         ),
     )

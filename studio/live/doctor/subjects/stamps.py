@@ -11,15 +11,15 @@ from studio.protocol.doctor import Concern, Finding
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.live.doctor.seen import Header, HeardClock, HeardTopic, Seen
+    from studio.live.doctor.seen import Header, HeardClock, HeardFrames, HeardTopic, Seen
     from studio.protocol.doctor import SubjectName
     from studio.tf.report import FrameReport
 
 SUBJECT: Final[SubjectName] = "stamps"
-AHEAD_NS: Final = 200_000_000
-OLD_NS: Final = 10_000_000_000
+_AHEAD_NS: Final = 200_000_000
+_OLD_NS: Final = 10_000_000_000
 """So far back reaches tf2's buffer: nothing older can be placed."""
-APART_NS: Final = 60_000_000_000
+_APART_NS: Final = 60_000_000_000
 """Simulated and wall time are apart by more than this, or it does not matter."""
 
 
@@ -38,7 +38,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
     for one in seen.heard.topics.values():
         if one.header is not None:
             yield from _of_data(one, one.header, seen.heard.clock)
-    yield from _of_frames(seen)
+    yield from _of_frames(seen.heard.frames, seen.heard.clock)
 
 
 def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Iterator[Finding]:
@@ -55,7 +55,7 @@ def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Ite
             header,
         )
         return
-    if clock is not None and abs(clock.now_ns - clock.received_ns) > APART_NS:
+    if clock is not None and abs(clock.now_ns - clock.received_ns) > _APART_NS:
         by_wall = abs(header.stamp_ns - header.sent_ns) < abs(header.stamp_ns - clock.now_ns)
         if by_wall:
             yield _found(
@@ -70,7 +70,7 @@ def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Ite
     else:
         # By the sender's own clock: that of its machine is another subject.
         ahead_ns = header.stamp_ns - header.sent_ns
-    if ahead_ns > AHEAD_NS:
+    if ahead_ns > _AHEAD_NS:
         yield _found(
             "stamp-future",
             topic,
@@ -78,7 +78,7 @@ def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Ite
             "known there yet, so it waits or is dropped.",
             header,
         )
-    elif ahead_ns < -OLD_NS:
+    elif ahead_ns < -_OLD_NS:
         yield _found(
             "stamp-past",
             topic,
@@ -88,12 +88,9 @@ def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Ite
         )
 
 
-def _of_frames(seen: Seen) -> Iterator[Finding]:
-    if seen.heard is None:
-        return
-    frames, clock = seen.heard.frames, seen.heard.clock
+def _of_frames(frames: HeardFrames, clock: HeardClock | None) -> Iterator[Finding]:
     now_ns = frames.now_ns
-    is_simulated = clock is not None and abs(clock.now_ns - clock.received_ns) > APART_NS
+    is_simulated = clock is not None and abs(clock.now_ns - clock.received_ns) > _APART_NS
     if is_simulated and clock is not None:
         now_ns = clock.now_ns + (frames.now_ns - clock.received_ns)
     moving = [
@@ -101,8 +98,8 @@ def _of_frames(seen: Seen) -> Iterator[Finding]:
         for one in frames.reports
         if one.parent is not None and not one.static and one.newest_ns > 0 and one.state != "stale"
     ]
-    ahead = [one for one in moving if one.newest_ns - now_ns > AHEAD_NS]
-    old = [one for one in moving if now_ns - one.newest_ns > OLD_NS]
+    ahead = [one for one in moving if one.newest_ns - now_ns > _AHEAD_NS]
+    old = [one for one in moving if now_ns - one.newest_ns > _OLD_NS]
     if ahead:
         yield _of_tf("tf-future", "in the future", ahead, now_ns)
     if old:

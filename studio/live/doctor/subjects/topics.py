@@ -6,12 +6,12 @@ from collections import defaultdict
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Final, Literal
 
-from studio.live.doctor.seen import NAMED_MAX, Looked, listed, short
+from studio.live.doctor.seen import Looked, listed, short, shown_nodes
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.names import is_hidden
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterator, Mapping
 
     from studio.live.doctor.seen import Ends, Seen, System
     from studio.protocol.doctor import SubjectName
@@ -116,9 +116,9 @@ def _perhaps_meant(waiting: str, there: str, wanting: Ends, offering: Ends) -> F
         line=f"ros2 run PACKAGE EXECUTABLE --ros-args -r {short(waiting)}:={short(there)}",
         about=(_topic(waiting), _topic(there)),
         talk=Talk(
-            sources=_paths(offering.senders),
+            sources=shown_nodes(offering.senders),
             name=f"{short(there)} ≠ {short(waiting)}",
-            targets=_paths(wanting.receivers),
+            targets=shown_nodes(wanting.receivers),
             meets=False,
         ),
     )
@@ -161,13 +161,9 @@ def _unheard(who: str, names: list[str], node: str) -> Finding:
 
 
 def _who(ends: tuple[GraphEndpoint, ...]) -> str:
-    paths = _paths(ends)
+    paths = shown_nodes(ends)
     more = len({one.node.path for one in ends}) - 1
     return f"{paths[0]} and {more} more" if more else paths[0]
-
-
-def _paths(ends: Iterable[GraphEndpoint]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(short(one.node.path) for one in ends))[:NAMED_MAX]
 
 
 def _topic(name: str) -> Concern:

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import StudioError
-from studio.live.doctor.seen import NAMED_MAX, Ends, Looked, Written, short
+from studio.live.doctor.seen import NAMED_MAX, Ends, Looked, Written, short, shown_nodes
 from studio.protocol.doctor import Concern, ConcernKind, Finding, Talk
 
 if TYPE_CHECKING:
@@ -127,8 +127,5 @@ def _evidence(ends: Iterable[GraphEndpoint]) -> tuple[str, ...]:
 
 
 def _talk(named: _Named) -> Talk:
-    def paths(some: tuple[GraphEndpoint, ...]) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(short(one.node.path) for one in some))[:NAMED_MAX]
-
-    sources, targets = paths(named.ends.senders), paths(named.ends.receivers)
+    sources, targets = shown_nodes(named.ends.senders), shown_nodes(named.ends.receivers)
     return Talk(sources=sources, name=short(named.name), targets=targets, meets=False)

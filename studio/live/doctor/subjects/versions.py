@@ -12,7 +12,7 @@ from studio.protocol.doctor import Concern, Finding
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.live.doctor.seen import Seen
+    from studio.live.doctor.seen import Answers, Seen
     from studio.protocol.doctor import SubjectName
 
 SUBJECT: Final[SubjectName] = "versions"
@@ -30,7 +30,7 @@ def looked_at(seen: Seen) -> Looked:
 def findings(seen: Seen) -> Iterator[Finding]:
     """Find versions that do not go together."""
     if seen.answers is not None:
-        yield from _of_zenoh(seen)
+        yield from _of_zenoh(seen.answers)
     for one in seen.heard.topics.values() if seen.heard else ():
         if one.not_understood:
             yield Finding(
@@ -46,9 +46,9 @@ def findings(seen: Seen) -> Iterator[Finding]:
             )
 
 
-def _of_zenoh(seen: Seen) -> Iterator[Finding]:
-    routers = sorted(set(seen.answers.routers.values())) if seen.answers else []
-    sessions = sorted(set(seen.answers.sessions.values())) if seen.answers else []
+def _of_zenoh(answers: Answers) -> Iterator[Finding]:
+    routers = sorted(set(answers.routers.values()))
+    sessions = sorted(set(answers.sessions.values()))
     majors = {one.partition(".")[0] for one in (*routers, *sessions)}
     if len(majors) > 1:
         yield Finding(
@@ -60,14 +60,13 @@ def _of_zenoh(seen: Seen) -> Iterator[Finding]:
                 "understand each other: use the rmw_zenoh of one distribution everywhere."
             ),
         )
-    elif len(set(routers)) > 1:
+    elif len(routers) > 1:
         yield Finding(
             code="router-versions",
             level="note",
             subject=SUBJECT,
             sentence=f"The routers have different versions of Zenoh: {listed(routers)}.",
             evidence=tuple(
-                f"{zid}: {version}"
-                for zid, version in list(seen.answers.routers.items() if seen.answers else ())[:8]
+                f"{zid}: {version}" for zid, version in list(answers.routers.items())[:8]
             ),
         )

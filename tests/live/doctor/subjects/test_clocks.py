@@ -6,6 +6,7 @@ import time
 
 import pytest
 
+from studio.live.topics.topic_rates import KEPT_S
 from studio.ros.attachment import packed
 from studio.ros.messages import message
 from studio.ros.tokens import DataKey
@@ -27,16 +28,24 @@ def test_a_clock_that_differs_is_found_in_both_directions(
     (end,) = node.graph.publishers(topic)
     key = str(DataKey(0, topic, end.type_name, end.type_hash))
     out = declare_publisher(node.wire.zenoh, key, blocking=False, reliable=True)
-    numbers = iter(range(1, 1_000_000))
+    numbers, off_by_s = iter(range(1, 1_000_000)), off_s
 
     def send() -> None:
-        sent_ns = time.time_ns() + int(off_s * 1e9)
+        sent_ns = time.time_ns() + int(off_by_s * 1e9)
         out.put(b"\0\1\0\0\1\0\0\0\0", attachment=packed(next(numbers), sent_ns, end.gid))
 
     found = patient.until(code, "/elsewhere", do=send)
-    out.undeclare()
     assert found.level == "error"
     assert "/elsewhere" in found.sentence
+    off_by_s = 0.0
+
+    def is_set() -> bool:
+        patient.later_s += KEPT_S - 1  # so that it goes on listening
+        send()
+        return code not in patient.codes("/elsewhere")
+
+    wait_until("a clock that was set is right again", is_set)
+    out.undeclare()
 
 
 def test_simulated_time_without_a_clock_is_an_error(patient: Patient):

@@ -9,6 +9,7 @@ import pytest
 
 from studio.live.doctor.examination import examine
 from studio.live.doctor.seen import SeenDocument
+from studio.live.topics.topic_rates import KEPT_S
 from studio.ros.qos import DurabilityPolicy, QoSProfile
 from tests.support.patient import SCAN, TF, Patient, stamped, transform
 from tests.support.wire import wait_until
@@ -98,6 +99,50 @@ def test_a_frame_with_two_parents_is_a_warning(patient: Patient):
             out.publish(transform(parent, "torn", time.time_ns()))
 
     patient.until("two-parents", "torn", do=send)
+
+
+def test_a_transform_that_comes_too_late_is_a_warning(patient: Patient):
+    outs = [patient.publisher(TF, "/tf", node=patient.node(name)) for name in ("prompt", "late")]
+
+    def send() -> None:
+        for out, late_s in zip(outs, (0, 60), strict=True):
+            out.publish(transform("l_odom", "l_base", time.time_ns() - late_s * 10**9))
+
+    found = patient.until("tf-too-old", "l_base", do=send)
+    assert (found.level, found.about[0].name) == ("warn", "l_base")
+    assert set(found.evidence) == {"from /late: l_base in l_odom"}
+
+
+def test_a_time_that_begins_again_is_a_note(patient: Patient):
+    out = patient.publisher(TF, "/tf")
+
+    def send() -> None:
+        for ago_s in (0, 60):
+            out.publish(transform("j_odom", "j_base", time.time_ns() - ago_s * 10**9))
+
+    found = patient.until("time-jumped", "j_base", do=send)
+    assert (found.level, found.about[0].name) == ("note", "j_base")
+    assert "went back by" in found.sentence
+
+
+def test_a_frame_that_its_own_publisher_hangs_elsewhere_is_a_note(patient: Patient):
+    out = patient.publisher(TF, "/tf")
+
+    def send() -> None:
+        for parent in ("m_table", "m_gripper"):
+            out.publish(transform(parent, "m_cup", time.time_ns()))
+
+    found = patient.until("frame-moved", "m_cup", do=send)
+    assert (found.level, found.about[0].name) == ("note", "m_cup")
+    assert "m_table" in found.sentence
+    assert "m_gripper" in found.sentence
+
+    def is_over() -> bool:
+        patient.later_s += KEPT_S - 1  # so that it goes on listening
+        return "frame-moved" not in patient.codes("m_cup")
+
+    wait_until("what is long ago is not found any more", is_over)
+    assert patient.later_s > 50  # and was so until then
 
 
 def test_trees_that_nothing_connects_are_a_warning(patient: Patient):

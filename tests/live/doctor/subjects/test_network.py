@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from studio.live.doctor.asking import look_here
 from studio.live.doctor.examination import examine
-from studio.live.doctor.here import look_here
 from studio.live.doctor.seen import Here, Interface, Seen
-from studio.live.doctor.subjects.network import NAMES, findings
+from studio.live.doctor.subjects.network import findings
 from studio.protocol.connection import WireReport
 
 LOOP = Interface("lo", is_up=True, is_loopback=True, has_multicast=False)
@@ -51,7 +51,7 @@ def test_variables_that_start_other_nodes_than_meant_are_found():
 
 
 def test_this_machine_is_looked_at_without_any_address_of_it():
-    here = look_here(NAMES, {"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp", "HOME": "/home/anna"})
+    here = look_here({"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp", "HOME": "/home/anna"})
     assert here.variables == {"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp"}
     assert here.interfaces
     seen = examine(Seen(here=here))
