@@ -194,6 +194,8 @@ def test_a_plan_for_another_robot_is_drawn_and_said():
     assert display.draw(BEGIN_NS)
     assert said(display) == [("warn", "other_robot")]
     display.take(planned({**plan, "model_id": "arm"}))
+    assert said(display) == [("warn", "other_robot")], "the plan that waits is not shown yet"
+    assert display.draw(BEGIN_NS + 100 * S)
     assert not display.statuses()
 
 
@@ -210,5 +212,3 @@ def test_a_robot_that_flies_is_where_the_plan_has_its_root():
     assert placed.frame == "world"
     assert placed.offset is not None
     assert_allclose(placed.offset[1], (0.5, 0.0, 2.0))
-    display.take(planned({**plan, "model_id": "arm"}))
-    assert said(display) == [("warn", "other_robot")], "the plan that is waiting is not shown yet"

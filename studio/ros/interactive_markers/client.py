@@ -42,7 +42,7 @@ _BYTES_MAX: Final = 32 << 20
 """Limit of the answer, of one update, and of all that wait."""
 _NO_NUMBER: Final = -1
 _PATIENCE_MAX_S: Final = 60.0
-"""A large answer takes its time on a slow network; it would never come if it were given up early."""
+"""A large answer takes its time on a slow network: given up early, it would never come."""
 _PAUSE_S: Final = 0.2
 """Between a failure and the next request."""
 

@@ -16,6 +16,7 @@ from studio.ros.interactive_markers import (
 )
 from studio.ros.interactive_markers.names import FeedbackEvent
 from studio.ros.node.task import Future
+from studio.ros.node.work import ReentrantCallbackGroup
 from tests.support.interactive_markers import feedback_of, moving_marker, pose_at
 from tests.support.node_pair import node_pair, spin_until
 
@@ -263,7 +264,9 @@ def test_a_server_that_takes_longer_than_the_timeout_is_waited_for(nodes: tuple[
         return response
 
     kind = server.wire.types.service(_SERVICE[1])
-    service = server.create_service(kind, "/slow/get_interactive_markers", slowly)
+    service = server.create_service(
+        kind, "/slow/get_interactive_markers", slowly, callback_group=ReentrantCallbackGroup()
+    )
     client = InteractiveMarkerClient(other, request_timeout_s=0.1)
     client.connect("/slow")
 
