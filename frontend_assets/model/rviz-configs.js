@@ -7,13 +7,14 @@
 /** @import { MenuItem } from "../lib/ui.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { computed, signal } from "vendor/preact.js";
+import { computed, effect, signal } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
 import { ask } from "./requests.js";
 import { dialog, notify } from "./view.js";
+import { viewport } from "./viewport.js";
 import { currentView, useView } from "./views.js";
 import { subscribe } from "./wire.js";
 
@@ -34,9 +35,27 @@ export const configName = computed(() => {
   return name && `${name}${changed ? " •" : ""}`;
 });
 
+let isFirst = true;
 subscribe("rviz_config_state", (event) => {
   rvizConfig.value = event;
+  // What somebody opens later moves no one else's camera.
+  if (isFirst && event.name) void begin();
+  isFirst = false;
 });
+
+/** The page begins with the view of the file that is open. */
+async function begin() {
+  const answer = await ask({ type: "get_rviz_view" });
+  if (answer?.type !== "rviz_view") return;
+  const { view, page } = answer;
+  if (page) pagePart.take(page);
+  if (!view) return;
+  const end = effect(() => {
+    if (!viewport.value) return;
+    viewport.value.useView(view, false);
+    queueMicrotask(() => end());
+  });
+}
 
 export const RVIZ = ".rviz";
 export const STUDIO = ".studio.yaml";

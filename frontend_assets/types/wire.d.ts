@@ -1368,6 +1368,14 @@ export interface GetRvizText {
   rviz2?: boolean;
 }
 
+/** Ask with what the `.rviz` file has a page begin. */
+export interface GetRvizView {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_rviz_view";
+}
+
 /** Ask for the time now; /clock is subscribed for some seconds after. */
 export interface GetSceneTime {
   request?: number;
@@ -3038,6 +3046,14 @@ export interface RvizText {
   text: string;
 }
 
+/** Answer: what was in use when the file was saved. */
+export interface RvizView {
+  type: "rviz_view";
+  request: number;
+  view: ViewValues | null;
+  page: string;
+}
+
 /** Write the edited bytes of these changed files of the document, or of all. */
 export interface Save {
   request?: number;
@@ -4069,6 +4085,7 @@ export type Command =
   | GetReferences
   | GetRenaming
   | GetRvizText
+  | GetRvizView
   | GetSceneTime
   | GetServices
   | GetText
@@ -4269,6 +4286,7 @@ export type Event =
   | RvizFileSaved
   | RvizFiles
   | RvizText
+  | RvizView
   | Saved
   | SavedViews
   | SceneTime

@@ -70,6 +70,23 @@ class RvizConfigOpened(Event):
     page: PageText
 
 
+class GetRvizView(Command):
+    """Ask with what the `.rviz` file has a page begin."""
+
+    type: Literal["get_rviz_view"] = "get_rviz_view"
+
+
+class RvizView(Event):
+    """Answer: what was in use when the file was saved."""
+
+    type: Literal["rviz_view"] = "rviz_view"
+    request: int
+    view: ViewValues | None
+    """None: it has none that there is here."""
+    page: PageText
+    """Only for the first page of a presenter after the command line named the file."""
+
+
 class GetRvizText(Command):
     """Ask for the text of an `.rviz` file with all that is shown."""
 

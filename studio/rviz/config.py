@@ -134,6 +134,11 @@ def read_config(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
     return config, _united((*reader.losses, *others))
 
 
+def current_view(tree: Entry) -> ViewSpec | None:
+    """Return the view of a file that was in use; None: none that there is here."""
+    return read_current(entry_at(tree, _MANAGER, "Views", "Current"))[0]
+
+
 def is_of_rviz1(config: RvizConfig) -> bool:
     """Whether a file names classes as RViz 1 does, which RViz2 does not know."""
     entries = [*config.groups.values(), *(one.entry for one in config.displays)]

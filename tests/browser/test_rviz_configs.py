@@ -37,6 +37,7 @@ RUN = """async (id) => {
 BEHIND = """() => getComputedStyle(
   document.querySelector("iframe").contentDocument.documentElement,
 ).getPropertyValue("--view-mid").trim()"""
+VIEW = "() => document.querySelector('iframe').contentWindow.studio3d?.getView().kind"
 PLOTS = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   return (await import(new URL("../model/plotting.js", script))).series.value.length;
@@ -116,8 +117,9 @@ def open_another_and_go_back(page: Page) -> None:
 
 
 def begin_with_the_view_alone(page: Page) -> None:
-    """As the address says that `--fullscreen` opens; it is said once."""
+    """As the address says that `--fullscreen` opens; it is said once. The view is the file's."""
     page.evaluate("location.assign('/?fullscreen=1')")
     page.get_by_role("button", name="Leave full screen").click()
+    wait_until("a map", lambda: page.evaluate(VIEW) == "TopDownOrtho")
     page.locator(".top-bar").wait_for()
     assert "fullscreen" not in page.url

@@ -42,7 +42,7 @@ VIEWER_COMMANDS = {
     ),
     *("list_topics", "get_topic_ends"),
     *("set_name", "follow"),
-    "get_rviz_text",
+    *("get_rviz_text", "get_rviz_view"),
 }
 """What everybody may who sees the page."""
 STUDENT_COMMANDS = {

@@ -26,6 +26,7 @@ from studio.protocol.rviz_configs import (
     CloseRvizConfig,
     ForgetRvizFile,
     GetRvizText,
+    GetRvizView,
     ListRvizFiles,
     LossView,
     OpenRvizFile,
@@ -36,6 +37,7 @@ from studio.protocol.rviz_configs import (
     RvizFiles,
     RvizFileSaved,
     RvizText,
+    RvizView,
     SaveRvizFile,
     SetViewOptions,
     UndoRvizConfig,
@@ -52,6 +54,7 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Audience, Listener
     from studio.rviz.config import RvizConfig
     from studio.rviz.config_displays import ConfigDisplay, Loss
+    from studio.rviz.views import ViewSpec
 
 _RECENT: Final = "recent_rviz.json"
 _QUIET_S: Final = 0.3
@@ -105,14 +108,17 @@ class RvizConfigs:
         self._state = LastSent[RvizConfigState](audience)
         self._before: KeptDisplays | None = None
         self._after: KeptDisplays | None = None
+        self._page = ""
         self._checking = Debouncer(self._check, _QUIET_S)
         displays.on_change = self._checking.trigger
 
     def events(self) -> Iterable[Event]:
         """Yield the events for a new page."""
-        none = RvizConfigState(name="", path="", changed=False, rviz1=False, undo=False)
-        yield self._state.event or none
-        if self._state.event is None and self._displays.kept.config is not None:
+        config = self._displays.kept.config
+        name, path = ("", "") if config is None else (config.name, config.path)
+        unchecked = RvizConfigState(name=name, path=path, changed=False, rviz1=False, undo=False)
+        yield self._state.event or unchecked
+        if self._state.event is None and config is not None:
             self._checking.trigger()
 
     async def open_path(self, path: Path) -> RvizConfigOpened:
@@ -128,7 +134,9 @@ class RvizConfigs:
             except (OSError, UnicodeDecodeError) as error:
                 raise RvizConfigError(str(error), name=str(path)) from error
 
-        return await self._open(await asyncio.to_thread(text), path.name, str(path))
+        opened = await self._open(await asyncio.to_thread(text), path.name, str(path))
+        self._page = opened.page
+        return opened
 
     async def open_file(self, command: OpenRvizFile, who: Listener) -> RvizConfigOpened:
         """Show a file below the folders that may be read.
@@ -154,6 +162,15 @@ class RvizConfigs:
             RvizConfigError: It is no such file.
         """
         return await self._open(command.text, command.name, "", command.request)
+
+    async def view(self, command: GetRvizView, who: Listener) -> RvizView:
+        """Return the view of the file, and what it says of the page to the first of the owner."""
+        page = ""
+        if who.role.includes(Role.PRESENTER):
+            page, self._page = self._page, ""
+        config = self._displays.kept.config
+        view = config and await asyncio.to_thread(_view_of, config.rest)
+        return RvizView(request=command.request, view=view, page=page)
 
     async def text(self, command: GetRvizText) -> RvizText:
         """Return the text of a file with all that is shown."""
@@ -337,6 +354,7 @@ COMMANDS.controller(
     limits=_RATE,
     on_copies=OnCopies.REFUSED,
 )
+COMMANDS.viewer(GetRvizView, lambda configs, c, who: configs.view(c, who), limits=_RATE)
 COMMANDS.viewer(GetRvizText, lambda configs, c, _: configs.text(c), limits=_RATE)
 COMMANDS.presenter(SaveRvizFile, lambda configs, c, _: configs.save(c))
 COMMANDS.controller(
@@ -352,6 +370,16 @@ def _read_text(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
     from studio.rviz.config import read_config  # noqa: PLC0415 - imports all displays
 
     return read_config(text)
+
+
+def _view_of(rest: dict[str, Any]) -> ViewValues | None:
+    from studio.rviz.config import current_view  # noqa: PLC0415 - imports all displays
+
+    return _view_values(current_view(rest))
+
+
+def _view_values(view: ViewSpec | None) -> ViewValues | None:
+    return view and ViewValues(kind=view.kind, name=view.name, values=dict(view.values))
 
 
 def _is_of_rviz1(kept: KeptDisplays) -> bool:
@@ -453,7 +481,6 @@ def _opened(
     from studio.rviz.config_page import PAGE, page_text  # noqa: PLC0415 - imports all displays
     from studio.rviz.config_values import entry_at  # noqa: PLC0415
 
-    view = config.view
     return RvizConfigOpened(
         request=request,
         name=name,
@@ -461,7 +488,7 @@ def _opened(
         tools=len(config.tools),
         views=len(config.views),
         losses=tuple(LossView(reason=one.reason, what=one.what, names=one.names) for one in losses),
-        view=view and ViewValues(kind=view.kind, name=view.name, values=dict(view.values)),
+        view=_view_values(config.view),
         page=page_text(entry_at(config.rest, PAGE)),
     )
 

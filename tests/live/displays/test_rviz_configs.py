@@ -26,6 +26,7 @@ from studio.protocol.roles import Role
 from studio.protocol.rviz_configs import (
     CloseRvizConfig,
     GetRvizText,
+    GetRvizView,
     ListRvizFiles,
     OpenRvizFile,
     OpenRvizText,
@@ -381,3 +382,38 @@ def test_a_robot_outside_the_folders_is_not_read_though_a_config_file_names_it(t
             assert "secret_link" not in str(one.ear.events)
 
     with_arm(folder, work)
+
+
+def test_a_page_begins_as_the_file_of_the_command_line_says(tmp_path: Path):
+    """With its view; the first page of the owner with its panels, too."""
+    file = tmp_path / "lab.studio.yaml"
+    file.write_text(f"{FILE}Studio:\n  Version: 1\n  Plot span: 30\n")
+    orbit = {"kind": "Orbit", "name": "Current View", "values": {"Distance": 3.0}}
+
+    async def work(one: Opened) -> None:
+        await one.document.configs.open_path(file)
+        viewer = Ear(Role.STUDENT)
+        for ear, page in ((viewer, ""), (one.ear, "Plot span"), (one.ear, "")):
+            await one.do(GetRvizView(), ear)
+            told = ear.last("rviz_view")
+            assert told["view"] == orbit
+            assert page in told["page"]
+            assert bool(told["page"]) == bool(page)
+        await one.do(CloseRvizConfig())
+        await one.do(GetRvizView())
+        assert one.ear.last("rviz_view")["view"] is None
+
+    with_arm(tmp_path, work)
+
+
+def test_the_file_is_named_at_once_when_the_robot_is_opened_again(tmp_path: Path):
+    async def first(one: Opened) -> None:
+        await one.do(OpenRvizText(name="arm.rviz", text=FILE))
+
+    async def again(one: Opened) -> None:
+        kind = "rviz_config_state"
+        first = next(event for event in one.ear.events if event["type"] == kind)
+        assert first["name"] == "arm.rviz"
+
+    with_arm(tmp_path, first)
+    with_arm(tmp_path, again)
