@@ -1,5 +1,6 @@
 /** @import { Door } from "./door.js" */
-/** @import { Camera, Material, Message, Object3D, Renderer } from "./viser.d.ts" */
+/** @import { Live } from "./live.js" */
+/** @import { Camera, Message, Object3D, Renderer } from "./viser.d.ts" */
 
 const ROOT = "/live/";
 const FRUSTUM = "CameraFrustumMessage";
@@ -69,6 +70,7 @@ class Shown {
  */
 export class CameraPictures {
   #door;
+  #live;
   /** By display. @type {Map<string, Shown>} */
   #shown = new Map();
   /** @type {Map<Sight, boolean>} whether something changed since it was drawn */
@@ -80,9 +82,10 @@ export class CameraPictures {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #later;
 
-  /** @param {Door} door */
-  constructor(door) {
+  /** @param {Door} door @param {Pick<Live, "faceEye">} live */
+  constructor(door, live) {
     this.#door = door;
+    this.#live = live;
     door.onMessage((message) => this.#read(message));
     door.onPicture((renderer) => this.#drawAll(renderer));
   }
@@ -222,7 +225,9 @@ export class CameraPictures {
     const camera = /** @type {Camera} */ (eye.clone(false));
     aim(camera, view, frame);
     project(camera, view, picture, canvas, renderer.capabilities.reversedDepthBuffer);
-    const restore = this.#prepare(view, (camera.projectionMatrix.elements[5] ?? 1) * height, whole, eye);
+    const size = { focal: camera.projectionMatrix.elements[5] ?? 1, height };
+    const restore = this.#prepare(view, size, whole, scene, eye);
+    const turnBack = this.#live.faceEye(camera, canvas.height / ratio);
     const { onBeforeRender, onAfterRender } = scene;
     const before = { x: 0, y: 0, z: 0, w: 0 };
     renderer.getViewport({
@@ -240,31 +245,43 @@ export class CameraPictures {
       Object.assign(scene, { onBeforeRender, onAfterRender });
       renderer.shadowMap.autoUpdate = shadows;
       renderer.setViewport(before.x, before.y, before.z, before.w);
+      turnBack();
       restore();
     }
   }
 
   /**
-   * Hide what is not to be seen, and have points as large as this lens shows them.
-   * @param {CameraView} view @param {number} focal_px of this view, twice @param {HTMLCanvasElement} whole @param {Camera} eye
+   * Hide what is not to be seen, and have points and names as large as this lens shows them.
+   * @param {CameraView} view @param {{ focal: number, height: number }} size of this view: element 5 of its projection, and px
+   * @param {HTMLCanvasElement} whole @param {Object3D} scene @param {Camera} eye
    */
-  #prepare(view, focal_px, whole, eye) {
+  #prepare(view, { focal, height }, whole, scene, eye) {
     const names = view.hidden.map((one) => (one === "robot" || one === "grid" ? `/${one}` : `${ROOT}${one}`));
     const hidden = [...names, ...this.#frustums]
       .map((name) => this.#door.node(name))
       .filter((node) => node?.visible);
     for (const node of hidden) if (node) node.visible = false;
     // By its angle: a view without perspective has another matrix.
-    const factor = (focal_px * Math.tan((eye.fov * Math.PI) / 360)) / whole.height;
-    /** @type {Material[]} */
-    const points = [];
-    this.#door.node("/live")?.traverse(({ isPoints, material }) => {
-      if (isPoints && material && !Array.isArray(material) && material.uniforms.scale) points.push(material);
+    const factor = (focal * height * Math.tan((eye.fov * Math.PI) / 360)) / whole.height;
+    /** As they were; those of names are shared. @type {Map<{ value: unknown }, unknown>} */
+    const before = new Map();
+    /** @param {{ value: unknown } | undefined} uniform @param {(value: number) => number} changed */
+    const change = (uniform, changed) => {
+      if (!uniform || before.has(uniform)) return;
+      before.set(uniform, uniform.value);
+      uniform.value = changed(Number(uniform.value));
+    };
+    scene.traverse(({ isPoints, material }) => {
+      const uniforms = Array.isArray(material) ? null : material?.uniforms;
+      if (!uniforms) return;
+      if (isPoints) change(uniforms.scale, (scale) => scale * factor);
+      change(uniforms.uFovScale, () => 1 / focal);
+      change(uniforms.uIsOrtho, () => 0);
+      change(uniforms.uViewportHeight, (all) => (all * height) / whole.height);
     });
-    for (const one of points) scalePoints(one, factor);
     return () => {
       for (const node of hidden) if (node) node.visible = true;
-      for (const one of points) scalePoints(one, 1 / factor);
+      for (const [uniform, value] of before) uniform.value = value;
     };
   }
 }
@@ -278,12 +295,6 @@ async function pictureOf(jpeg) {
   } catch {
     return null;
   }
-}
-
-/** @param {Material} material @param {number} factor */
-function scalePoints({ uniforms }, factor) {
-  const scale = /** @type {{ value: number }} */ (uniforms.scale);
-  scale.value *= factor;
 }
 
 /** @param {string} name of a node @returns {string} the display that it belongs to */

@@ -107,11 +107,11 @@ export class Live {
   }
 
   #finishAll() {
-    const camera = this.#door.mutable?.camera;
+    const { camera, height } = this.#eye();
     for (const [name, look] of this.#looks) {
       const node = this.#door.node(name);
       if (!node) continue;
-      if (look.words && camera) this.#turnToEye(node, camera, look.words);
+      if (look.words && camera) this.#turnToEye(node, camera, look.words, height);
       node.traverse((object) => {
         for (const material of [object.material ?? []].flat()) this.#finish(object, material, look);
       });
@@ -170,14 +170,38 @@ export class Live {
     material.depthWrite = made.depthWrite && opacity >= 1 && !behind && !words;
   }
 
-  /** @param {Object3D} node @param {Camera} camera @param {"screen" | "scene"} size */
-  #turnToEye(node, camera, size) {
+  #eye() {
+    const { camera, canvas } = this.#door.mutable ?? {};
+    return { camera, height: canvas?.clientHeight ?? 1 };
+  }
+
+  /**
+   * Have words face another eye.
+   * @param {Camera} camera @param {number} height of its picture, px of the page
+   * @returns {() => void} back to that of the person
+   */
+  faceEye(camera, height) {
+    this.#turnWords(camera, height);
+    const eye = this.#eye();
+    return () => eye.camera && this.#turnWords(eye.camera, eye.height);
+  }
+
+  /** @param {Camera} camera @param {number} height */
+  #turnWords(camera, height) {
+    for (const [name, { words }] of this.#looks) {
+      const node = words && this.#door.node(name);
+      if (node) this.#turnToEye(node, camera, words, height);
+    }
+  }
+
+  /** @param {Object3D} node @param {Camera} camera @param {"screen" | "scene"} size @param {number} height */
+  #turnToEye(node, camera, size, height) {
     const eye = camera.getWorldQuaternion(node.quaternion.clone());
     const parent = node.parent?.getWorldQuaternion(node.quaternion.clone()) ?? eye.clone();
     // A picture of viser's lies on its face: half a turn about x.
     const half = node.quaternion.clone().set(1, 0, 0, 0);
     node.quaternion.copy(parent.invert()).multiply(eye).multiply(half);
-    if (size === "screen") node.scale.set(1, 1, 1).multiplyScalar(this.#pixel_m(node, camera));
+    if (size === "screen") node.scale.set(1, 1, 1).multiplyScalar(pixelOf(node, camera, height));
     node.updateMatrix();
     node.updateWorldMatrix(false, true);
   }
@@ -187,13 +211,12 @@ export class Live {
     const canvas = this.#door.mutable?.canvas;
     return canvas?.clientWidth ? canvas.width / canvas.clientWidth : 1;
   }
+}
 
-  /** How large a pixel is at a node. @param {Object3D} node @param {Camera} camera */
-  #pixel_m(node, camera) {
-    const height = this.#door.mutable?.canvas?.clientHeight ?? 1;
-    const place = node.position.clone().setFromMatrixPosition(node.matrixWorld);
-    return pixelAt(camera, Math.max(depthOf(camera, place), camera.near), height);
-  }
+/** How large a pixel is at a node, m. @param {Object3D} node @param {Camera} camera @param {number} height of the picture, px */
+function pixelOf(node, camera, height) {
+  const place = node.position.clone().setFromMatrixPosition(node.matrixWorld);
+  return pixelAt(camera, Math.max(depthOf(camera, place), camera.near), height);
 }
 
 /** As viser makes it. @type {Readonly<Look>} */

@@ -56,7 +56,8 @@ class Studio3d {
   #light = new Light(this.#door);
   #still = new Still(this.#door);
   #picture = new Picture(this.#door);
-  #cameras = new CameraPictures(this.#door);
+  /** @type {CameraPictures} */
+  #cameras;
   #theme = new Theme(this.#door, () => this.#camera.distance());
   #looks = new Looks(this.#door, this.#robot, this.#theme);
   #marks = new Marks(this.#door, this.#robot);
@@ -117,7 +118,7 @@ class Studio3d {
     /** Settles when the scene can be drawn. @type {Promise<void>} */
     this.ready = this.#door.ready.then(() => undefined);
     this.#interact.handles.push(this.#markers);
-    new Live(this.#door);
+    this.#cameras = new CameraPictures(this.#door, new Live(this.#door));
     new Removed(this.#door);
     this.#door.onConnection((connected) => this.#tell("connection", { connected }));
     forwardKeys(

@@ -109,7 +109,10 @@ function doorWith() {
     },
     node: () => undefined,
   };
-  return { cameras: new CameraPictures(/** @type {any} */ (door)), hooks };
+  return {
+    cameras: new CameraPictures(/** @type {any} */ (door), { faceEye: () => () => undefined }),
+    hooks,
+  };
 }
 
 /** A canvas that counts how often it is emptied. */

@@ -97,12 +97,12 @@ class DisplayCommands:
         return self._tab.page.evaluate(script)
 
 
-def take(tab: StudioPage, folder: Path, name: str) -> None:
-    """The page with a display, in both themes."""
+def take(tab: StudioPage, folder: Path, name: str, *, moves: bool = False) -> None:
+    """The page with a display, in both themes; one that moves never stands still."""
     tab.page.evaluate(_LOOK, _EYE)
     for theme in THEMES:
         tab.page.emulate_media(color_scheme=theme, reduced_motion="reduce")
-        tab.settle()
+        tab.picture() if moves else tab.settle()
         tab.page.screenshot(path=folder / f"{name}-{theme}.png")
 
 
@@ -127,7 +127,7 @@ def take_all(browser: Browser, folder: Path) -> None:
         for one in samples:
             for level, sentence in commands.show(one):
                 sys.stdout.write(f"{one.name}: {level}: {sentence}\n")
-            take(tab, folder, one.name)
+            take(tab, folder, one.name, moves=one.kind.endswith("Trajectory"))
             commands.clear()
 
 
