@@ -10,13 +10,20 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.ros.cdr import codec_of
 from studio.ros.client import Context, Node
-from studio.ros.interactive_markers import InteractiveMarkerServer
+from studio.ros.interactive_markers import (
+    ClientState,
+    InteractiveMarkerClient,
+    InteractiveMarkerServer,
+)
+from studio.ros.interactive_markers.names import FEEDBACK, UPDATE, FeedbackEvent
 from studio.ros.messages import message
 from studio.ros.node.samples import BLINK_NS
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import gid_of
 from tests.support.demos import heard, node_at, spun
+from tests.support.interactive_markers import feedback_of, moving_marker
 from tests.support.ros2_peer import RealNode, RealNodes, real_node, real_nodes
 from tests.support.wire import open_test_session, wait_until
 
@@ -286,8 +293,50 @@ def test_each_sees_the_ends_of_the_other_with_qos_hash_and_gid(real: RealNodes, 
     assert found.name == "/seen_here"
 
 
+def test_real_ros_receives_what_is_done_to_interactive_markers(real: RealNodes, node: Node):
+    """Its rclpy has no visualization_msgs here: it receives the bytes, which are decoded here."""
+    types = node.wire.types
+    for topic, kind in (("/arm/update", UPDATE), ("/arm/feedback", FEEDBACK)):
+        real.ask("hear_raw", topic=topic, type_name=kind, type_hash=types.hash_of(kind))
+    told: list[Any] = []
+    with InteractiveMarkerServer(node, "/arm") as server:
+        wait_until("it is seen", lambda: len(real.ask("ends", topic="/arm/update")) == 1)
+        for name in ("elbow", "wrist"):
+            server.insert(moving_marker(types, name), feedback_callback=told.append)
+        server.apply_changes()
+        client = InteractiveMarkerClient(node)
+        client.connect("/arm")
+
+        def is_running() -> bool:
+            client.update()
+            return client.state is ClientState.RUNNING
+
+        wait_until("the client has the marker", is_running)
+        client.publish_feedback(feedback_of(types, "elbow", FeedbackEvent.POSE_UPDATE, (1, 2, 3)))
+        update, feedback = (
+            codec_of(types.message(kind)).decode(
+                bytes.fromhex(real.wait_said("raw", topic=topic)["payload"])
+            )
+            for topic, kind in (("/arm/update", UPDATE), ("/arm/feedback", FEEDBACK))
+        )
+        client.disconnect()
+        wait_until("the server has it, too", lambda: len(told) == 1)
+        theirs = feedback_of(types, "wrist", FeedbackEvent.BUTTON_CLICK)
+        real.ask(
+            "publish_raw",
+            topic="/arm/feedback",
+            type_name=FEEDBACK,
+            type_hash=types.hash_of(FEEDBACK),
+            payload=codec_of(types.message(FEEDBACK)).encode(theirs).hex(),
+        )
+        wait_until("the server has theirs", lambda: len(told) == 2)
+    assert told[1].event_type == FeedbackEvent.BUTTON_CLICK
+    assert [one.name for one in update.markers] == ["elbow", "wrist"]
+    assert (feedback.marker_name, feedback.event_type) == ("elbow", 1)
+    assert feedback.pose.position.z == 3
+
+
 def test_real_ros_sees_a_server_of_interactive_markers_as_its_own_are(real: RealNodes, node: Node):
-    """It has no visualization_msgs here, so that it cannot read what is published."""
     with InteractiveMarkerServer(node, "/handles"):
         wait_until("it is seen", lambda: len(real.ask("ends", topic="/handles/update")) == 1)
         graph = real.ask("graph")

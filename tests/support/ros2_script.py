@@ -9,6 +9,7 @@ for everything that it hears and does: `{"what": "done", "id": 3, "answer": ...}
 
 from __future__ import annotations
 
+import ctypes
 import json
 import os
 import sys
@@ -59,6 +60,73 @@ def wait(future):
     if not there.wait(PATIENCE_S):
         raise TimeoutError(future)
     return future.result()
+
+
+class TypeSupport(ctypes.Structure):
+    """`rosidl_message_type_support_t`."""
+
+    _fields_ = (
+        ("identifier", ctypes.c_char_p),
+        ("data", ctypes.c_void_p),
+        ("of", ctypes.c_void_p),
+        ("hash_of", ctypes.c_void_p),
+        ("description_of", ctypes.c_void_p),
+        ("sources_of", ctypes.c_void_p),
+    )
+
+
+class Callbacks(ctypes.Structure):
+    """`message_type_support_callbacks_t`: names, and functions that stay as they are."""
+
+    _fields_ = (
+        ("namespace", ctypes.c_char_p),
+        ("name", ctypes.c_char_p),
+        ("functions", ctypes.c_void_p * 8),
+    )
+
+
+def unread_type(type_name, type_hash):
+    """A message class that is not built here: the bytes of its messages can be received.
+
+    It is the class String under another name and hash. Of these the middleware makes its keys; what
+    is in a message only matters to those who read or write one.
+    """
+    find = ctypes.pythonapi.PyCapsule_GetPointer
+    find.restype, find.argtypes = ctypes.c_void_p, (ctypes.py_object, ctypes.c_char_p)
+    name_of = ctypes.pythonapi.PyCapsule_GetName
+    name_of.restype, name_of.argtypes = ctypes.c_char_p, (ctypes.py_object,)
+    make = ctypes.pythonapi.PyCapsule_New
+    make.restype = ctypes.py_object
+    make.argtypes = (ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p)
+    lookup = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p)
+    hashing = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p)
+
+    String.__class__.__import_type_support__()
+    capsule = String.__class__._TYPE_SUPPORT
+    capsule_name = name_of(capsule)
+    outer = TypeSupport.from_address(find(capsule, capsule_name))
+    wanted = b"rosidl_typesupport_fastrtps_c"
+    inner = TypeSupport.from_address(lookup(outer.of)(ctypes.addressof(outer), wanted))
+    package, kind, name = (part.encode() for part in type_name.split("/"))
+    callbacks = Callbacks.from_buffer_copy(Callbacks.from_address(inner.data))
+    callbacks.namespace, callbacks.name = package + b"::" + kind, name
+    made = TypeSupport.from_buffer_copy(inner)
+    digest = bytes.fromhex(type_hash.removeprefix("RIHS01_"))
+    hashed = ctypes.create_string_buffer(b"\x01" + digest, 33)
+    functions = (
+        lookup(lambda _, which: ctypes.addressof(made) if which == wanted else None),
+        hashing(lambda _: ctypes.addressof(hashed)),
+    )
+    made.data = ctypes.addressof(callbacks)
+    made.of, made.hash_of = (ctypes.cast(one, ctypes.c_void_p).value for one in functions)
+    KEPT.extend((made, callbacks, hashed, *functions))
+    held = make(ctypes.addressof(made), capsule_name, None)
+    kind_of_class = type("UnreadType", (String.__class__,), {"_TYPE_SUPPORT": held})
+    return kind_of_class(name.decode(), (String,), {})
+
+
+KEPT = []
+"""What C points to."""
 
 
 class Managed(LifecycleNode):
@@ -118,6 +186,24 @@ class Process:
                 sequence=info["publication_sequence_number"])  # fmt: skip
 
         self.kept.append(self.node.create_subscription(String, topic, hear, qos_of(qos)))
+
+    def hear_raw(self, topic, type_name, type_hash):
+        """Receive the bytes of a type that is not built here."""
+
+        def hear(payload):
+            say("raw", topic=topic, payload=payload.hex())
+
+        kind = unread_type(type_name, type_hash)
+        self.kept.append(self.node.create_subscription(kind, topic, hear, 10, raw=True))
+
+    def publish_raw(self, topic, type_name, type_hash, payload):
+        """Publish the bytes of a type that is not built here, once somebody subscribes to it."""
+        publisher = self.node.create_publisher(unread_type(type_name, type_hash), topic, 10)
+        self.kept.append(publisher)
+        end_s = time.monotonic() + PATIENCE_S
+        while not publisher.get_subscription_count() and time.monotonic() < end_s:
+            time.sleep(0.05)
+        publisher.publish(bytes.fromhex(payload))
 
     def publish(self, topic, qos, data, readers=0):
         """Publish texts, once so many subscriptions are there."""
