@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
+import signal
 import subprocess
 import tempfile
 import urllib.request
@@ -71,7 +73,9 @@ def bare_page(url: str, width: int, height: int) -> Generator[BarePage]:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         words = [str(ensure_chromium()), *FLAGS, f"--user-data-dir={profile}"]
         words += ["--remote-debugging-port=0", f"--window-size={width},{height}", url]
-        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        )
         try:
             with connect(_address(Path(profile)), max_size=None, proxy=None) as devtools:
                 yield BarePage(devtools, process.pid)
@@ -94,11 +98,13 @@ def _address(profile: Path) -> str:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    process.terminate()
+    """End the browser and all that it started: Debian's command is a shell that waits for it."""
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGTERM)
     with suppress(subprocess.TimeoutExpired):
         process.wait(_ENDS_WITHIN_S)
-        return
-    process.kill()
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
     process.wait()
 
 
