@@ -190,12 +190,13 @@ const STEPS = [[], ["close-tabs"], ["close-tabs", "bare-tabs"]];
  */
 export function keepTabsWhole(dock) {
   let asked = 0;
+  const fitAll = () => {
+    for (const header of dock.querySelectorAll(HEADERS)) fit(header);
+  };
   // Not in the observer itself: what it changes would call it again within the same picture.
   const later = () => {
     cancelAnimationFrame(asked);
-    asked = requestAnimationFrame(() => {
-      for (const header of dock.querySelectorAll(HEADERS)) fit(header);
-    });
+    asked = requestAnimationFrame(fitAll);
   };
   const observer = new ResizeObserver(later);
   // It is scrolled to a tab that is brought to the front; scrolling does not bubble.
@@ -206,6 +207,7 @@ export function keepTabsWhole(dock) {
   return () => {
     observer.disconnect();
     for (const one of dock.querySelectorAll(`${HEADERS}, ${HEADERS} .tab`)) observer.observe(one);
+    fitAll(); // before they are first seen
     later();
   };
 }

@@ -13,11 +13,12 @@ import { viewport } from "../../model/viewport.js";
 
 /** More than RViz's first set, and a few, are in the menu only. */
 const BUTTONS_MOST = 10;
+const FIRST_SET = 8;
 
 export function ToolButtons() {
   const off = viewport.value === null || robot.value === null;
   const inHand = toolInHand.value;
-  if (!inHand) return null;
+  if (!inHand) return html`<${Waiting} />`;
   return html`<div class="tool-buttons" role="group" aria-label=${t("tools.title")}>
       ${tools.value.slice(0, BUTTONS_MOST).map(
         (
@@ -31,6 +32,13 @@ export function ToolButtons() {
       <span class="tool-now"><${Icon} name=${inHand.icon} /></span><${Icon} name="chevronDown" size=${12} />
     <//>`;
 }
+
+/** As wide as RViz's first set, so that nothing moves once the tools are known. */
+const Waiting = () =>
+  html`<div class="tool-buttons waiting" aria-hidden="true">${Array(FIRST_SET)
+    .fill(0)
+    .map(() => html`<span class="icon-button"></span>`)}</div>
+    <span class="icon-button tool-menu waiting" aria-hidden="true"></span>`;
 
 /** Of several of a kind the first has the key. @param {ToolView} tool */
 const keyOf = (tool) =>
