@@ -154,6 +154,8 @@ def for_rviz2(config: RvizConfig) -> RvizConfig:
         config,
         displays=tuple(map(_display_for_rviz2, config.displays)),
         groups={path: _renamed(entry) for path, entry in config.groups.items()},
+        tools=tuple(replace(one, entry=_renamed(one.entry)) for one in config.tools),
+        views=tuple(replace(one, entry=_renamed(one.entry)) for one in config.views),
         rest=_renamed(config.rest),
     )
 

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import RvizConfigError
 from studio.rviz.config_displays import NAME_MAX, Loss
+from studio.rviz.config_lists import entries_between
 from studio.rviz.config_text import scalar_of
 from studio.rviz.config_values import (
     Entry,
-    entries_at,
     kind_in,
     leaves,
+    list_at,
     name_in,
     path_of,
     put,
@@ -65,25 +66,17 @@ def read_tools(entries: Sequence[Entry]) -> tuple[tuple[ToolSpec, ...], list[Los
 
 
 def merge_tools(manager: Entry, tools: Sequence[ToolSpec], *, is_new: bool = False) -> Entry:
-    """Return the manager's entry with these tools; unknown ones stay where they are.
+    """Return the manager's entry with these tools; unknown ones stay behind the same.
 
     A file without any stays so as long as the tools are RViz's first set, unless it `is_new`.
     """
-    before = entries_at(manager, "Tools")
+    before = list_at(manager, "Tools")
     if not tools or (not before and not is_new and _are_first(tools)):
         return manager
-    left = list(tools)
-    written: list[Tree] = []
-    for entry in before:
-        kind = kind_in(entry, TOOL_KINDS)
-        if kind is None:
-            written.append(entry)
-        elif (same := next((one for one in left if one.kind == kind.kind), None)) is not None:
-            left.remove(same)
-            written.append(_merged(entry, same))
-    new = [one for one in left if one.kind in TOOL_KINDS and not _is_added_here(one, before)]
-    written += [_merged(_fresh(TOOL_KINDS[one.kind]), one) for one in new]
-    return {**manager, "Tools": written} if written or before else manager
+    known = [one for one in tools if one.kind in TOOL_KINDS and not _is_added_here(one, before)]
+    written = [(one.entry, _merged(one.entry, one)) for one in known]
+    merged = entries_between(before, written, TOOL_KINDS)
+    return {**manager, "Tools": merged} if merged or before else manager
 
 
 def _are_first(tools: Sequence[ToolSpec]) -> bool:
@@ -93,8 +86,8 @@ def _are_first(tools: Sequence[ToolSpec]) -> bool:
     ]
 
 
-def _is_added_here(tool: ToolSpec, before: Sequence[Entry]) -> bool:
-    return len(before) > 0 and tool.kind == _ALWAYS_HERE and not tool.values
+def _is_added_here(tool: ToolSpec, before: Sequence[Tree]) -> bool:
+    return len(before) > 0 and tool.kind == _ALWAYS_HERE and not (tool.values or tool.entry)
 
 
 def _name_of(entry: Entry, kind: ToolKind) -> str:
@@ -109,11 +102,12 @@ def _read(entry: Entry, kind: ToolKind) -> tuple[ToolSpec, list[Loss]]:
     class_name = text_at(entry, "Class")
     losses = [Loss("no_value", class_name, refused)] if refused else []
     losses += [Loss("no_property", class_name, tuple(left))] if left else []
-    return ToolSpec("", kind.kind, _name_of(entry, kind), values), losses
+    return ToolSpec("", kind.kind, _name_of(entry, kind), values, entry), losses
 
 
 def _merged(entry: Entry, tool: ToolSpec) -> Entry:
     kind = TOOL_KINDS[tool.kind]
+    entry = entry or _fresh(kind)
     if _name_of(entry, kind) != tool.name:
         entry = put(entry, ("Name",), scalar_of(tool.name))
     return with_values(entry, kind.properties, tool.values)

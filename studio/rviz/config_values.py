@@ -88,10 +88,15 @@ def entry_at(tree: Tree | None, *path: str) -> Entry:
     return found if isinstance(found, dict) else {}
 
 
+def list_at(tree: Tree | None, *path: str) -> list[Tree]:
+    """Return the list at a path; empty: none."""
+    found = at(tree, path)
+    return found if isinstance(found, list) else []
+
+
 def entries_at(tree: Tree | None, *path: str) -> list[Entry]:
     """Return the entries of a list at a path."""
-    found = at(tree, path)
-    return [one for one in found if isinstance(one, dict)] if isinstance(found, list) else []
+    return [one for one in list_at(tree, *path) if isinstance(one, dict)]
 
 
 def put(entry: Entry, path: Path, scalar: str) -> Entry:

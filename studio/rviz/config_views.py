@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import RvizConfigError
 from studio.rviz.config_displays import Loss
+from studio.rviz.config_lists import entries_between
 from studio.rviz.config_text import scalar_of
 from studio.rviz.config_values import (
     Entry,
-    entries_at,
     entry_at,
     kind_in,
     leaves,
+    list_at,
     name_in,
     path_of,
     put,
@@ -32,8 +33,6 @@ from studio.rviz.views import (
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from studio.rviz.config_text import Tree
 
 _CURRENT: Final = "Current View"
 _HEAD: Final = frozenset({("Class",), ("Name",), ("Value",)})
@@ -79,27 +78,13 @@ def merge_view(manager: Entry, view: ViewSpec) -> Entry:
 
 
 def merge_views(manager: Entry, views: Sequence[ViewSpec]) -> Entry:
-    """Return the manager's entry with these saved views; unknown ones stay where they are."""
-    before = entries_at(manager, "Views", "Saved")
-    left = list(views)
-    written: list[Tree] = []
-    for entry in before:
-        kind = kind_in(entry, VIEW_KINDS)
-        if kind is None:
-            written.append(entry)
-        elif (same := _same_of(entry, kind, left)) is not None:
-            left.remove(same)
-            written.append(_merged(entry, same, same.name))
-    written += [_merged({}, one, one.name) for one in left]
-    if not before and not written:
+    """Return the manager's entry with these saved views; unknown ones stay behind the same."""
+    before = list_at(manager, "Views", "Saved")
+    if not before and not views:
         return manager
-    return {**manager, "Views": {**entry_at(manager, "Views"), "Saved": written}}
-
-
-def _same_of(entry: Entry, kind: ViewKind, views: Sequence[ViewSpec]) -> ViewSpec | None:
-    """Return the view that an entry became: the first of its kind and name; None: it is gone."""
-    name = name_in(entry, NAME_MAX)
-    return next((one for one in views if (one.kind, one.name) == (kind.kind, name)), None)
+    written = [(one.entry, _merged(one.entry, one, one.name)) for one in views]
+    saved = entries_between(before, written, VIEW_KINDS)
+    return {**manager, "Views": {**entry_at(manager, "Views"), "Saved": saved}}
 
 
 def _read(entry: Entry, kind: ViewKind) -> tuple[ViewSpec, list[Loss]]:
@@ -110,7 +95,7 @@ def _read(entry: Entry, kind: ViewKind) -> tuple[ViewSpec, list[Loss]]:
     class_name = text_at(entry, "Class")
     losses = [Loss("no_value", class_name, refused)] if refused else []
     losses += [Loss("no_property", class_name, tuple(names))] if names else []
-    return ViewSpec(kind.kind, name_in(entry, NAME_MAX), values), losses
+    return ViewSpec(kind.kind, name_in(entry, NAME_MAX), values, entry), losses
 
 
 def _merged(entry: Entry, view: ViewSpec, name: str) -> Entry:

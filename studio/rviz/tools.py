@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from studio.displays.properties import Property, Value, switch
 from studio.errors import StudioError, ToolError
@@ -74,13 +74,15 @@ class ToolKind:
 class ToolSpec:
     """Settings of one tool.
 
-    `values` holds the properties that differ from their defaults.
+    `values` holds the properties that differ from their defaults, `entry` the tool as it stands in
+    the `.rviz` file; empty: it was in none.
     """
 
     id: str
     kind: str
     name: str
     values: Mapping[str, Value] = field(default_factory=dict[str, Value])
+    entry: dict[str, Any] = field(default_factory=dict[str, Any])
 
     def value(self, name: str) -> Value:
         """Return a property as it is set, or its default.
@@ -250,6 +252,10 @@ class ToolList:
         self._tools.clear()
         for one in wanted[:TOOLS_MAX]:
             self._put(one, ids.pop((one.kind, one.name), ""))
+
+    def renew(self, tools: Iterable[ToolSpec]) -> None:
+        """Have these with the ids that they have."""
+        self._tools = {one.id: one for one in tools}
 
     def add(self, kind: str, name: str = "") -> ToolSpec:
         """Add one at the end; without a name it gets that of its kind, or a numbered one.

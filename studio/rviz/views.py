@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Any, Final
 
 from studio.displays.properties import FIXED_FRAME, Property, Value, length, switch
 from studio.errors import ViewError
@@ -37,11 +37,13 @@ class ViewSpec:
         name: What the user calls it.
         values: Properties by RViz's names, with slashes for groups, as `Focal Point/X`; those that
             are not there have their first values.
+        entry: As it stands in the `.rviz` file; empty: it was in none.
     """
 
     kind: str
     name: str = ""
     values: Mapping[str, Value] = field(default_factory=dict[str, Value])
+    entry: dict[str, Any] = field(default_factory=dict[str, Any])
 
     def checked(self) -> ViewSpec:
         """Return it with every value as its property takes it.

@@ -304,8 +304,10 @@ def test_tools_and_views_are_taken_and_those_of_plug_ins_stay_between_them():
     assert [(one.kind, dict(one.values)) for one in read.tools] == [
         ("SetGoal", {"Topic": "goal"}), ("MoveCamera", {}),
     ]  # fmt: skip
-    assert read.view == ViewSpec("ThirdPersonFollower", "Current View", {"Distance": 2.0})
-    assert read.views == (ViewSpec("Orbit", "Front", {"Yaw": 1.0}),)
+    assert [(one.kind, one.name, dict(one.values)) for one in (read.view, *read.views) if one] == [
+        ("ThirdPersonFollower", "Current View", {"Distance": 2.0}),
+        ("Orbit", "Front", {"Yaw": 1.0}),
+    ]
     assert {(one.reason, one.what) for one in losses} == {
         ("no_tool", "nav2_rviz_plugins/GoalTool"), ("no_view", "other/Fisheye"),
     }  # fmt: skip
@@ -320,6 +322,37 @@ def test_tools_and_views_are_taken_and_those_of_plug_ins_stay_between_them():
     ]  # fmt: skip
     assert manager["Tools"][2]["Single click"] is False
     assert [one["Name"] for one in manager["Views"]["Saved"]] == ["Fish", "Walk"]
+
+
+LISTS = """
+  Tools:
+    - {Class: rviz_default_plugins/SetGoal, Extra: 1, Topic: {Value: /first}}
+    - {Class: nav2_rviz_plugins/GoalTool}
+    - 7
+    - {Class: rviz_default_plugins/SetGoal, Extra: 2, Topic: {Value: /second}}
+  Views:
+    Saved:
+      - {Class: rviz_default_plugins/Orbit, Name: A, Extra: 1}
+      - {Class: other/Fisheye, Name: Fish}
+      - {Class: rviz_default_plugins/Orbit, Name: B, Extra: 2}
+      - {Class: rviz_default_plugins/Orbit, Name: B, Extra: 3}
+"""
+
+
+def test_each_tool_and_view_keeps_what_stands_in_its_own_entry():
+    read, _ = read_config(config(more=LISTS))
+    first, second = read.tools
+    a, b, other_b = read.views
+    changed = replace(read, tools=(second,), views=(other_b, replace(a, name="New"), b))
+    manager = yaml.safe_load(write_config(changed))["Visualization Manager"]
+    assert [one if one == 7 else one.get("Extra") for one in manager["Tools"]] == [None, 7, 2]
+    assert [(one["Name"], one.get("Extra")) for one in manager["Views"]["Saved"]] == [
+        ("B", 3), ("New", 1), ("Fish", None), ("B", 2),
+    ]  # fmt: skip
+    turned = replace(read, tools=(second, first, ToolSpec("", "SetGoal", "Third")))
+    tools = yaml.safe_load(write_config(turned))["Visualization Manager"]["Tools"]
+    assert [one if one == 7 else one.get("Extra") for one in tools] == [2, 1, None, 7, None]
+    assert tools[4]["Topic"]["Value"] == "/goal_pose"
 
 
 def test_the_tool_that_the_studio_always_has_is_not_added_to_a_file():

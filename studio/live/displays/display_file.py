@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 FOLDER: Final = "displays"
-_LIMIT_BYTES: Final = 4 << 20
+_LIMIT_BYTES: Final = 8 << 20
+"""Tools and views of an `.rviz` file stand in it twice: as values, and in the file's tree."""
 
 _log = logging.getLogger(__name__)
 

@@ -21,6 +21,7 @@ from studio.protocol.tools import (
     Tools,
     ToolView,
 )
+from studio.rviz.config_lists import with_entries
 from studio.rviz.tools import FRAME, TOOL_KINDS, ToolList, kind_of
 from studio.tf.rotations import compose
 from studio.tf.transforms import plain_name
@@ -91,6 +92,10 @@ class DocumentTools:
         """Have these tools; none: RViz's first set."""
         self.list.restore(tools)
         self._send()
+
+    def note_saved(self, saved: Iterable[ToolSpec]) -> None:
+        """Note where each stands in the config file that was written."""
+        self.list.renew(with_entries(self.list, saved))
 
     def mirror(self, others: tuple[ToolSpec, ...]) -> None:
         """Have the tools that another document has."""

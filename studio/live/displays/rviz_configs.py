@@ -288,6 +288,8 @@ class RvizConfigs:
         shown = [(one.kind, one.name) for one in self._displays.kept.displays]
         if shown == [(one.kind, one.name) for one in config.displays]:
             self._displays.set_entries([one.entry for one in config.displays])
+        self._displays.views.note_saved(config.views)
+        self._displays.tools.note_saved(config.tools)
         self._displays.keep_beside(config=opened)
         self._recent.note(str(path), path.name, {}, datetime.now(UTC).timestamp())
         await self._checked_now()

@@ -18,6 +18,7 @@ from studio.protocol.views import (
     ViewKinds,
     ViewKindView,
 )
+from studio.rviz.config_lists import with_entries
 from studio.rviz.views import VIEW_KINDS, VIEWS_MAX, ViewSpec
 
 if TYPE_CHECKING:
@@ -58,6 +59,10 @@ class SavedViews:
             except StudioError as error:
                 _log.warning("The view %s was left out: %s", spec.name, error)
         self._audience.send(self.event())
+
+    def note_saved(self, saved: Iterable[ViewSpec]) -> None:
+        """Note where each stands in the config file that was written."""
+        self._specs = dict(zip(self._specs, with_entries(self.specs, saved), strict=True))
 
     def event(self) -> protocol.SavedViews:
         """Return all of them, for pages."""

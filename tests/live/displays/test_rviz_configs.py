@@ -35,6 +35,7 @@ from studio.protocol.rviz_configs import (
     UndoRvizConfig,
     ViewValues,
 )
+from studio.protocol.views import MoveView, RenameView
 from tests.support.open_documents import Ear, engine, opened, until
 
 if TYPE_CHECKING:
@@ -266,6 +267,36 @@ def test_what_was_opened_is_there_after_a_restart_with_its_file(tmp_path: Path):
 
     with_arm(tmp_path, first)
     with_arm(tmp_path, second)
+
+
+VIEWS = """
+      - {Class: rviz_default_plugins/Orbit, Extra: 1, Name: A}
+      - {Class: rviz_default_plugins/Orbit, Extra: 2, Name: B}
+      - {Class: other/Fisheye, Name: Fish}
+"""
+
+
+def test_views_that_were_moved_or_renamed_keep_all_that_the_file_says_of_them(tmp_path: Path):
+    file = tmp_path / "views.rviz"
+    file.write_text(FILE.replace("Saved: ~", f"Saved: {VIEWS}"))
+
+    def saved() -> list[tuple[str, int | None]]:
+        manager = yaml.safe_load(file.read_text())["Visualization Manager"]
+        return [(one["Name"], one.get("Extra")) for one in manager["Views"]["Saved"]]
+
+    async def work(one: Opened) -> None:
+        await one.do(OpenRvizFile(path=str(file)))
+        first, second = [view["id"] for view in one.ear.last("saved_views")["views"]]
+        await one.do(MoveView(view=second, before=first))
+        await one.changed()
+        await one.do(SaveRvizFile(request=1))
+        assert saved() == [("B", 2), ("Fish", None), ("A", 1)]
+        for name in ("C", "D"):  # the second time it has another name in the file already
+            await one.do(RenameView(view=second, name=name))
+            await one.do(SaveRvizFile(request=2))
+        assert saved() == [("D", 2), ("Fish", None), ("A", 1)]
+
+    with_arm(tmp_path, work)
 
 
 def test_a_document_without_a_file_is_written_with_all_that_rviz2_writes(tmp_path: Path):
