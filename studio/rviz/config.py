@@ -64,10 +64,18 @@ _FRAME_MAX: Final = 300
 _SLASH: Final = "\u2215"
 """Stands for a slash in the name of a group, since slashes lead from one group to the next."""
 _PANELS: Final = frozenset({
-    "rviz_common/Displays", "rviz_common/Selection", "rviz_common/Time", "rviz_common/Views",
-    "rviz_common/Tool Properties", "rviz_common/Help", "rviz/Displays", "rviz/Selection",
-    "rviz/Time", "rviz/Views", "rviz/Tool Properties", "rviz/Help",
+    "Displays", "Help", "Selection", "Time", "Tool Properties", "Views",
 })  # fmt: skip
+_OF_PANELS: Final = frozenset({"rviz_common", RVIZ1})
+_PANEL_LOOKS: Final = frozenset({
+    "Class", "Expanded", "Help Height", "Name", "Property Tree Widget", "Splitter Ratio",
+    "Tree Height",
+})  # fmt: skip
+"""How RViz's own window shows a panel."""
+_PANEL_FIRST: Final[Mapping[str, str]] = {
+    "Experimental": "false", "SyncMode": "0", "SyncSource": "",
+}  # fmt: skip
+"""Settings of panels that have no counterpart here, as they are in RViz at first."""
 _READ: Final = frozenset({
     "Class", _DISPLAYS, "Enabled", _OPTIONS, "Name", "Tools", "Transformation", "Value", "Views",
 })  # fmt: skip
@@ -319,8 +327,7 @@ def _with_options(manager: Entry, config: RvizConfig) -> Entry:
 def _other_losses(tree: Entry, manager: Entry) -> Iterator[Loss]:
     """Yield what of the rest of a file has no counterpart here."""
     for panel in entries_at(tree, "Panels"):
-        if (name := text_at(panel, "Class")) not in _PANELS:
-            yield Loss("no_panel", name)
+        yield from _panel_losses(panel)
     options = entry_at(manager, _OPTIONS)
     taken = {_FIXED[1], _BACKGROUND[1], _FRAME_RATE[1], OURS}
     if left := [text_of(key) for key in options if key not in taken]:
@@ -335,6 +342,19 @@ def _other_losses(tree: Entry, manager: Entry) -> Iterator[Loss]:
             yield Loss("window", key)
         elif key not in ("Panels", _MANAGER, PAGE):
             yield Loss("no_option", text_of(key), tuple(map(text_of, entry_at(tree, key))))
+
+
+def _panel_losses(panel: Entry) -> Iterator[Loss]:
+    class_name = text_at(panel, "Class")
+    package, _, name = class_name.partition("/")
+    if package not in _OF_PANELS or name not in _PANELS:
+        yield Loss("no_panel", class_name)
+        return
+    said = {text_of(key): text_at(panel, text_of(key)) for key in panel}
+    settings = {key: one for key, one in said.items() if key not in _PANEL_LOOKS}
+    left = [key for key, one in settings.items() if _PANEL_FIRST.get(key) != one]
+    if left:
+        yield Loss("no_property", class_name, tuple(left))
 
 
 def _united(losses: Sequence[Loss]) -> tuple[Loss, ...]:

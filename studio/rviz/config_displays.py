@@ -11,7 +11,6 @@ from studio.displays.properties import Value
 from studio.errors import DisplayError
 from studio.ros.messages import shared_types
 from studio.rviz.config_kinds import (
-    FILTER_SIZE,
     LINK_PARTS,
     LISTS,
     OURS,
@@ -55,6 +54,13 @@ if TYPE_CHECKING:
 NAME_MAX: Final = 80
 _TOPIC_MAX: Final = 300
 _DEPTH_MAX: Final = 10_000
+_POLICIES: Final = {
+    "Durability Policy": ("Volatile", "Transient Local"),
+    "History Policy": ("Keep Last",),
+    "Reliability Policy": ("Reliable", "Best Effort"),
+}
+"""What of a topic's QoS is taken."""
+_OF_TOPIC: Final = frozenset({(), (VALUE,), ("Depth",), *((one,) for one in _POLICIES)})
 _SOURCE: Final = "Description Source"
 _RVIZ_SOURCES: Final = ("Topic", "File")
 _OUR_SOURCE: Final = (OURS, _SOURCE)
@@ -129,6 +135,7 @@ def read_display(entry: Entry) -> tuple[ConfigDisplay, list[Loss]]:
     read = replace(read, values=values)
     if display.TOPICS or topic_key(kind) in entry:
         read = _with_topic(read, entry)
+        refused.update(_refused_of_topic(entry, _topic_key_in(entry, kind)))
     left = _left_of(read, entry, seen)
     losses = [
         Loss("no_value", class_name, tuple(sorted(refused))) if refused else None,
@@ -383,6 +390,19 @@ def _depth_of(entry: Entry, key: str) -> int | None:
     return int(depth)
 
 
+def _refused_of_topic(entry: Entry, key: str) -> Iterator[str]:
+    """Yield what a topic says of itself and of its QoS that is not taken here."""
+    if text_at(entry, key).strip() and not _topic_of(entry, key):
+        yield key
+    for policy, taken in _POLICIES.items():
+        if text_at(entry, key, policy) not in ("", *taken):
+            yield f"{key}/{policy}"
+    depth = text_at(entry, key, "Depth")
+    depth = number_of(text_at(entry, key, "Depth") or "1")
+    if depth is None or not 0 <= depth <= _DEPTH_MAX:
+        yield f"{key}/Depth"
+
+
 def _with_listening(entry: Entry, display: ConfigDisplay) -> Entry:
     said = _with_topic(display, entry)
     key = _topic_key_in(entry, display.kind)
@@ -409,7 +429,7 @@ def _left_of(read: ConfigDisplay, entry: Entry, seen: set[Path]) -> list[str]:
     silent = {"Tree", OURS, *_silent_of(read, entry)}
     left: set[str] = set()
     for path, _ in leaves(entry):
-        is_topic = path[0] in topics and path[1:] != (FILTER_SIZE,)
+        is_topic = path[0] in topics and path[1:] in _OF_TOPIC
         known = path in seen or path in _HEAD or path in _TREE_LOOKS
         if not (is_topic or known or path[0] in silent):
             left.add(_told(path))

@@ -186,6 +186,40 @@ def test_a_topic_and_its_qos_are_read_and_only_what_changes_is_written():
     assert written["Update Topic"] == {**updates, "Value": "/other_updates"}
 
 
+def test_what_a_topic_says_of_its_qos_and_is_not_taken_is_listed_and_kept():
+    topic = {
+        "Depth": "many", "Durability Policy": "System Default", "History Policy": "Keep All",
+        "Reliability Policy": "System Default", "Deadline": 3, "Value": "/scan",
+    }  # fmt: skip
+    entry = {"Class": "rviz_default_plugins/LaserScan", "Name": "Scan", "Topic": topic}
+    read, losses = display(**entry)
+    policies = ("Depth", "Durability Policy", "History Policy", "Reliability Policy")
+    assert losses == [
+        Loss("no_value", entry["Class"], tuple(f"Topic/{one}" for one in policies)),
+        Loss("no_property", entry["Class"], ("Topic/Deadline",)),
+    ]
+    assert yaml.safe_load(write_tree(write_display(read))) == entry
+    broken, losses = display(**entry | {"Topic": {**topic, "Value": "a\nb"}})
+    assert broken.topic == ""
+    assert losses[0].names[0] == "Topic"
+
+
+def test_settings_of_panels_that_are_not_rvizs_first_are_listed():
+    panels = """Panels:
+  - {Class: rviz_common/Time, Name: Time, Experimental: false, SyncMode: 0, SyncSource: ""}
+  - {Class: rviz_common/Time, Name: Time, SyncMode: 1, SyncSource: LaserScan}
+  - {Class: rviz_common/Views, Name: Views, Expanded: [/Current View1], Splitter Ratio: 0.5}
+  - {Class: rviz/Displays, Name: Displays, Help Height: 78, Filter: "a"}
+  - {Class: rviz_common/Unheard, Name: Unheard}
+"""
+    _, losses = read_config(panels + config())
+    assert losses == (
+        Loss("no_property", "rviz_common/Time", ("SyncMode", "SyncSource")),
+        Loss("no_property", "rviz/Displays", ("Filter",)),
+        Loss("no_panel", "rviz_common/Unheard"),
+    )
+
+
 def test_displays_of_rviz_1_are_understood_and_keep_its_names():
     read, losses = display(
         Class="rviz/MarkerArray", Enabled=True, Name="Marks",
