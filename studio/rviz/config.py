@@ -21,7 +21,7 @@ from studio.rviz.config_displays import (
 from studio.rviz.config_kinds import GROUPS, OURS, RVIZ1, class_in_rviz2
 from studio.rviz.config_page import PAGE
 from studio.rviz.config_text import is_null, read_tree, scalar_of, text_of, write_tree
-from studio.rviz.config_tools import merge_tools, read_tools
+from studio.rviz.config_tools import DEVIATIONS, merge_tools, read_tools
 from studio.rviz.config_values import (
     Entry,
     at,
@@ -76,6 +76,7 @@ _PANEL_FIRST: Final[Mapping[str, str]] = {
     "Experimental": "false", "SyncMode": "0", "SyncSource": "",
 }  # fmt: skip
 """Settings of panels that have no counterpart here, as they are in RViz at first."""
+_TOLD_OTHERWISE: Final = frozenset(DEVIATIONS.values())
 _READ: Final = frozenset({
     "Class", _DISPLAYS, "Enabled", _OPTIONS, "Name", "Tools", "Transformation", "Value", "Views",
 })  # fmt: skip
@@ -176,8 +177,9 @@ def _display_for_rviz2(display: ConfigDisplay) -> ConfigDisplay:
 
 
 def _renamed(entry: Entry) -> Entry:
-    """Return an entry in which all classes have RViz2's names."""
-    return {key: _renamed_value(key, value) for key, value in entry.items()}
+    """Return an entry in which all classes have RViz2's names, without what that has otherwise."""
+    left = {key: value for key, value in entry.items() if key not in _TOLD_OTHERWISE}
+    return {key: _renamed_value(key, value) for key, value in left.items()}
 
 
 def _renamed_value(key: str, value: Tree) -> Tree:

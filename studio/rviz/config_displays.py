@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping  # noqa: TC003 - msgspec reads it
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final, Literal, TypeGuard
 
 from studio.displays.catalogue import display_of_kind
 from studio.displays.properties import Value
 from studio.errors import DisplayError
 from studio.ros.messages import shared_types
 from studio.rviz.config_kinds import (
+    JOINT_AXIS,
+    JOINT_PARTS,
+    JOINTS,
     LINK_PARTS,
     LISTS,
     OURS,
@@ -273,9 +276,17 @@ def _listed(entry: Entry, kind: str) -> Iterator[str]:
         name = f"{group}/{text_of(key)}"
         if (group, key) in _TREE_LOOKS or key in ("All Enabled", "All Links Enabled"):
             continue
+        if group == "Links" and _is_joint(value):
+            yield from (f"{JOINTS}/{text_of(key)}/{part}" for part in JOINT_PARTS if part in value)
+            continue
         yield name
         if group == "Links" and isinstance(value, dict):
             yield from (f"{name}/{part}" for part in LINK_PARTS if part in value)
+
+
+def _is_joint(value: Tree | None) -> TypeGuard[Entry]:
+    """Whether what is listed among the links is a joint."""
+    return isinstance(value, dict) and JOINT_AXIS in value
 
 
 def _property_of(display: Display, name: str) -> Property:
@@ -328,7 +339,15 @@ def _with_values(entry: Entry, display: ConfigDisplay) -> Entry:
         default = every if name.startswith("Frames/") else one.default
         missing[name] = rviz.get(name, default)
         told.append((place_of(kind, name), one, values.get(name, default)))
+        if name in values and name.startswith(f"{JOINTS}/"):
+            entry = _with_joint(entry, place_of(kind, name))
     return merged(entry, _without_silent(entry, told, display), missing)
+
+
+def _with_joint(entry: Entry, place: Path) -> Entry:
+    """Return an entry that lists a joint so that it is known as one."""
+    joint = place[:-1]
+    return entry if _is_joint(at(entry, joint)) else put(entry, (*joint, JOINT_AXIS), "false")
 
 
 def _without_silent(
@@ -430,10 +449,16 @@ def _left_of(read: ConfigDisplay, entry: Entry, seen: set[Path]) -> list[str]:
     left: set[str] = set()
     for path, _ in leaves(entry):
         is_topic = path[0] in topics and path[1:] in _OF_TOPIC
-        known = path in seen or path in _HEAD or path in _TREE_LOOKS
+        known = path in seen or path in _HEAD or path in _TREE_LOOKS or _is_joint_on(entry, path)
         if not (is_topic or known or path[0] in silent):
             left.add(_told(path))
     return sorted(left)
+
+
+def _is_joint_on(entry: Entry, path: Path) -> bool:
+    """Whether a path is that of a joint whose links are shown, as they are at first."""
+    is_value = path[0] == "Links" and path[-1] == VALUE and _is_joint(at(entry, path[:-1]))
+    return is_value and switch_of(text_at(entry, *path)) is True
 
 
 def _told(path: Path) -> str:

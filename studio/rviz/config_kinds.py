@@ -76,6 +76,10 @@ LISTS: Final = {
 """Where kinds have a property for each name that messages bring."""
 LINK_PARTS: Final = ("Alpha", "Show Axes", "Show Trail")
 """What can be set of each link."""
+JOINT_AXIS: Final = "Show Joint Axis"
+JOINT_PARTS: Final = ("Show Axes", JOINT_AXIS)
+"""What can be set of each joint: RViz lists joints among the links."""
+JOINTS: Final = "Joints"
 
 _OURS_ONLY: Final = frozenset({
     ("Axes", "Alpha"), ("Camera", "Max Value"), ("Camera", "Median window"),
@@ -211,6 +215,9 @@ def place_of(kind: str, name: str) -> Path:
     if place := _PLACES.get((kind, name)):
         return place
     group = LISTS.get(kind, "")
+    if kind == "RobotModel" and name.startswith(f"{JOINTS}/"):
+        joint, _, part = name.removeprefix(f"{JOINTS}/").rpartition("/")
+        return (group, joint, part)
     if not group or not name.startswith(f"{group}/"):
         return path_of(name)
     inner = name.removeprefix(f"{group}/")

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import RvizConfigError
 from studio.rviz.config_displays import NAME_MAX, Loss
+from studio.rviz.config_kinds import RVIZ1
 from studio.rviz.config_lists import entries_between
 from studio.rviz.config_text import scalar_of
 from studio.rviz.config_values import (
@@ -14,6 +16,8 @@ from studio.rviz.config_values import (
     leaves,
     list_at,
     name_in,
+    number_of,
+    number_text,
     path_of,
     put,
     text_at,
@@ -23,6 +27,7 @@ from studio.rviz.config_values import (
 )
 from studio.rviz.tools import (
     ACTION,
+    COVARIANCES,
     FRAME,
     SEND_AS,
     TOOL_KINDS,
@@ -33,11 +38,15 @@ from studio.rviz.tools import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from studio.rviz.config_text import Tree
 
 _HEAD: Final = frozenset({("Class",), ("Name",)})
+DEVIATIONS: Final[Mapping[str, str]] = dict(
+    zip(COVARIANCES, ("X std deviation", "Y std deviation", "Theta std deviation"), strict=True)
+)
+"""What RViz 1 has where RViz2 has covariances, which are their squares."""
 _OURS: Final = frozenset({FRAME, SEND_AS, ACTION})
 """RViz2 has no such properties."""
 _ALWAYS_HERE: Final = "Interact"
@@ -96,7 +105,10 @@ def _name_of(entry: Entry, kind: ToolKind) -> str:
 
 def _read(entry: Entry, kind: ToolKind) -> tuple[ToolSpec, list[Loss]]:
     values, refused = values_in(entry, kind.properties)
+    if _is_of_rviz1(entry):
+        values |= _covariances_of(entry, kind)
     known = {path_of(one.name) for one in kind.properties} | _HEAD
+    known |= {(DEVIATIONS[one.name],) for one in kind.properties if one.name in DEVIATIONS}
     known |= {(*path, "Value") for path in known}
     left = ["/".join(path) for path, _ in leaves(entry) if path not in known]
     class_name = text_at(entry, "Class")
@@ -110,7 +122,37 @@ def _merged(entry: Entry, tool: ToolSpec) -> Entry:
     entry = entry or _fresh(kind)
     if _name_of(entry, kind) != tool.name:
         entry = put(entry, ("Name",), scalar_of(tool.name))
-    return with_values(entry, kind.properties, tool.values)
+    if not _is_of_rviz1(entry):
+        return with_values(entry, kind.properties, tool.values)
+    others = [one for one in kind.properties if one.name not in DEVIATIONS]
+    return _with_deviations(with_values(entry, others, tool.values), tool)
+
+
+def _is_of_rviz1(entry: Entry) -> bool:
+    return text_at(entry, "Class").startswith(f"{RVIZ1}/")
+
+
+def _covariances_of(entry: Entry, kind: ToolKind) -> dict[str, float]:
+    """Return what RViz 1 tells as standard deviations, where it is not RViz's first."""
+    values: dict[str, float] = {}
+    for one in kind.properties:
+        deviation = number_of(text_at(entry, DEVIATIONS.get(one.name, "")))
+        if deviation is None:
+            continue
+        covariance = float(one.checked(deviation * deviation))
+        if not math.isclose(covariance, float(one.default), rel_tol=1e-6):
+            values[one.name] = covariance
+    return values
+
+
+def _with_deviations(entry: Entry, tool: ToolSpec) -> Entry:
+    kind = TOOL_KINDS[tool.kind]
+    said = _covariances_of(entry, kind)
+    for one in kind.properties:
+        value = tool.value(one.name)
+        if one.name in DEVIATIONS and said.get(one.name, one.default) != value:
+            entry = put(entry, (DEVIATIONS[one.name],), number_text(math.sqrt(float(value))))
+    return entry
 
 
 def _fresh(kind: ToolKind) -> Entry:

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from studio.displays.catalogue import DISPLAYS, display_of_kind
 from studio.errors import DisplayError, RvizConfigError
-from studio.rviz.config import DISPLAYS_MAX, read_config, write_config
+from studio.rviz.config import DISPLAYS_MAX, RvizConfig, for_rviz2, read_config, write_config
 from studio.rviz.config_displays import ConfigDisplay, Loss, read_display, write_display
 from studio.rviz.config_text import read_tree, write_tree
 from studio.rviz.config_values import Entry, entries_at, entry_at, leaves, text_at
@@ -191,12 +191,13 @@ def test_what_a_topic_says_of_its_qos_and_is_not_taken_is_listed_and_kept():
         "Depth": "many", "Durability Policy": "System Default", "History Policy": "Keep All",
         "Reliability Policy": "System Default", "Deadline": 3, "Value": "/scan",
     }  # fmt: skip
-    entry = {"Class": "rviz_default_plugins/LaserScan", "Name": "Scan", "Topic": topic}
+    class_name = "rviz_default_plugins/LaserScan"
+    entry = {"Class": class_name, "Name": "Scan", "Topic": topic}
     read, losses = display(**entry)
     policies = ("Depth", "Durability Policy", "History Policy", "Reliability Policy")
     assert losses == [
-        Loss("no_value", entry["Class"], tuple(f"Topic/{one}" for one in policies)),
-        Loss("no_property", entry["Class"], ("Topic/Deadline",)),
+        Loss("no_value", class_name, tuple(f"Topic/{one}" for one in policies)),
+        Loss("no_property", class_name, ("Topic/Deadline",)),
     ]
     assert yaml.safe_load(write_tree(write_display(read))) == entry
     broken, losses = display(**entry | {"Topic": {**topic, "Value": "a\nb"}})
@@ -254,6 +255,32 @@ def test_links_and_frames_are_read_by_their_names():
         Frames={"All Enabled": False, "odom": {"Value": True}, "map": {"Value": False}},
     )  # fmt: skip
     assert dict(frames.values) == {"Show Names": False, "Frames": False, "Frames/odom": True}
+
+
+def test_what_is_set_of_a_joint_stands_among_the_links_as_in_rviz2():
+    joint = {"Show Axes": False, "Show Joint Axis": True, "Value": True}
+    links = {"All Links Enabled": True, "Link Tree Style": "Joints in Alphabetic Order"}
+    entry: dict[str, Any] = {
+        "Class": "rviz_default_plugins/RobotModel", "Name": "Robot", "Value": True,
+        "Links": {**links, "elbow/pan": joint, "wrist": {**joint, "Show Joint Axis": False}},
+    }  # fmt: skip
+    read, losses = display(**entry)
+    assert losses == []
+    assert dict(read.values) == {"Joints/elbow/pan/Show Joint Axis": True}
+    assert yaml.safe_load(write_tree(write_display(read))) == entry
+    turned = replace(read, values={"Joints/wrist/Show Joint Axis": True})
+    written = yaml.safe_load(write_tree(write_display(turned)))["Links"]
+    assert [written[one]["Show Joint Axis"] for one in ("elbow/pan", "wrist")] == [False, True]
+    entry["Links"]["wrist"]["Value"] = False
+    assert display(**entry)[1] == [Loss("no_property", entry["Class"], ("Links/Value",))]
+
+
+@pytest.mark.parametrize("part", ["Show Axes", "Show Joint Axis"])
+def test_a_joint_that_is_new_in_a_file_is_found_again(part: str):
+    fresh = ConfigDisplay("RobotModel", "Robot", values={f"Joints/elbow/{part}": True})
+    written = write_display(fresh)
+    assert text_at(written, "Links", "elbow", part) == "true"
+    assert read_display(written)[0].values == fresh.values
 
 
 def test_a_robot_that_rviz_cannot_name_is_found_again():
@@ -387,6 +414,26 @@ def test_each_tool_and_view_keeps_what_stands_in_its_own_entry():
     tools = yaml.safe_load(write_config(turned))["Visualization Manager"]["Tools"]
     assert [one if one == 7 else one.get("Extra") for one in tools] == [2, 1, None, 7, None]
     assert tools[4]["Topic"]["Value"] == "/goal_pose"
+
+
+def test_standard_deviations_of_rviz_1_are_the_roots_of_covariances():
+    deviations = "X std deviation: 0.4, Theta std deviation: 0.2617993950843811"
+    text = config(more=f"  Tools: [{{Class: rviz/SetInitialPose, {deviations}}}]")
+    read, losses = read_config(text)
+    assert losses == ()
+    assert read.tools[0].values == {"Covariance x": pytest.approx(0.16)}
+    assert yaml.safe_load(write_config(read)) == yaml.safe_load(text)
+
+    def written(made: RvizConfig) -> dict[str, Any]:
+        return yaml.safe_load(write_config(made))["Visualization Manager"]["Tools"][0]
+
+    wider = {**read.tools[0].values, "Covariance y": 4.0}
+    changed = replace(read, tools=(replace(read.tools[0], values=wider),))
+    assert written(changed) == {**written(read), "Y std deviation": 2}
+    assert written(for_rviz2(changed)) == {
+        "Class": "rviz_default_plugins/SetInitialPose",
+        "Covariance x": pytest.approx(0.16), "Covariance y": 4,
+    }  # fmt: skip
 
 
 def test_the_tool_that_the_studio_always_has_is_not_added_to_a_file():
