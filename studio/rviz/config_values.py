@@ -144,9 +144,11 @@ def path_of(name: str) -> Path:
 def read_value(one: Property, scalar: str) -> Value | None:
     """Return the value that a scalar gives a property; None: it is none that it takes."""
     try:
-        return one.checked(_meaning(one, text_of(scalar)))
+        value = one.checked(_meaning(one, text_of(scalar)))
     except (DisplayPropertyError, ValueError, OverflowError):
         return None
+    is_first = one.kind == "number" and number_text(float(value)) == write_value(one, one.default)
+    return one.default if is_first else value
 
 
 def values_in(

@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 
 _CURRENT: Final = "Current View"
 _HEAD: Final = frozenset({("Class",), ("Name",), ("Value",)})
+_HIDDEN: Final = "Invert Z Axis"
+"""RViz2 writes it of all kinds; of those that lack it here it hides it and does not heed it."""
 _STEREO: Final[Entry] = {
     "Stereo Eye Separation": "0.05999999865889549",
     "Stereo Focal Distance": "1",
@@ -89,7 +91,7 @@ def merge_views(manager: Entry, views: Sequence[ViewSpec]) -> Entry:
 
 def _read(entry: Entry, kind: ViewKind) -> tuple[ViewSpec, list[Loss]]:
     values, refused = values_in(entry, kind.properties)
-    known = {path_of(one.name) for one in kind.properties} | _HEAD
+    known = {path_of(one.name) for one in kind.properties} | _HEAD | {(_HIDDEN,)}
     left = [path for path, _ in leaves(entry) if path not in known]
     names = dict.fromkeys(path[0] for path in left)
     class_name = text_at(entry, "Class")
@@ -112,10 +114,18 @@ def _fresh(kind: ViewKind) -> Entry:
     entry: Entry = {
         "Class": f"rviz_default_plugins/{kind.kind}",
         "Enable Stereo Rendering": _STEREO,
+        _HIDDEN: "false",
         "Name": _CURRENT,
         "Value": f"{kind.kind} (rviz_default_plugins)",
     }
     for one in kind.properties:
-        if one.name != ORTHOGRAPHIC:
+        if not _is_ours(kind, one.name):
             entry = put(entry, path_of(one.name), write_value(one, one.default))
     return dict(sorted(entry.items()))
+
+
+def _is_ours(kind: ViewKind, name: str) -> bool:
+    """Whether RViz2 has no such property; RViz 1 has the field of view."""
+    return name in (ORTHOGRAPHIC, "Field of View") or (
+        name == "Scale" and kind.kind != "TopDownOrtho"
+    )

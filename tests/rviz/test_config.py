@@ -20,7 +20,7 @@ from studio.rviz.config_displays import ConfigDisplay, Loss, read_display, write
 from studio.rviz.config_text import read_tree, write_tree
 from studio.rviz.config_values import Entry, entries_at, entry_at, leaves, text_at
 from studio.rviz.tools import ToolSpec, default_tools
-from studio.rviz.views import ViewSpec
+from studio.rviz.views import VIEW_KINDS, ViewSpec
 from tests.support.corpus import corpus
 from tests.support.rviz_losses import LOSSES, listed
 
@@ -102,6 +102,19 @@ def test_a_new_display_of_each_kind_is_written_with_all_that_rviz2_writes():
         assert not [one for one in losses if one.reason != "no_property"]
     known = {one.KIND for one in DISPLAYS}
     assert not [name for name in expected if name.partition("/")[2] in known]
+
+
+def test_new_tools_and_views_are_written_with_all_that_rviz2_writes():
+    views = tuple(ViewSpec(kind, "Mine") for kind in VIEW_KINDS)
+    made = RvizConfig(tools=default_tools(), views=views)
+    manager = yaml.safe_load(write_config(made))["Visualization Manager"]
+    for written, file in ((manager["Tools"], "tools"), (manager["Views"]["Saved"], "views")):
+        expected = yaml.safe_load(RVIZ2.with_name(f"rviz2_{file}.yaml").read_text())
+        by_class = {one["Class"]: one for one in expected}
+        assert {one["Class"]: one for one in written} == by_class
+    read, losses = read_config(write_config(made))
+    assert [dict(one.values) for one in (*read.tools, *read.views)] == [{}] * 14
+    assert {one.names for one in losses if "/" in one.what} == {("Enable Stereo Rendering",)}
 
 
 @pytest.mark.corpus
