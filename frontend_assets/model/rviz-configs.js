@@ -196,5 +196,6 @@ const REASONS = [
   "no_panel",
   "no_property",
   "no_option",
+  "empty_group",
   "window",
 ];

@@ -1986,7 +1986,7 @@ export interface LookUp {
 
 /** Something of a file that is only kept, and written back as it is. */
 export interface LossView {
-  reason: "no_display" | "no_property" | "no_value" | "no_tool" | "no_view" | "no_panel" | "no_option" | "window";
+  reason: "no_display" | "no_property" | "no_value" | "no_tool" | "no_view" | "no_panel" | "no_option" | "empty_group" | "window";
   what: string;
   names: string[];
 }

@@ -46,7 +46,7 @@ class LossView(Message):
 
     reason: Literal[
         "no_display", "no_property", "no_value", "no_tool", "no_view", "no_panel", "no_option",
-        "window",
+        "empty_group", "window",
     ]  # fmt: skip
     what: str
     """The class in the file, or the part of the file."""

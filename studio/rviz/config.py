@@ -90,6 +90,8 @@ class RvizConfig:
         displays: In their order, with those that the studio cannot show.
         groups: Entries of the groups by their paths, without what is in them.
         groups_off: Paths of those that are switched off.
+        groups_empty: Paths of those in which nothing was, and how many stood before each in the
+            group around it.
         fixed_frame: Empty: that of the robot's root link.
         background: As `#rrggbb`; empty: that of the theme.
         frame_rate: Pictures per second at most; 0: as many as there can be.
@@ -103,6 +105,7 @@ class RvizConfig:
     displays: tuple[ConfigDisplay, ...] = ()
     groups: Mapping[str, Entry] = field(default_factory=dict[str, Entry])
     groups_off: tuple[str, ...] = ()
+    groups_empty: Mapping[str, int] = field(default_factory=dict[str, int])
     fixed_frame: str = ""
     background: str = ""
     frame_rate: int = 0
@@ -131,13 +134,14 @@ def read_config(text: str) -> tuple[RvizConfig, tuple[Loss, ...]]:
         displays=tuple(reader.displays),
         groups=reader.groups,
         groups_off=tuple(reader.groups_off),
+        groups_empty=reader.groups_empty,
         fixed_frame=text_at(manager, *_FIXED)[:_FRAME_MAX].removeprefix("/"),
         background=_background_of(manager),
         frame_rate=_frame_rate_of(manager),
         tools=tools,
         views=views,
         view=current,
-        rest={**tree, _MANAGER: _changed(manager, _DISPLAYS, []) if reader.displays else manager},
+        rest={**tree, _MANAGER: _changed(manager, _DISPLAYS, []) if reader.found else manager},
     )
     others = (*tool_losses, *view_losses, *current_losses, *_other_losses(tree, manager))
     return config, _united((*reader.losses, *others))
@@ -220,21 +224,27 @@ class _DisplayReader:
         self.displays: list[ConfigDisplay] = []
         self.groups: dict[str, Entry] = {}
         self.groups_off: list[str] = []
+        self.groups_empty: dict[str, int] = {}
         self.losses: list[Loss] = []
         self._read(manager, "")
 
+    @property
+    def found(self) -> int:
+        """How many displays there are, and groups in which none is."""
+        return len(self.displays) + len(self.groups_empty)
+
     def _read(self, entry: Entry, group: str) -> None:
-        for one in _members(entry):
-            if text_at(one, "Class") in GROUPS and _members(one):
-                self._read_group(one, group)
-                continue
-            display, losses = read_display(one)
-            self.displays.append(replace(display, group=group))
-            self.losses += losses
-            if len(self.displays) > DISPLAYS_MAX:
+        for before, one in enumerate(_members(entry)):
+            if text_at(one, "Class") in GROUPS:
+                self._read_group(one, group, before)
+            else:
+                display, losses = read_display(one)
+                self.displays.append(replace(display, group=group))
+                self.losses += losses
+            if self.found > DISPLAYS_MAX:
                 raise RvizConfigError(f"it has more than {DISPLAYS_MAX} displays")
 
-    def _read_group(self, entry: Entry, above: str) -> None:
+    def _read_group(self, entry: Entry, above: str, before: int) -> None:
         wanted = group_name(text_at(entry, "Name"))
         path = f"{above}/{wanted}" if above else wanted
         if path.count("/") >= GROUP_DEPTH_MAX:
@@ -243,10 +253,14 @@ class _DisplayReader:
         while path in self.groups:
             path = f"{above}/{wanted} {count}" if above else f"{wanted} {count}"
             count += 1
-        self.groups[path] = {**entry, _DISPLAYS: []}
-        if not is_enabled(entry):
-            self.groups_off.append(path)
+        displays = len(self.displays)
+        self.groups[path] = {**entry, _DISPLAYS: []} if _members(entry) else entry
         self._read(entry, path)
+        if len(self.displays) == displays:
+            self.groups_empty[path] = before
+            self.losses.append(Loss("empty_group", text_at(entry, "Class"), (path,)))
+        elif not is_enabled(entry):
+            self.groups_off.append(path)
 
 
 def group_name(name: str) -> str:
@@ -279,7 +293,27 @@ def _written(config: RvizConfig, group: str) -> list[Tree]:
             if step not in begun:
                 begun.add(step)
                 written.append(_written_group(config, f"{inside}{step}"))
+    for path, before in _empty_in(config, inside).items():
+        if path.removeprefix(inside) not in begun:
+            written.insert(before, _written_empty(config, path))
     return written
+
+
+def _empty_in(config: RvizConfig, inside: str) -> dict[str, int]:
+    """Return the empty groups that stand in a group, in their order."""
+    found = {
+        path: before
+        for path, before in config.groups_empty.items()
+        if path.startswith(inside) and "/" not in path.removeprefix(inside)
+    }
+    return dict(sorted(found.items(), key=lambda one: one[1]))
+
+
+def _written_empty(config: RvizConfig, path: str) -> Entry:
+    """Return a group in which no display is; others may be that are as empty."""
+    entry = config.groups[path]
+    written = _written(config, path)
+    return {**entry, _DISPLAYS: written} if written else entry
 
 
 def _written_group(config: RvizConfig, path: str) -> Entry:

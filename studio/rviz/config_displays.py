@@ -75,7 +75,15 @@ _TREE_LOOKS: Final = frozenset({
 _HEAD: Final = frozenset({("Class",), ("Name",), ("Enabled",), (VALUE,)})
 
 LossReason = Literal[
-    "no_display", "no_property", "no_value", "no_tool", "no_view", "no_panel", "no_option", "window"
+    "no_display",
+    "no_property",
+    "no_value",
+    "no_tool",
+    "no_view",
+    "no_panel",
+    "no_option",
+    "empty_group",
+    "window",
 ]
 
 
@@ -85,7 +93,7 @@ class Loss:
 
     Attributes:
         reason: There is no such display, property, tool, view, panel or option here, or it does
-            not take the value; `window` is what RViz notes of its own window.
+            not take the value; a group is empty; `window` is what RViz notes of its own window.
         what: The class in the file, or the part of the file.
         names: The properties; none: the whole of it.
     """

@@ -347,15 +347,49 @@ def test_groups_in_groups_stay_where_they_are_and_two_of_one_name_stay_two():
     text = config(GROUPS)
     read, _ = read_config(text)
     assert [(one.name, one.group) for one in read.displays] == [
-        ("A", "Same"), ("B", "Same/a\u2215b"), ("C", "Same 2"), ("Empty", ""),
+        ("A", "Same"), ("B", "Same/a\u2215b"), ("C", "Same 2"),
     ]  # fmt: skip
     assert read.groups_off == ("Same/a\u2215b",)
     assert yaml.safe_load(write_config(read)) == yaml.safe_load(text)
     moved = replace(read.displays[0], group="New/Inner")
     written = write_config(replace(read, displays=(moved,), groups_off=()))
-    (group,) = yaml.safe_load(written)["Visualization Manager"]["Displays"]
+    group, empty = yaml.safe_load(written)["Visualization Manager"]["Displays"]
+    assert (empty["Name"], empty["Displays"]) == ("Empty", [])
     assert (group["Class"], group["Name"]) == ("rviz_common/Group", "New")
     assert group["Displays"][0]["Name"] == "Inner"
+
+
+EMPTY = """
+  - {Class: rviz_common/Group, Name: First, Value: false}
+  - {Class: rviz/Axes, Name: A, Value: true}
+  - Class: rviz_common/Group
+    Displays:
+      - {Class: rviz_common/Group, Displays: [], Name: Inner, Value: true}
+    Name: Outer
+    Value: true
+  - Class: rviz_common/Group
+    Displays:
+      - {Class: rviz_common/Group, Displays: ~, Name: Before, Value: true}
+      - {Class: rviz/Axes, Name: B, Value: true}
+    Name: Full
+    Value: true
+"""
+
+
+def test_empty_groups_are_no_displays_and_stay_where_they_are():
+    text = config(EMPTY)
+    read, losses = read_config(text)
+    assert [(one.name, one.group) for one in read.displays] == [("A", ""), ("B", "Full")]
+    empty = ("First", "Outer/Inner", "Outer", "Full/Before")
+    assert losses == (Loss("empty_group", "rviz_common/Group", empty),)
+    assert yaml.safe_load(write_config(read)) == yaml.safe_load(text)
+    a, b = read.displays
+    moved = write_config(replace(read, displays=(b, replace(a, group="First"))))
+    names = [one["Name"] for one in yaml.safe_load(moved)["Visualization Manager"]["Displays"]]
+    assert names == ["Full", "First", "Outer"]
+    removed = write_config(replace(read, displays=()))
+    names = [one["Name"] for one in yaml.safe_load(removed)["Visualization Manager"]["Displays"]]
+    assert names == ["First", "Outer"]
 
 
 TOOLS = """
@@ -466,6 +500,7 @@ def test_the_tool_that_the_studio_always_has_is_not_added_to_a_file():
         (config("{a: 1}"), "no list"),
         (config("[5]"), "no properties"),
         (config("[" + "{}," * (DISPLAYS_MAX + 1) + "]"), "more than 200 displays"),
+        (config("[" + "{Class: rviz/Group}," * 5_000 + "]"), "more than 200 displays"),
         (config("[" + "{Class: rviz/Grid}," * 49_000 + "]"), "more than"),
         (config(more="  Tools: [" + "{Class: rviz/Select}," * 51 + "]"), "more than 49 tools"),
         (config(more="  Views: {Saved: [" + "{Class: rviz/FPS}," * 101 + "]}"), "100 saved views"),

@@ -36,6 +36,8 @@ class OpenedConfig(msgspec.Struct, frozen=True, omit_defaults=True):
     """The tree without its displays."""
     digest: str = ""
     """Of its text as the studio writes it without a change."""
+    groups_empty: dict[str, int] = {}
+    """Groups in which nothing was, and how many stood before each in the group around it."""
 
 
 class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):

@@ -284,7 +284,7 @@ class RvizConfigs:
     async def _take_saved(self, text: str, path: Path) -> None:
         """From now on this is the file that is open."""
         config, _ = await asyncio.to_thread(_read_text, text)
-        opened = OpenedConfig(path.name, str(path), dict(config.groups), config.rest, _digest(text))
+        opened = _opened_of(config, OpenedConfig(path.name, str(path), digest=_digest(text)))
         shown = [(one.kind, one.name) for one in self._displays.kept.displays]
         if shown == [(one.kind, one.name) for one in config.displays]:
             self._displays.set_entries([one.entry for one in config.displays])
@@ -413,6 +413,7 @@ def _config_of(kept: KeptDisplays, view: ViewValues | None) -> RvizConfig:
         displays=tuple(map(_config_display, kept.displays)),
         groups={} if config is None else config.groups,
         groups_off=kept.groups_off,
+        groups_empty={} if config is None else config.groups_empty,
         fixed_frame=kept.fixed_frame,
         background=kept.background,
         frame_rate=kept.frame_rate,
@@ -459,8 +460,14 @@ def _kept_of(config: RvizConfig, before: KeptDisplays, opened: OpenedConfig) -> 
         frame_rate=config.frame_rate,
         tools=config.tools,
         views=config.views,
-        config=structs.replace(opened, groups=dict(config.groups), rest=config.rest),
+        config=_opened_of(config, opened),
     )
+
+
+def _opened_of(config: RvizConfig, opened: OpenedConfig) -> OpenedConfig:
+    """Return it with what of the file the displays do not say."""
+    groups, empty = dict(config.groups), dict(config.groups_empty)
+    return structs.replace(opened, groups=groups, groups_empty=empty, rest=config.rest)
 
 
 def _spec_of(one: ConfigDisplay) -> DisplaySpec:

@@ -276,9 +276,13 @@ VIEWS = """
 """
 
 
-def test_views_that_were_moved_or_renamed_keep_all_that_the_file_says_of_them(tmp_path: Path):
+def test_moved_and_renamed_views_and_empty_groups_keep_all_that_the_file_says(tmp_path: Path):
     file = tmp_path / "views.rviz"
-    file.write_text(FILE.replace("Saved: ~", f"Saved: {VIEWS}"))
+    later = "    - {Class: rviz_common/Group, Displays: [], Enabled: false, Name: Later}\n"
+    told = FILE.replace("Saved: ~", f"Saved: {VIEWS}").replace(
+        "Displays:\n", "Displays:\n" + later, 1
+    )
+    file.write_text(told)
 
     def saved() -> list[tuple[str, int | None]]:
         manager = yaml.safe_load(file.read_text())["Visualization Manager"]
@@ -286,6 +290,8 @@ def test_views_that_were_moved_or_renamed_keep_all_that_the_file_says_of_them(tm
 
     async def work(one: Opened) -> None:
         await one.do(OpenRvizFile(path=str(file)))
+        assert not one.state["changed"]
+        assert "Later" not in [display["name"] for display in one.displays]
         first, second = [view["id"] for view in one.ear.last("saved_views")["views"]]
         await one.do(MoveView(view=second, before=first))
         await one.changed()
@@ -295,6 +301,8 @@ def test_views_that_were_moved_or_renamed_keep_all_that_the_file_says_of_them(tm
             await one.do(RenameView(view=second, name=name))
             await one.do(SaveRvizFile(request=2))
         assert saved() == [("D", 2), ("Fish", None), ("A", 1)]
+        group = yaml.safe_load(file.read_text())["Visualization Manager"]["Displays"][0]
+        assert group == yaml.safe_load(later)[0]
 
     with_arm(tmp_path, work)
 
