@@ -18,6 +18,7 @@ from studio.rviz.config_displays import (
     switched,
     write_display,
 )
+from studio.rviz.config_groups import group_name, name_in_path
 from studio.rviz.config_kinds import GROUPS, OURS, RVIZ1, class_in_rviz2
 from studio.rviz.config_page import PAGE
 from studio.rviz.config_text import is_null, read_tree, scalar_of, text_of, write_tree
@@ -30,7 +31,6 @@ from studio.rviz.config_values import (
     entries_at,
     entry_at,
     number_of,
-    one_line,
     put,
     text_at,
 )
@@ -48,8 +48,6 @@ DISPLAYS_MAX: Final = 200
 FRAME_RATE_MAX: Final = 240
 GROUP_DEPTH_MAX: Final = 8
 """So many groups stand in each other in a document."""
-_GROUP_NAME_MAX: Final = 48
-"""Letters of a group's name in a path; in the file it keeps all."""
 _RVIZ_FRAME_RATE: Final = 30
 _RVIZ_BACKGROUND: Final = "#303030"
 _MANAGER: Final = "Visualization Manager"
@@ -61,8 +59,6 @@ _OUR_BACKGROUND: Final = (_OPTIONS, OURS, "Background Color")
 _FRAME_RATE: Final = (_OPTIONS, "Frame Rate")
 _OUR_FRAME_RATE: Final = (_OPTIONS, OURS, "Frame Rate")
 _FRAME_MAX: Final = 300
-_SLASH: Final = "\u2215"
-"""Stands for a slash in the name of a group, since slashes lead from one group to the next."""
 _PANELS: Final = frozenset({
     "Displays", "Help", "Selection", "Time", "Tool Properties", "Views",
 })  # fmt: skip
@@ -263,11 +259,6 @@ class _DisplayReader:
             self.groups_off.append(path)
 
 
-def group_name(name: str) -> str:
-    """Return the name of a group as one step of a path."""
-    return one_line(name).replace("/", _SLASH)[:_GROUP_NAME_MAX].strip() or "Group"
-
-
 def _members(entry: Entry) -> list[Entry]:
     found = entry.get(_DISPLAYS, "~")
     if is_null(found):
@@ -317,7 +308,7 @@ def _written_empty(config: RvizConfig, path: str) -> Entry:
 
 
 def _written_group(config: RvizConfig, path: str) -> Entry:
-    name = path.rpartition("/")[2].replace(_SLASH, "/")
+    name = name_in_path(path)
     fresh: Entry = {
         "Class": "rviz_common/Group",
         _DISPLAYS: [],

@@ -12,6 +12,9 @@ import msgspec
 
 from studio.files import write_whole
 from studio.live.displays.display_list import DISPLAYS_MAX, DisplaySpec
+from studio.live.displays.groups import group_path, is_within, regrouped
+from studio.rviz.config_groups import group_name, renamed_group
+from studio.rviz.config_values import text_at
 from studio.rviz.tools import TOOLS_MAX, ToolSpec
 from studio.rviz.views import ViewSpec  # noqa: TC001 - msgspec reads it
 
@@ -38,6 +41,33 @@ class OpenedConfig(msgspec.Struct, frozen=True, omit_defaults=True):
     """Of its text as the studio writes it without a change."""
     groups_empty: dict[str, int] = {}
     """Groups in which nothing was, and how many stood before each in the group around it."""
+
+    def regrouped(self, group: str, to: str) -> OpenedConfig:
+        """Return it for a group that has another path: what the file says of it goes with it.
+
+        Args:
+            group: Its path.
+            to: Its new path; empty: what is in it goes where it stands.
+
+        Raises:
+            CommandError: A group would stand in too many others.
+        """
+        to = group_path(to) or group.rpartition("/")[0]
+        groups = {path: one for path, one in self.groups.items() if not is_within(path, group)}
+        empty = {path: at for path, at in self.groups_empty.items() if not is_within(path, group)}
+        for path in self.groups.keys() - groups.keys():
+            if new := regrouped(path, group, to):
+                entry = self.groups[path]
+                groups.setdefault(new, _named(entry, to) if path == group else entry)
+                if path in self.groups_empty:
+                    empty.setdefault(new, self.groups_empty[path])
+        return msgspec.structs.replace(self, groups=groups, groups_empty=empty)
+
+
+def _named(entry: dict[str, Any], path: str) -> dict[str, Any]:
+    """Return the entry of a group with the name that its path ends with, if that is another."""
+    name = path.rpartition("/")[2]
+    return entry if group_name(text_at(entry, "Name")) == name else renamed_group(entry, name)
 
 
 class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):

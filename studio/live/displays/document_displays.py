@@ -303,7 +303,11 @@ class DocumentDisplays:
 
     def arrange_group(self, command: ArrangeGroup) -> None:
         """Name or move a group with all that is in it."""
+        config, to = self._beside.config, command.to
+        if config is not None and to is not None:
+            config = config.regrouped(command.group, to)
         self._list.arrange_group(command.group, command.to, command.before)
+        self._beside = structs.replace(self._beside, config=config)
         self._respecify()
         self._changed()
 

@@ -17,6 +17,7 @@ from studio.errors import (
     StudioError,
 )
 from studio.protocol.displays import (
+    ArrangeGroup,
     RemoveDisplay,
     SetDisplayProperty,
     SetFixedFrame,
@@ -303,6 +304,30 @@ def test_moved_and_renamed_views_and_empty_groups_keep_all_that_the_file_says(tm
         assert saved() == [("D", 2), ("Fish", None), ("A", 1)]
         group = yaml.safe_load(file.read_text())["Visualization Manager"]["Displays"][0]
         assert group == yaml.safe_load(later)[0]
+
+    with_arm(tmp_path, work)
+
+
+def test_a_group_that_is_renamed_keeps_what_the_file_says_of_it(tmp_path: Path):
+    file = tmp_path / "groups.rviz"
+    inner = "        - {Class: rviz_common/Group, Displays: [], Name: Inner}\n"
+    told = FILE.replace("      Displays:\n", f"      Displays:\n{inner}", 1)
+    file.write_text(told.replace("      Name: Arm\n", "      Extra: 1\n      Name: Arm\n"))
+
+    async def work(one: Opened) -> None:
+        await one.do(OpenRvizFile(path=str(file)))
+        before = yaml.safe_load(file.read_text())["Visualization Manager"]["Displays"]
+        for path, to in (("Arm", "Whole/Left arm"), ("Whole", "All")):
+            await one.do(ArrangeGroup(group=path, to=to))
+        await one.do(SaveRvizFile(request=1))
+        floor, outer = yaml.safe_load(file.read_text())["Visualization Manager"]["Displays"]
+        (group,) = outer["Displays"]
+        assert (floor, outer["Name"]) == (before[0], "All")
+        assert group == {**before[1], "Name": "Left arm"}
+        await one.do(ArrangeGroup(group="All/Left arm", to=""))
+        await one.do(SaveRvizFile(request=1))
+        _, outer = yaml.safe_load(file.read_text())["Visualization Manager"]["Displays"]
+        assert [each["Name"] for each in outer["Displays"]] == ["Inner", "Planning", "Axes"]
 
     with_arm(tmp_path, work)
 
