@@ -128,8 +128,12 @@ def test_displays_are_grouped_dragged_renamed_and_removed_as_in_rviz(tab: Studio
     page.locator(".notice").get_by_role("button", name="Undo").click()
     become(tab, "1 Arm", "2 Axes 3", "2 Axes 2", "1 All", "2 Origin")
 
+    row(tab, "Origin").focus()
+    page.keyboard.press("Control+d")
+    become(tab, "1 Arm", "2 Axes 3", "2 Axes 2", "1 All", "2 Origin", "2 Origin 2")
+
     page.get_by_role("button", name="Hide all displays").click()
-    wait_until("all are hidden", lambda: page.locator(".tree-row.display.faded").count() == 3)
+    wait_until("all are hidden", lambda: page.locator(".tree-row.display.faded").count() == 4)
     page.get_by_role("button", name="Show all displays").click()
     wait_until("all are shown", lambda: page.locator(".tree-row.display.faded").count() == 0)
     see_statuses(tab)
