@@ -23,6 +23,7 @@ import {
   zeroJoints,
 } from "../model/requests.js";
 import { mayMove } from "../model/ros.js";
+import { configUnsaved } from "../model/rviz-configs.js";
 import { selected } from "../model/selection.js";
 import { addTools } from "../model/tools.js";
 import { activePanel, dialog, fullView, isFree, languageChoice, theme } from "../model/view.js";
@@ -156,7 +157,7 @@ function onKeyDown(event) {
 }
 
 /**
- * Who leaves the studio with unsaved edits is asked, as by RViz. The studio keeps them, but one who
+ * Who leaves the studio with unsaved edits, or a config file that is not saved, is asked, as by RViz. The studio keeps them, but one who
  * closes a tab may have meant to save; the way to another document of the studio asks nothing.
  */
 function askBeforeLeaving() {
@@ -164,7 +165,8 @@ function askBeforeLeaving() {
     if (!isGoing()) event.preventDefault();
   };
   effect(() => {
-    if (unsaved.value && mayEdit.value && !isCopy.value) addEventListener("beforeunload", ask);
+    const edits = unsaved.value && mayEdit.value && !isCopy.value;
+    if (edits || configUnsaved.value) addEventListener("beforeunload", ask);
     else removeEventListener("beforeunload", ask);
   });
 }
@@ -187,7 +189,8 @@ function followState() {
     document.documentElement.dataset.theme = theme.value;
   });
   effect(() => {
-    document.title = [unsaved.value ? "•" : "", title.value, title.value ? "–" : "", t("brand")]
+    const mark = unsaved.value || configUnsaved.value ? "•" : "";
+    document.title = [mark, title.value, title.value ? "–" : "", t("brand")]
       .filter(Boolean)
       .join(" ");
   });

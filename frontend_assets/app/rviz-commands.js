@@ -7,6 +7,7 @@ import { documentId, mayEdit, mayManage } from "../model/connection.js";
 import { isCopy } from "../model/copies.js";
 import { closeDocument } from "../model/requests.js";
 import {
+  configChanged,
   downloadConfig,
   openConfigOf,
   RVIZ,
@@ -62,8 +63,8 @@ export function takeConfig(file) {
 
 /** @param {() => void} run at once where nothing is unsaved; else once the person says so */
 function ifSaved(run) {
-  const { changed, name } = rvizConfig.value;
-  if (!changed) return run();
+  const { name } = rvizConfig.value;
+  if (!configChanged.value) return run();
   dialog.value = {
     kind: "confirm",
     title: t("rviz.unsaved.title"),
@@ -80,9 +81,18 @@ function askWhere() {
   dialog.value = { kind: "rviz_save" };
 }
 
-/** Without a file of this machine it is asked for. */
-async function save() {
+/** Without a file of this machine it is asked for; what others wrote into it is lost only by a yes. */
+async function save(replace = false) {
   if (rvizConfig.value.path === "") return askWhere();
-  const saved = await saveConfig("");
-  if (saved) notify(t("rviz.saved", { file: saved.path }));
+  const saved = await saveConfig("", { replace });
+  if (!saved?.isThere) return saved && notify(t("rviz.saved", { file: saved.path }));
+  const { changed, path } = saved;
+  dialog.value = {
+    kind: "confirm",
+    title: t("rviz.save.title"),
+    text: t(changed ? "rviz.changed" : "rviz.is_there", { file: path }),
+    action: t("rviz.replace"),
+    danger: true,
+    run: () => void save(true),
+  };
 }

@@ -120,6 +120,7 @@ export function SaveConfigDialog({ onClose }) {
     ),
   );
   const isThere = useSignal("");
+  const changed = useSignal(false);
   const rviz2 = useSignal(true);
   const hint = useId();
   useEffect(() => {
@@ -140,6 +141,7 @@ export function SaveConfigDialog({ onClose }) {
     const saved = await saveConfig(path, { replace: isThere.value === path, rviz2: converts() });
     if (!saved) return;
     isThere.value = saved.isThere ? path : "";
+    changed.value = saved.changed;
     if (saved.isThere) return;
     onClose();
     notify(t("rviz.saved", { file: saved.path }));
@@ -178,7 +180,7 @@ export function SaveConfigDialog({ onClose }) {
           folder.value = event.currentTarget.value;
         }} /></label>
       <p id=${hint} class=${`form-hint ${isThere.value === path ? "bad" : ""}`} role="status">
-        <${Icon} name=${isThere.value === path ? "alert" : "filePlus"} size=${14} /><span class="form-path">${isThere.value === path ? t("rviz.is_there", { file: path }) : path}</span></p>
+        <${Icon} name=${isThere.value === path ? "alert" : "filePlus"} size=${14} /><span class="form-path">${isThere.value === path ? t(changed.value ? "rviz.changed" : "rviz.is_there", { file: path }) : path}</span></p>
       <footer><button type="button" class="button" onClick=${download}><${Icon} name="download" />${t("rviz.download")}</button><span class="push"></span>
         <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
         <button type="submit" class=${`button ${isThere.value === path ? "danger" : "primary"}`} disabled=${name.value.trim() === ""}>${t(isThere.value === path ? "rviz.replace" : "command.save")}</button></footer>

@@ -12,9 +12,10 @@ import { commandById } from "../lib/commands.js";
 import { saveAsFile } from "../lib/files.js";
 import { t } from "../lib/i18n.js";
 import { latestSender } from "../lib/latest.js";
+import { mayManage } from "./connection.js";
 import { ask } from "./requests.js";
 import { dialog, notify } from "./view.js";
-import { viewport } from "./viewport.js";
+import { movedByHand, viewport } from "./viewport.js";
 import { currentView, useView } from "./views.js";
 import { subscribe } from "./wire.js";
 
@@ -29,14 +30,23 @@ const NONE = {
 };
 /** @type {Signal<RvizConfigState>} */
 export const rvizConfig = signal(NONE);
+/** Whether saving would change the file. The camera is this page's own, and counts for who may save it. */
+export const configChanged = computed(() => {
+  const { name, changed } = rvizConfig.value;
+  return name !== "" && (changed || (mayManage.value && movedByHand.value));
+});
 /** With a dot behind it when saving would change it; empty: none is open. */
 export const configName = computed(() => {
-  const { name, changed } = rvizConfig.value;
-  return name && `${name}${changed ? " •" : ""}`;
+  const { name } = rvizConfig.value;
+  return name && `${name}${configChanged.value ? " •" : ""}`;
 });
+/** Whether this person has something to save in it. */
+export const configUnsaved = computed(() => mayManage.value && configChanged.value);
 
 let isFirst = true;
 subscribe("rviz_config_state", (event) => {
+  const { name, path } = rvizConfig.peek();
+  if (event.name !== name || event.path !== path) movedByHand.value = false;
   rvizConfig.value = event;
   // What somebody opens later moves no one else's camera.
   if (isFirst && event.name) void begin();
@@ -110,6 +120,7 @@ export async function openConfigOf(file) {
 function takeOpened(answer) {
   if (answer?.type !== "rviz_config_opened") return false;
   const { view, page } = answer;
+  movedByHand.value = false;
   if (view) useView(view);
   if (page) pagePart.take(page);
   dialog.value = { kind: "rviz_opened", opened: answer };
@@ -122,11 +133,15 @@ const partFor = (name) => (name.endsWith(STUDIO) ? pagePart.told() : "");
 /**
  * @param {string} path empty: the file that is open
  * @param {{replace?: boolean, rviz2?: boolean}} [options] `rviz2`: one of RViz 1 becomes one that RViz 2 opens
- * @returns {Promise<{path: string, isThere: boolean} | null>} null: it was refused, which is said
+ * @returns {Promise<{path: string, isThere: boolean, changed: boolean} | null>} `isThere`: it was not written, and is
+ * another file, or was `changed` on disk; null: it was refused, which is said
  */
 export async function saveConfig(path, { replace = false, rviz2 = false } = {}) {
   const page = partFor(path || rvizConfig.value.name);
   const view = currentView();
+  // What is moved while it is written is not in it.
+  const moved = movedByHand.peek();
+  movedByHand.value = false;
   const answer = await ask({
     type: "save_rviz_file",
     path,
@@ -135,8 +150,9 @@ export async function saveConfig(path, { replace = false, rviz2 = false } = {}) 
     rviz2,
     ...(view && { view }),
   });
-  if (answer?.type !== "rviz_file_saved") return null;
-  return { path: answer.path, isThere: answer.is_there };
+  const saved = answer?.type === "rviz_file_saved" ? answer : null;
+  if (moved && (!saved || saved.is_there)) movedByHand.value = true;
+  return saved && { path: saved.path, isThere: saved.is_there, changed: saved.changed };
 }
 
 /** @param {".rviz" | ".studio.yaml"} ending have the browser save it @param {{rviz2?: boolean}} [options] */

@@ -216,6 +216,8 @@ async function studio3dOf(frame) {
 
 /** The view that is shown; null: none yet. @type {import("vendor/preact.js").Signal<ShownView | null>} */
 export const shownView = signal(null);
+/** A hand moved the camera of this page since this was false; flights to a view and fitting do not count. */
+export const movedByHand = signal(false);
 /** Whose view it was. @type {{view: Studio3d | null, document: string}} */
 let last = { view: null, document: "" };
 
@@ -305,8 +307,9 @@ function listen(view) {
   on("drag", takeDrag);
   on("picked", takePicked);
   on("select_nothing", selectNothing);
-  on("view", (shown) => {
-    shownView.value = shown;
+  on("view", ({ byHand, kind, values }) => {
+    shownView.value = { kind, values };
+    if (byHand) movedByHand.value = true;
   });
   on("key", (stroke, event) => {
     // Prevented, the view leaves the key to the page.

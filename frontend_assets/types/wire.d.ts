@@ -3028,6 +3028,7 @@ export interface RvizFileSaved {
   request: number;
   path: string;
   is_there: boolean;
+  changed: boolean;
 }
 
 /** Answer: those opened lately, the newest first, then those of the packages. */

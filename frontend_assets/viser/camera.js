@@ -83,6 +83,8 @@ export class CameraView {
   /** What is to be done once a frame that was chosen is there. @type {"stay" | "look" | null} */
   #once = null;
   #untouched = true;
+  /** A hand was on it since the last picture. */
+  #byHand = false;
   /** Width by height of the picture. */
   #aspect = 0;
   /** The most meshes that stood in the scene at once. */
@@ -109,12 +111,15 @@ export class CameraView {
       this.#place();
       this.#door.mutable?.camera?.updateWorldMatrix(false, false);
       this.#tellView();
+      this.#byHand = false;
     });
   }
 
   /** A hand on the camera ends the fitting by itself, and what another shows. */
   touched() {
     this.#untouched = false;
+    this.#byHand = true;
+    this.#door.redraw();
     this.#adopt();
   }
 
@@ -126,7 +131,7 @@ export class CameraView {
   /** @param {{kind: string, values: Values}} view @param {boolean} [animate] */
   use({ kind, values }, animate = true) {
     if (!isKind(kind)) throw new RangeError(`There is no view "${kind}".`);
-    this.#untouched = false;
+    this.#untouched = this.#byHand = false;
     this.#once = null;
     this.#change({ kind, values }, animate);
   }
@@ -445,7 +450,7 @@ export class CameraView {
     if (this.#told === shown) return;
     this.#told = shown;
     const { kind, values } = this.current;
-    this.#tell("view", { kind, values });
+    this.#tell("view", { kind, values, byHand: this.#byHand });
   }
 
   #size() {

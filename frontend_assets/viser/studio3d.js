@@ -37,7 +37,7 @@ import { Units } from "./tools/units.js";
  * The 3D view as the page around it uses it: `iframe.contentWindow.studio3d`.
  *
  * Events on `events`, all with a `detail`: `hover {link}`, `select {link}` (null: empty space),
- * `marker`, `marker_menu`, `marker_hover`, `marker_denied` (see MarkerHandles), `touch {}` (a hand is on the camera), `view {kind, values}` (it is another, or has other values),
+ * `marker`, `marker_menu`, `marker_hover`, `marker_denied` (see MarkerHandles), `touch {}` (a hand is on the camera), `view {kind, values, byHand}` (it is another, or has other values),
  * `turned {turn}` (of the camera), `focus {link}` (null: of no link), `measure {anchor}`, `pose
  * {x, y, yaw}` and `point {point, what}` (pointed at with a tool, in the fixed frame), `picked {nodes,
  * links, how, left_out}` and `select_nothing {}` (of the tool Select), `drag {joint, value, phase, x,

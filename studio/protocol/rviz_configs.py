@@ -113,7 +113,7 @@ class SaveRvizFile(Command):
     type: Literal["save_rviz_file"] = "save_rviz_file"
     path: FilePath = ""
     replace: bool = False
-    """Whether a file that is there already, and is not the one opened, is written over."""
+    """Whether a file is written over that is not the one opened, or that somebody else changed."""
     view: ViewValues | None = None
     page: PageText = ""
     rviz2: bool = False
@@ -128,6 +128,8 @@ class RvizFileSaved(Event):
     path: str
     is_there: bool
     """True: nothing was written."""
+    changed: bool
+    """Whether this is the open file, and somebody else changed it on the disk."""
 
 
 class UndoRvizConfig(Command):

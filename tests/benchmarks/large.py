@@ -24,7 +24,7 @@ from studio.displays.point_cloud2 import PointCloud2Display
 from studio.scene import DocumentScene
 from tests.benchmarks.displays import TYPES, cloud_message, map_message
 from tests.benchmarks.displays_markers import moved
-from tests.benchmarks.report import Timings, judge, say
+from tests.benchmarks.report import Timings, judge, note, say
 from tests.support.bare_page import bare_page
 from tests.support.markers import array_of, marker
 from tests.support.scene_server import SceneServer
@@ -48,6 +48,13 @@ _TURN: Final = """(() => {
     requestAnimationFrame(turn); };
   turn();
 })()"""
+_DRAWN: Final = """(() => {
+  let points = 0;
+  __viserMutable.nodeRefFromName["NODE"].traverse(({ isPoints, geometry }) => {
+    if (isPoints) points += Math.min(geometry.attributes.position.count, geometry.drawRange.count);
+  });
+  return points;
+})()"""
 _PICTURES: Final = "__viserTestpoints.rendererInfo.render.frame"
 _STOCK: Final = f"""
 import sys, time, numpy as np, viser
@@ -64,12 +71,17 @@ time.sleep(1000)
 def run() -> None:
     """All of it."""
     asyncio.run(_ticks())
-    ours, stock = _orbit_of_ours(), _orbit_of_stock()
-    say(
-        f"  a picture of 1,000,000 points on an orbit: {ours:.0f} ms; by viser alone {stock:.0f} ms"
-    )
+    # What is slow is drawn with fewer points while it turns, and with all once it rests.
+    (ours_ms, points), (stock_ms, all_points) = _orbit_of_ours(), _orbit_of_stock()
+    note("1M points, orbit: a picture", f"{ours_ms:.0f} ms")
+    note("1M points, orbit: points of it", f"{points:,}")
+    note("1M points, orbit: a picture of viser alone", f"{stock_ms:.0f} ms")
+    note("1M points, orbit: points of it by viser alone", f"{all_points:,}")
     judge(
-        "1M points, orbit: a picture against viser alone", ours / stock, at_most=1.2, unit="of it"
+        "1M points, orbit: a picture against viser alone",
+        ours_ms / stock_ms,
+        at_most=1.2,
+        unit="of it",
     )
 
 
@@ -102,12 +114,11 @@ async def _hold(title: str, display: Display, messages: Iterable[Received]) -> N
         peer.frames.clear()
     scene.close()
     await asyncio.sleep(0)
-    longest = max(held.values_ms[1:])
     say(f"  {title}: first {held.values_ms[0]:.0f} ms, then median {held.median_ms:.1f} ms")
-    judge(f"{title}: the longest tick after the first", longest, at_most=_HOLDS_MS)
+    judge(f"{title}: the longest tick", max(held.values_ms), at_most=_HOLDS_MS)
 
 
-def _orbit_of_ours() -> float:
+def _orbit_of_ours() -> tuple[float, int]:
     rng = np.random.default_rng(1)
     points = rng.uniform(-2, 2, (POINTS, 3)).astype(np.float32)
     colors = rng.integers(0, 255, (POINTS, 3)).astype(np.uint8)
@@ -122,13 +133,13 @@ def _orbit_of_ours() -> float:
         return _orbit(f"{server.url}?fixedDpr=1", "/live/7/a/s.points")
 
 
-def _orbit_of_stock() -> float:
+def _orbit_of_stock() -> tuple[float, int]:
     with _stock_viser() as port:
         return _orbit(f"http://127.0.0.1:{port}/?fixedDpr=1", "/cloud")
 
 
-def _orbit(address: str, node: str) -> float:
-    """Return the milliseconds of one picture."""
+def _orbit(address: str, node: str) -> tuple[float, int]:
+    """Return the milliseconds of one picture, and how many points it has."""
     with bare_page(address, *_WINDOW) as page:
         page.until(f"window.__viserMutable?.nodeRefFromName['{node}']")
         time.sleep(2.0)
@@ -137,7 +148,8 @@ def _orbit(address: str, node: str) -> float:
         before, began_s = page.evaluate(_PICTURES), time.perf_counter()
         time.sleep(_ORBIT_S)
         drawn = int(page.evaluate(_PICTURES)) - int(before)
-        return 1000 * (time.perf_counter() - began_s) / max(drawn, 1)
+        took_ms = 1000 * (time.perf_counter() - began_s) / max(drawn, 1)
+        return took_ms, int(page.evaluate(_DRAWN.replace("NODE", node)))
 
 
 @contextlib.contextmanager

@@ -57,6 +57,14 @@ class Verdict:
 
 VERDICTS: list[Verdict] = []
 """Of this run, in the order in which they were found."""
+NOTED: dict[str, str] = {}
+"""Figures of this run that nothing is asked of."""
+
+
+def note(what: str, figure: str) -> None:
+    """Say a figure of which nothing is asked, and keep it beside the verdicts."""
+    NOTED[what] = figure
+    say(f"  noted   {what:<74}{figure:>16}")
 
 
 def judge(what: str, got: float, *, at_most: float, unit: str = "ms") -> None:

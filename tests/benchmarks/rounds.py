@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from tests.benchmarks.report import VERDICTS, say
+from tests.benchmarks.report import NOTED, VERDICTS, say
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,8 +21,8 @@ _HEAD: Final = (
 
 
 def figures() -> dict[str, str]:
-    """Return what this run measured of what was asked."""
-    return {one.what: one.got for one in VERDICTS}
+    """Return what this run measured of what was asked, and noted beside it."""
+    return {one.what: one.got for one in VERDICTS} | NOTED
 
 
 def last_round() -> tuple[str, dict[str, str]]:

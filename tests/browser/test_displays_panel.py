@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -86,21 +86,13 @@ def drag_by_mouse(tab: StudioPage, name: str, onto: str) -> None:
 
 def drag_by_finger(tab: StudioPage, name: str, above: str) -> None:
     """At its icon, to the upper end of another row."""
-    session: Any = tab.page.context.new_cdp_session(tab.page)
-    session.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
-    (x, y), (to_x, to_y) = middle(row(tab, name).locator("> .icon")), middle(row(tab, above))
-
-    def touch(kind: str, *points: tuple[float, float]) -> None:
-        places = [{"x": at[0], "y": at[1]} for at in points]
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
-
-    touch("touchStart", (x, y))
-    for step in range(4, -1, -1):
-        touch("touchMove", (to_x, to_y - 11 + step))
-    tab.page.locator(".drop-before").wait_for()
-    touch("touchEnd")
-    session.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
-    session.detach()
+    with tab.finger() as touch:
+        begin, (to_x, to_y) = middle(row(tab, name).locator("> .icon")), middle(row(tab, above))
+        touch("touchStart", begin)
+        for step in range(4, -1, -1):
+            touch("touchMove", (to_x, to_y - 11 + step))
+        tab.page.locator(".drop-before").wait_for()
+        touch("touchEnd")
 
 
 def test_displays_are_grouped_dragged_renamed_and_removed_as_in_rviz(tab: StudioPage):
@@ -136,8 +128,12 @@ def test_displays_are_grouped_dragged_renamed_and_removed_as_in_rviz(tab: Studio
     page.locator(".notice").get_by_role("button", name="Undo").click()
     become(tab, "1 Arm", "2 Axes 3", "2 Axes 2", "1 All", "2 Origin")
 
+    row(tab, "Origin").focus()
+    page.keyboard.press("Control+d")
+    become(tab, "1 Arm", "2 Axes 3", "2 Axes 2", "1 All", "2 Origin", "2 Origin 2")
+
     page.get_by_role("button", name="Hide all displays").click()
-    wait_until("all are hidden", lambda: page.locator(".tree-row.display.faded").count() == 3)
+    wait_until("all are hidden", lambda: page.locator(".tree-row.display.faded").count() == 4)
     page.get_by_role("button", name="Show all displays").click()
     wait_until("all are shown", lambda: page.locator(".tree-row.display.faded").count() == 0)
     see_statuses(tab)

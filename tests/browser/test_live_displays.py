@@ -108,6 +108,8 @@ def add(tab: StudioPage, topic: str) -> None:
     offer.filter(has_text="Hz").wait_for()
     window.get_by_role("searchbox").fill(topic)
     wait_until("one offer", lambda: window.get_by_role("option").count() == 1)
+    said = window.get_by_role("option").inner_text()
+    assert all(word in said for word in (topic, "/msg/", "Hz"))  # its type and rate
     window.get_by_role("searchbox").press("Enter")
     wait_until("the window to be gone", lambda: window.count() == 0)
 

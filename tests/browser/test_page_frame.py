@@ -312,6 +312,20 @@ def shift(before: FloatRect, after: FloatRect) -> tuple[int, int, int, int]:
     return right, down, round(wider), round(higher)
 
 
+def drag_by_finger(tab: StudioPage, by_px: int) -> None:
+    """The window over the page, to the left."""
+    with tab.finger() as touch:
+        before, bar = floating(tab), tab.page.locator(".dv-floating-titlebar").bounding_box()
+        assert bar is not None
+        x, y = bar["x"] + 40, bar["y"] + bar["height"] / 2
+        touch("touchStart", (x, y))
+        for share in (0.3, 0.6, 1):
+            touch("touchMove", (x + share * by_px, y))
+        touch("touchEnd")
+        # It follows from the first move on.
+        wait_until("it went along", lambda: by_px <= shift(before, floating(tab))[0] <= by_px / 2)
+
+
 def test_a_panel_floats_is_moved_and_sized_by_keys_and_mouse_kept_and_docked(tab: StudioPage):
     page = tab.page
     panel_tab(tab, "Masses").click()
@@ -331,6 +345,7 @@ def test_a_panel_floats_is_moved_and_sized_by_keys_and_mouse_kept_and_docked(tab
     page.reload()
     page.locator(".dv-resize-container").wait_for()
     wait_until("it is kept", lambda: shift(dragged, floating(tab)) == (0, 0, 0, 0))
+    drag_by_finger(tab, by_px=-50)
     page.get_by_role("button", name="Dock Masses").click()
     wait_until("it is docked", lambda: page.locator(".dv-resize-container").count() == 0)
     page.get_by_role("button", name="Close Masses").click()

@@ -38,6 +38,17 @@ BEHIND = """() => getComputedStyle(
   document.querySelector("iframe").contentDocument.documentElement,
 ).getPropertyValue("--view-mid").trim()"""
 VIEW = "() => document.querySelector('iframe').contentWindow.studio3d?.getView().kind"
+LEAVING_IS_ASKED_ABOUT = """() => {
+  const leaving = new Event("beforeunload", { cancelable: true });
+  window.dispatchEvent(leaving);
+  return leaving.defaultPrevented;
+}"""
+DROP = """(text) => {
+  const held = new DataTransfer();
+  held.items.add(new File([text], "dropped.rviz"));
+  const event = new DragEvent("drop", { dataTransfer: held, bubbles: true, cancelable: true });
+  document.body.dispatchEvent(event);
+}"""
 PLOTS = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   return (await import(new URL("../model/plotting.js", script))).series.value.length;
@@ -54,11 +65,14 @@ def test_a_config_file_is_opened_changed_saved_and_undone(
     wait_until("the background", lambda: page.evaluate(BEHIND) == "#0a141e")
     assert page.evaluate(PLOTS) == 1
     change_and_download(page)
-    save(page, data)
+    file = save(page, data)
+    move_the_camera_and_save_over_changes_of_others(page, file)
     page.get_by_role("treeitem", name="Background Color").get_by_role("button").click()
     wait_until("the theme's own", lambda: page.evaluate(BEHIND) == theme)
     open_another_and_go_back(page)
+    drop_another(page)
     begin_with_the_view_alone(page)
+    close_the_robot(page)
     assert tab.errors == []
 
 
@@ -93,27 +107,82 @@ def change_and_download(page: Page) -> None:
     assert written["Studio"]["Plots"] == [{"topic": "/odom", "path": ".twist.twist.linear.x"}]
 
 
-def save(page: Page, data: Path) -> None:
+def save(page: Page, data: Path) -> Path:
     """The folder of the robot's own files is proposed."""
     page.evaluate(RUN, "rviz_save_as")
     page.get_by_label("Name", exact=True).fill("mine")
     page.get_by_role("dialog").get_by_role("button", name="Save", exact=True).click()
-    name = page.locator(".config-text", has_text="mine.studio.yaml")
-    name.wait_for()
-    wait_until("it is saved", lambda: "•" not in name.inner_text())
+    page.locator(".config-text", has_text="mine.studio.yaml").wait_for()
+    wait_until("it is saved", lambda: not is_marked(page))
     (saved,) = data.rglob("mine.studio.yaml")
     assert "Frame Rate: 20" in saved.read_text()
+    return saved
+
+
+def is_marked(page: Page) -> bool:
+    """Whether the page says that the file is not saved, wherever it does."""
+    marks = {
+        "•" in page.locator(".config-text").inner_text(),
+        page.title().startswith("•"),
+        bool(page.evaluate(LEAVING_IS_ASKED_ABOUT)),
+    }
+    return marks == {True}
+
+
+def move_the_camera_and_save_over_changes_of_others(page: Page, file: Path) -> None:
+    """Who presents is asked on leaving, and before what others wrote is lost."""
+    assert not page.evaluate(LEAVING_IS_ASKED_ABOUT)
+    box = page.locator("iframe").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down(button="middle")
+    page.mouse.move(x + 60, y + 30, steps=4)
+    page.mouse.up(button="middle")
+    wait_until("the mark", lambda: is_marked(page))
+    before = file.read_text()
+    file.write_text(before.replace("Frame Rate: 20", "Frame Rate: 21"))
+    page.evaluate(RUN, "rviz_save")
+    asked = page.get_by_role("dialog", name="Save view")
+    asked.get_by_text("mine.studio.yaml changed on disk since it was opened").wait_for()
+    asked.get_by_role("button", name="Cancel").click()
+    assert "Frame Rate: 21" in file.read_text()
+    assert is_marked(page)
+    page.evaluate(RUN, "rviz_save")
+    asked.get_by_role("button", name="Replace").click()
+    wait_until("it is saved", lambda: not is_marked(page))
+    after = file.read_text()
+    assert "Frame Rate: 20" in after
+    assert after != before, "the view is another"
 
 
 def open_another_and_go_back(page: Page) -> None:
-    """What is not saved is asked about first."""
-    page.locator(".config-text", has_text="•").wait_for()
+    """What is not saved is asked about first; those opened lately are offered until forgotten."""
+    wait_until("the mark", lambda: is_marked(page))
     page.evaluate(RUN, "rviz_open")
     page.get_by_role("button", name="Go on without saving").click()
+    row = page.get_by_role("listitem").filter(has=page.get_by_text("mine.studio.yaml"))
+    assert "in the package" not in row.inner_text()
+    forget = row.get_by_role("button", name="Remove mine.studio.yaml from the list")
+    forget.click()
+    row.get_by_text("in the package").wait_for()
+    assert forget.count() == 0
     page.get_by_role("button", name="rover.rviz").click()
     report = page.get_by_role("dialog", name="rover.rviz is open")
     report.get_by_role("button", name="Back to the view before").click()
     page.get_by_role("treeitem", name="Planning").first.wait_for()
+
+
+def drop_another(page: Page) -> None:
+    """It asks as any other way to open one does."""
+    wait_until("the mark", lambda: is_marked(page))
+    page.evaluate(DROP, CONFIG.replace("Corner", "Dropped"))
+    page.get_by_role("button", name="Go on without saving").click()
+    report = page.get_by_role("dialog", name="dropped.rviz is open")
+    report.wait_for()
+    page.get_by_role("treeitem", name="Dropped", exact=True).wait_for()
+    report.get_by_role("button", name="Back to the view before").click()
+    page.get_by_role("treeitem", name="Corner").wait_for()
 
 
 def begin_with_the_view_alone(page: Page) -> None:
@@ -123,3 +192,16 @@ def begin_with_the_view_alone(page: Page) -> None:
     wait_until("a map", lambda: page.evaluate(VIEW) == "TopDownOrtho")
     page.locator(".top-bar").wait_for()
     assert "fullscreen" not in page.url
+
+
+def close_the_robot(page: Page) -> None:
+    """A file that is not saved is asked about, and stays open until the person says so."""
+    wait_until("the mark", lambda: is_marked(page))
+    asked = page.get_by_role("dialog", name="Unsaved view")
+    page.evaluate(RUN, "close_document")
+    asked.get_by_role("button", name="Cancel").click()
+    asked.wait_for(state="detached")
+    assert is_marked(page)
+    page.evaluate(RUN, "close_document")
+    asked.get_by_role("button", name="Go on without saving").click()
+    page.locator(".config-text").wait_for(state="detached")

@@ -109,7 +109,7 @@ class Selecting:
     """A tab with the tool Select in hand, which looks down from 6 m, and the panel in front."""
 
     def __init__(self, tab: StudioPage, **displays: tuple[str, str]) -> None:
-        self.page = tab.page
+        self.page, self.finger = tab.page, tab.finger
         self.page.set_viewport_size(WIDE)
         connect(tab)
         self.ids = {name: self.page.evaluate(_ADD, list(one)) for name, one in displays.items()}
@@ -184,6 +184,7 @@ def test_a_point_a_cell_and_a_marker_are_selected_by_clicks_and_many_kinds_by_a_
         select_a_point(view)
         select_a_cell(view)
         follow_a_marker(view, tell)
+        select_by_finger(view)
         select_in_a_rectangle(view)
 
 
@@ -229,6 +230,22 @@ def told_until_drawn(view: Selecting, tell: Callable[[float, int], None], x: flo
         return view.page.evaluate(_PLACE, [node, [0, 0, 0]]) is not None
 
     wait_until("the cubes are drawn", is_drawn)
+
+
+def select_by_finger(view: Selecting) -> None:
+    """A tap takes a cell, a stroke a rectangle; the camera stands still."""
+    with view.finger(coarse=False) as touch:
+        cell, eye = view.place("map", "map", -1.237, 1.113, 0), view.eye()
+        touch("touchStart", cell)
+        touch("touchEnd")
+        expect(view.item("Cell 104, 10")).to_be_visible()
+        view.expect_count("1 selected")
+        touch("touchStart", cell)
+        for by_px in (10, 20, 30):
+            touch("touchMove", (cell[0] + by_px, cell[1] + by_px))
+        touch("touchEnd")
+    expect(view.panel.get_by_role("status").first).to_have_text(re.compile(r"^[1-9]\d+ selected"))
+    assert view.eye() == eye
 
 
 def select_in_a_rectangle(view: Selecting) -> None:

@@ -204,25 +204,19 @@ def test_a_goal_is_pressed_and_drawn_and_escape_gives_it_up(tab: StudioPage, ear
 
 def test_a_finger_sends_a_pose_estimate(tab: StudioPage, ear: Heard):
     take(tab, "p", "2D Pose Estimate")
-    session: Any = tab.page.context.new_cdp_session(tab.page)
-
-    def finger(kind: str, *places: tuple[float, float]) -> None:
-        points = [{"x": x, "y": y} for x, y in places]
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-
-    before = place(tab, 0.0, 0.0, 0.0)
-    finger("touchStart", place(tab, 0.05, -0.6, 0.0))
-    for y in (-0.7, -0.8, -0.9):
-        finger("touchMove", place(tab, 0.05, y, 0.0))
-    finger("touchEnd")
+    with tab.finger(coarse=False) as touch:
+        before = place(tab, 0.0, 0.0, 0.0)
+        touch("touchStart", place(tab, 0.05, -0.6, 0.0))
+        for y in (-0.7, -0.8, -0.9):
+            touch("touchMove", place(tab, 0.05, y, 0.0))
+        touch("touchEnd")
+        assert place(tab, 0.0, 0.0, 0.0) == before  # the camera stood still
     wait_until("the pose", lambda: len(ear.poses) == 1)
     pose = ear.poses[0].pose
     assert pose.pose.position.x == pytest.approx(0.05, abs=NEAR_M)
     assert yaw_of(pose.pose.orientation) == pytest.approx(-math.pi / 2, abs=0.1)
     own = {at: one for at, one in enumerate(pose.covariance) if one}
     assert own == pytest.approx({0: 0.25, 7: 0.25, 35: (math.pi / 12) ** 2})
-    assert place(tab, 0.0, 0.0, 0.0) == before  # the camera stood still
-    session.detach()
 
 
 def test_a_point_of_a_link_and_of_a_cloud_is_named_at_the_mouse_and_published(

@@ -84,9 +84,10 @@ def test_what_is_no_view_is_said_before_anything_starts(tmp_path: Path):
 
 @pytest.mark.network
 def test_a_view_is_shown_with_its_robot_in_the_frame_of_the_command_line(tmp_path: Path):
-    made = package(tmp_path)
-    file = made / "rviz" / "view.rviz"
-    file.write_text(view("../urdf/arm.urdf"))
+    """It lies outside of the robot's package, and is saved there."""
+    made = package(tmp_path / "src")
+    file = tmp_path / "view.rviz"
+    file.write_text(view(f"{made}/urdf/arm.urdf"))
     words = ["open", str(file), "--fixed-frame", "map", "--fullscreen", "--router", "off"]
     with running_studio(words, tmp_path / "data") as running:
         assert running.line.endswith("&fullscreen=1")
@@ -98,6 +99,8 @@ def test_a_view_is_shown_with_its_robot_in_the_frame_of_the_command_line(tmp_pat
             assert document["title"] == "arm.urdf"
             asked = {"type": "get_rviz_text", "document": document["id"], "request": 1}
             answer = client.post("/api/commands", json=asked).json()
+            client.post("/api/commands", json=asked | {"type": "save_rviz_file"}).raise_for_status()
+        assert "Fixed Frame: map" in file.read_text()
         (text,) = [one["text"] for one in answer["events"] if one["type"] == "rviz_text"]
         assert "Fixed Frame: map" in text
         assert "moveit_rviz_plugin/MotionPlanning" in text

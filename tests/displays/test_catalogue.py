@@ -2,16 +2,21 @@ import re
 import struct
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rosbags.typesys import Stores, get_typestore
 
 from studio.displays.catalogue import DISPLAYS, display_of_kind, displays_of_type
 from studio.displays.display import Display, Received
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import DisplayError, StudioError
 from studio.ros.cdr import Codec
+from studio.ros.types.classes import MessageValue, definition_of
+from studio.ros.types.convert import from_dict
 from tests.support.display_messages import NOW_NS, STAMP, TYPES, encoded
 from tests.support.display_samples import SAMPLES, Sample, headed
 from tests.support.drawn import assert_drawable, plain
@@ -112,6 +117,39 @@ def test_messages_of_both_byte_orders_are_drawn_the_same(sample: Sample):
     little = drawn_from(sample, little=True)
     assert little
     assert little == drawn_from(sample, little=False)
+
+
+OTHERS = get_typestore(Stores.ROS2_JAZZY)
+
+
+def assert_same(theirs: Any, ours: Any) -> None:  # noqa: ANN401 - of any field
+    """Fields of rosbags' messages have the values that the sample says, also where it is silent."""
+    if isinstance(ours, MessageValue):
+        for field in definition_of(ours).fields:
+            assert_same(getattr(theirs, field.name), getattr(ours, field.name))
+    elif hasattr(theirs, "dtype") or not hasattr(ours, "append"):
+        assert_same_value(theirs, ours)
+    else:
+        assert len(theirs) == len(ours)
+        for one, other in zip(theirs, ours, strict=True):
+            assert_same(one, other)
+
+
+def assert_same_value(theirs: Any, ours: Any) -> None:  # noqa: ANN401 - of any field
+    if isinstance(ours, str | bytes | bytearray):
+        assert (theirs if isinstance(ours, str) else bytes(theirs)) == ours
+    else:  # many are of 32 bits
+        np.testing.assert_allclose(theirs, ours, rtol=1e-6)
+
+
+@pytest.mark.parametrize("sample", [one for one in SAMPLES if one.type_name], ids=lambda s: s.name)
+def test_the_bytes_of_samples_are_messages_for_rosbags_with_the_same_values(sample: Sample):
+    """What is drawn from them is so drawn from what others write."""
+    for type_name, fields in sample.messages().values():
+        if type_name in OTHERS.types:
+            headed_fields = headed(type_name, fields, sample.frame, STAMP)
+            theirs = OTHERS.deserialize_cdr(encoded(type_name, headed_fields), type_name)
+            assert_same(theirs, from_dict(TYPES.message(type_name), headed_fields))
 
 
 ODD_NUMBERS = [float("nan"), float("inf"), float("-inf"), 1e308, -1e308, 5e-324, 0.0, -1.0]

@@ -198,6 +198,23 @@ class StudioPage:
         self.page.keyboard.press("Enter")
         wait_until("the window to be gone", lambda: window.count() == 0)
 
+    @contextmanager
+    def finger(self, *, coarse: bool = True) -> Generator[Callable[..., None]]:
+        """One on a touch screen; it is told an event, as `touchStart`, and places of the page.
+
+        For a coarse one the page has larger controls: where they are is asked inside.
+        """
+        session: Any = self.page.context.new_cdp_session(self.page)
+        session.send("Emulation.setTouchEmulationEnabled", {"enabled": coarse})
+
+        def touch(kind: str, *places: tuple[float, float]) -> None:
+            points = [{"x": x, "y": y} for x, y in places]
+            session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        yield touch
+        session.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
+        session.detach()
+
     def undo_all(self) -> None:
         """Take back every edit, as for the next test with this tab."""
         self.page.evaluate(_UNDO_ALL)

@@ -39,6 +39,10 @@ class OpenedConfig(msgspec.Struct, frozen=True, omit_defaults=True):
     """The tree without its displays."""
     digest: str = ""
     """Of its text as the studio writes it without a change."""
+    on_disk: str = ""
+    """Digest of what the file held when it was read or written; empty: it has no path."""
+    named: bool = False
+    """Whether the command line named it: then it may be read and written wherever it lies."""
     groups_empty: dict[str, int] = {}
     """Groups in which nothing was, and how many stood before each in the group around it."""
 

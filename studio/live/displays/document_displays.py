@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
     from studio.displays.properties import Value
     from studio.live.connection.ros_connection import RosConnection
-    from studio.live.displays.display_file import DisplayFile
+    from studio.live.displays.display_file import DisplayFile, OpenedConfig
     from studio.live.displays.display_list import DisplaySpec
     from studio.live.displays.document_tools import Pointed, ToolUse
     from studio.live.displays.drawing_room import DrawingRoom, Meshes, ShownRobot
@@ -146,6 +146,11 @@ class DocumentDisplays:
             tools=self.tools.kept,
             views=self.views.specs,
         )
+
+    @property
+    def config(self) -> OpenedConfig | None:
+        """The config file that is open; thread-safe."""
+        return self._beside.config
 
     def replace_all(self, kept: KeptDisplays) -> None:
         """Have these displays, this fixed frame and all else that is kept, instead of what is."""

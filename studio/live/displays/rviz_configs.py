@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-import hashlib
 import os
 from dataclasses import replace
-from datetime import UTC, datetime
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Protocol
+from typing import TYPE_CHECKING, Any, Final
 
 from msgspec import structs
 
 from studio.debounce import Debouncer
-from studio.errors import CommandError, NotAllowedError, NotSavedError, RvizConfigError
-from studio.files import is_file, is_folder, is_there, write_whole
-from studio.live.displays.display_file import KeptDisplays, OpenedConfig
+from studio.errors import CommandError, NotAllowedError, RvizConfigError
+from studio.live.displays.config_files import ConfigFiles, digest_of, write_config
 from studio.live.displays.display_list import DisplaySpec, Listening
-from studio.packages.recent import RecentFiles
-from studio.packages.roots import package_folder_of
 from studio.protocol.commands import Commands, Limits, OnCopies, Scope
 from studio.protocol.listeners import LastSent
 from studio.protocol.roles import Role
@@ -33,7 +27,6 @@ from studio.protocol.rviz_configs import (
     OpenRvizText,
     RvizConfigOpened,
     RvizConfigState,
-    RvizFileEntry,
     RvizFiles,
     RvizFileSaved,
     RvizText,
@@ -43,47 +36,23 @@ from studio.protocol.rviz_configs import (
     UndoRvizConfig,
     ViewValues,
 )
-from studio.rviz.config_text import ENDINGS, SIZE_LIMIT_BYTES, write_tree
+from studio.rviz.config_text import write_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable
+    from pathlib import Path
 
+    from studio.live.displays.config_files import ConfigFolders
+    from studio.live.displays.display_file import KeptDisplays, OpenedConfig
     from studio.live.displays.document_displays import DocumentDisplays
-    from studio.packages.roots import ServedRoots
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
     from studio.rviz.config import RvizConfig
     from studio.rviz.config_displays import ConfigDisplay, Loss
     from studio.rviz.views import ViewSpec
 
-_RECENT: Final = "recent_rviz.json"
 _QUIET_S: Final = 0.3
 _AS_IT_IS: Final = GetRvizText()
-_LISTED_MAX: Final = 200
-_WALKED_MAX: Final = 2000
-"""Folders that are looked into for config files."""
-
-
-class ConfigFolders(Protocol):
-    """The folders of a document."""
-
-    @property
-    def entry(self) -> Path:
-        """The robot's file."""
-        ...
-
-    @property
-    def served(self) -> ServedRoots:
-        """The folders that may be read and written."""
-        ...
-
-    def resolve_uri(self, uri: str) -> Path:
-        """Return the file of a URI; reads the disk, thread-safe.
-
-        Raises:
-            PackageError: It names no file that may be read.
-        """
-        ...
 
 
 class RvizConfigs:
@@ -103,8 +72,8 @@ class RvizConfigs:
         data_folder: Path,
         audience: Audience,
     ) -> None:
-        self._displays, self._folders = displays, folders
-        self._recent = RecentFiles(data_folder, _RECENT)
+        self._displays = displays
+        self._files = ConfigFiles(folders, data_folder, lambda: displays.config)
         self._state = LastSent[RvizConfigState](audience)
         self._before: KeptDisplays | None = None
         self._after: KeptDisplays | None = None
@@ -114,7 +83,7 @@ class RvizConfigs:
 
     def events(self) -> Iterable[Event]:
         """Yield the events for a new page."""
-        config = self._displays.kept.config
+        config = self._displays.config
         name, path = ("", "") if config is None else (config.name, config.path)
         unchecked = RvizConfigState(name=name, path=path, changed=False, rviz1=False, undo=False)
         yield self._state.event or unchecked
@@ -122,33 +91,34 @@ class RvizConfigs:
             self._checking.trigger()
 
     async def open_path(self, path: Path) -> RvizConfigOpened:
-        """Show a file that the command line names, wherever it is.
+        """Show a file that the command line names, wherever it is; it may be saved there, too.
 
         Raises:
             RvizConfigError: It cannot be read, or is no such file.
         """
 
-        def text() -> str:
+        def read() -> tuple[str, str]:
             try:
-                return path.read_bytes().decode("utf-8")
+                return path.read_bytes().decode("utf-8"), os.path.realpath(path)
             except (OSError, UnicodeDecodeError) as error:
                 raise RvizConfigError(str(error), name=str(path)) from error
 
-        opened = await self._open(await asyncio.to_thread(text), path.name, str(path))
+        text, self._files.named = await asyncio.to_thread(read)
+        opened = await self._open(text, path.name, self._files.named)
         self._page = opened.page
         return opened
 
     async def open_file(self, command: OpenRvizFile, who: Listener) -> RvizConfigOpened:
-        """Show a file below the folders that may be read.
+        """Show a file below the folders that may be read, or that the command line named.
 
         Raises:
             NotAllowedError: Only presenters read files.
-            PackageError: It leads out of these folders, or cannot be read.
+            PackageError: It is no such file, or cannot be read.
             RvizConfigError: It is no such file.
         """
         if not who.role.includes(Role.PRESENTER):
             raise NotAllowedError(who.role, "open a file of this machine")
-        data, path = await asyncio.to_thread(self._read, command.path)
+        data, path = await asyncio.to_thread(self._files.read, command.path)
         try:
             text = data.decode("utf-8")
         except UnicodeDecodeError as error:
@@ -168,7 +138,7 @@ class RvizConfigs:
         page = ""
         if who.role.includes(Role.PRESENTER):
             page, self._page = self._page, ""
-        config = self._displays.kept.config
+        config = self._displays.config
         view = config and await asyncio.to_thread(_view_of, config.rest)
         return RvizView(request=command.request, view=view, page=page)
 
@@ -185,15 +155,19 @@ class RvizConfigs:
             PackageError: It leads out of the folders that may be written.
             NotSavedError: The disk refuses it.
         """
-        path = self._target(command.path)
-        config = self._displays.kept.config
-        own = config is not None and config.path == str(path)
-        if is_there(path) and not (own or command.replace):
-            return RvizFileSaved(request=command.request, path=str(path), is_there=True)
-        text = await self._written(command)
-        await asyncio.to_thread(_write, path, text.encode("utf-8"))
-        await self._take_saved(text, path)
-        return RvizFileSaved(request=command.request, path=str(path), is_there=False)
+        files = self._files
+        path = await asyncio.to_thread(files.target, command.path)
+        lost = "" if command.replace else await asyncio.to_thread(files.lost_by_writing, path)
+        if not lost:
+            text = await self._written(command)
+            await asyncio.to_thread(write_config, path, text)
+            await self._take_saved(text, path)
+        return RvizFileSaved(
+            request=command.request,
+            path=str(path),
+            is_there=lost != "",
+            changed=lost == "changes",
+        )
 
     async def undo(self, _: UndoRvizConfig) -> None:
         """Show what was shown before the last file.
@@ -226,8 +200,8 @@ class RvizConfigs:
     async def files(self, command: ListRvizFiles | ForgetRvizFile) -> RvizFiles:
         """Return the files opened lately, and those of the robot's packages."""
         if isinstance(command, ForgetRvizFile):
-            self._recent.forget(command.path)
-        files, folder = await asyncio.to_thread(self._listed)
+            self._files.forget(command.path)
+        files, folder = await asyncio.to_thread(self._files.listed)
         return RvizFiles(request=command.request, files=files, folder=folder)
 
     async def close(self) -> None:
@@ -240,42 +214,19 @@ class RvizConfigs:
         except RvizConfigError as error:
             raise RvizConfigError(error.reason, error.line, name) from error
         before = self._displays.kept
-        kept = _kept_of(config, before, OpenedConfig(name, path))
+        kept = _kept_of(config, before, self._files.opened_as(name, path, text))
         self._displays.replace_all(await asyncio.to_thread(_as_clean, kept))
         self._before, self._after = before, self._displays.kept
         if path:
-            self._recent.note(path, name, {}, datetime.now(UTC).timestamp())
+            self._files.note(path, name)
         await self._checked_now()
         await self._displays.connect_if_needed()
         return _opened(config, losses, name, request)
 
-    def _read(self, path: str) -> tuple[bytes, Path]:
-        found = self._found(path)
-        return self._folders.served.read(found, SIZE_LIMIT_BYTES), found
-
-    def _found(self, path: str) -> Path:
-        if "://" in path:
-            return self._folders.resolve_uri(path)
-        return self._folders.served.resolve(self._folders.entry.parent / path)
-
-    def _target(self, wanted: str) -> Path:
-        config = self._displays.kept.config
-        wanted = wanted.strip() or (config.path if config else "")
-        if not wanted:
-            raise CommandError("No file was opened yet: name the one to write.")
-        if not wanted.endswith(ENDINGS):
-            wanted += ENDINGS[0]
-        path = self._folders.served.resolve(self._folders.entry.parent / wanted)
-        if not is_folder(path.parent):
-            raise NotSavedError(str(path), "there is no such folder; name one that is there")
-        if not self._folders.served.may_write(path):
-            raise NotSavedError(str(path), "it may only be read here; name another")
-        return path
-
     @property
     def _name(self) -> str:
-        config = self._displays.kept.config
-        return config.name if config else f"{self._folders.entry.name.split('.')[0]}{ENDINGS[0]}"
+        config = self._displays.config
+        return config.name if config else self._files.proposed_name
 
     async def _written(self, asked: GetRvizText | SaveRvizFile = _AS_IT_IS) -> str:
         kept, root = self._displays.kept, self._displays.fixed_frame_in_use
@@ -284,14 +235,15 @@ class RvizConfigs:
     async def _take_saved(self, text: str, path: Path) -> None:
         """From now on this is the file that is open."""
         config, _ = await asyncio.to_thread(_read_text, text)
-        opened = _opened_of(config, OpenedConfig(path.name, str(path), digest=_digest(text)))
+        read = self._files.opened_as(path.name, str(path), text)
+        opened = _opened_of(config, structs.replace(read, digest=digest_of(text)))
         shown = [(one.kind, one.name) for one in self._displays.kept.displays]
         if shown == [(one.kind, one.name) for one in config.displays]:
             self._displays.set_entries([one.entry for one in config.displays])
         self._displays.views.note_saved(config.views)
         self._displays.tools.note_saved(config.tools)
         self._displays.keep_beside(config=opened)
-        self._recent.note(str(path), path.name, {}, datetime.now(UTC).timestamp())
+        self._files.note(str(path), path.name)
         await self._checked_now()
 
     async def _checked_now(self) -> None:
@@ -305,7 +257,7 @@ class RvizConfigs:
         changed = False
         if config is not None:
             text = await self._written()
-            changed = config.digest != _digest(text)
+            changed = config.digest != digest_of(text)
         undo = self._before is not None and self._displays.kept == self._after
         if not undo:
             self._before = self._after = None
@@ -318,27 +270,6 @@ class RvizConfigs:
                 undo=undo,
             )
         )
-
-    def _listed(self) -> tuple[tuple[RvizFileEntry, ...], str]:
-        served, entry = self._folders.served, self._folders.entry
-        recent = [
-            RvizFileEntry(
-                path=one.path, name=one.title, time_s=one.time_s, is_there=is_file(Path(one.path))
-            )
-            for one in self._recent.all()
-            if served.serves(one.path)
-        ]
-        known = {one.path for one in recent}
-        folder = package_folder_of(entry.parent) or entry.parent
-        found = sorted(_configs_in(folder)) if served.serves(folder) else []
-        others = [
-            RvizFileEntry(path=str(one), name=one.name, time_s=None, is_there=True)
-            for one in found
-            if str(one) not in known and served.serves(one) and is_file(one)
-        ]
-        places = [one for one in (folder / "rviz", folder, entry.parent) if is_folder(one)]
-        place = next((one for one in places if served.may_write(one / f"x{ENDINGS[0]}")), None)
-        return (*recent, *others), str(place) if place else ""
 
 
 _RATE: Final = Limits(per_second=5)
@@ -427,7 +358,7 @@ def _config_of(kept: KeptDisplays, view: ViewValues | None) -> RvizConfig:
 def _as_clean(kept: KeptDisplays) -> KeptDisplays:
     """Return it with its file noted as it is written without a change."""
     assert kept.config is not None
-    digest = _digest(_text_of(kept, "", _AS_IT_IS))
+    digest = digest_of(_text_of(kept, "", _AS_IT_IS))
     return structs.replace(kept, config=structs.replace(kept.config, digest=digest))
 
 
@@ -500,28 +431,3 @@ def _opened(
         view=_view_values(config.view),
         page=page_text(entry_at(config.rest, PAGE)),
     )
-
-
-def _write(path: Path, data: bytes) -> None:
-    try:
-        mode = path.stat().st_mode & 0o777 if is_there(path) else 0o644
-        write_whole(path, data, mode=mode, flush=True)
-    except OSError as error:
-        raise NotSavedError(str(path), error.strerror or "the disk refused it") from error
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()[:32]
-
-
-def _configs_in(folder: Path) -> Iterator[Path]:
-    """Yield the config files in a folder and below it, of a large one the first."""
-    left = _LISTED_MAX
-    for walked, (root, folders, files) in enumerate(os.walk(folder)):
-        folders[:] = sorted(one for one in folders if not one.startswith("."))
-        for name in files:
-            if name.endswith(ENDINGS) and left > 0:
-                left -= 1
-                yield Path(root, name)
-        if left == 0 or walked > _WALKED_MAX:
-            return

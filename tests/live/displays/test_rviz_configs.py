@@ -350,6 +350,101 @@ def test_a_document_without_a_file_is_written_with_all_that_rviz2_writes(tmp_pat
     with_arm(tmp_path, work)
 
 
+def folders(tmp_path: Path) -> tuple[Path, Path]:
+    """The folder of a robot, and a config file of another one with another beside it."""
+    folder, file = tmp_path / "robot", tmp_path / "elsewhere" / "view.rviz"
+    for each in (folder, file.parent):
+        each.mkdir()
+    for each in (file, file.with_name("other.rviz")):
+        each.write_text(FILE)
+    return folder, file
+
+
+def test_only_the_file_that_the_command_line_named_is_open_outside_the_folders(tmp_path: Path):
+    folder, file = folders(tmp_path)
+    other, new = (str(file.with_name(name)) for name in ("other.rviz", "new.rviz"))
+
+    async def work(one: Opened) -> None:
+        with pytest.raises(OutsideRootsError):
+            await one.do(OpenRvizFile(path=str(file)))
+        await one.document.configs.open_path(file)
+        await one.do(SetDisplayProperty(display=one.displays[0]["id"], name="Alpha", value=0.5))
+        await one.do(SaveRvizFile())
+        assert file.read_text() == FILE.replace("0.25", "0.5")
+        await one.do(ListRvizFiles())
+        assert [each["path"] for each in one.ear.last("rviz_files")["files"]] == [str(file)]
+        await one.do(OpenRvizText(name="own.rviz", text=FILE))
+        await one.do(OpenRvizFile(path=str(file)))
+        assert one.displays[0]["values"]["Alpha"] == 0.5
+        for command in (
+            OpenRvizFile(path=other),
+            *(SaveRvizFile(path=path, replace=True) for path in (other, new)),
+        ):
+            with pytest.raises(OutsideRootsError):
+                await one.do(command)
+        with pytest.raises(NotAllowedError):
+            await one.do(OpenRvizFile(path=str(file)), Ear(Role.STUDENT))
+
+    with_arm(folder, work)
+
+
+def test_it_is_saved_after_a_restart_too_as_long_as_it_is_the_open_one(tmp_path: Path):
+    folder, file = folders(tmp_path)
+
+    async def first(one: Opened) -> None:
+        await one.document.configs.open_path(file)
+
+    async def again(one: Opened) -> None:
+        await until(lambda: one.state["path"] == str(file))
+        await one.do(SetFixedFrame(frame="base"))
+        await one.do(SaveRvizFile())
+        assert "Fixed Frame: base" in file.read_text()
+
+    async def linked(one: Opened) -> None:
+        await until(lambda: one.state["path"] == str(file))
+        file.unlink()
+        file.symlink_to(file.with_name("other.rviz"))
+        with pytest.raises(OutsideRootsError):
+            await one.do(SaveRvizFile(replace=True))
+        assert file.read_text() == FILE
+        await one.do(CloseRvizConfig())
+
+    async def closed(one: Opened) -> None:
+        with pytest.raises(OutsideRootsError):
+            await one.do(OpenRvizFile(path=str(file)))
+
+    for work in (first, again, linked, closed):
+        with_arm(folder, work)
+
+
+def test_what_others_wrote_into_the_open_file_is_asked_about_before_it_is_lost(tmp_path: Path):
+    file = tmp_path / "view.rviz"
+    file.write_text(FILE)
+
+    async def work(one: Opened) -> None:
+        await one.do(OpenRvizFile(path="view.rviz"))
+        file.write_text(FILE.replace("0.25", "0.75"))
+        for path in ("", "view.rviz"):
+            await one.do(SaveRvizFile(path=path))
+            answer = one.ear.last("rviz_file_saved")
+            assert (answer["is_there"], answer["changed"]) == (True, True)
+        assert "0.75" in file.read_text()
+        await one.do(SaveRvizFile(replace=True))
+        assert file.read_text() == FILE
+        await one.do(SaveRvizFile())
+        answer = one.ear.last("rviz_file_saved")
+        assert (answer["is_there"], answer["changed"]) == (False, False)
+        (tmp_path / "other.rviz").write_text("")
+        await one.do(SaveRvizFile(path="other.rviz"))
+        answer = one.ear.last("rviz_file_saved")
+        assert (answer["is_there"], answer["changed"]) == (True, False)
+        file.unlink()
+        await one.do(SaveRvizFile())
+        assert file.read_text() == FILE
+
+    with_arm(tmp_path, work)
+
+
 REFUSED: tuple[tuple[Command, type[StudioError]], ...] = (
     (OpenRvizText(name="a.rviz", text="a: [1, 2"), RvizConfigError),
     (OpenRvizText(name="a.rviz", text="a: 1"), RvizConfigError),
