@@ -140,6 +140,12 @@ function controlFor(dock, arrange) {
       forget();
     },
     showBeside: dock.showBeside,
+    open(ids) {
+      const kind = size.peek();
+      if (kind === "phone") return;
+      for (const id of ids) dock.add(id);
+      remember(storeName(kind), dock.arrangement());
+    },
     reset: forget,
     arrange(arrangement) {
       const kind = size.peek();

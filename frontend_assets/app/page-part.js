@@ -35,17 +35,18 @@ export function toldPart(arrangement) {
 /** @param {string} id of a panel */
 const isKnown = (id) => Object.hasOwn(PANELS, id);
 
-/** @typedef {{arrangement: Arrangement | null, layouts: OwnLayout[], plots: import("../model/plotting.js").Series[] | null, span_s: number | null}} ReadPart */
+/** @typedef {{arrangement: Arrangement | null, layouts: OwnLayout[], open: string[], plots: import("../model/plotting.js").Series[] | null, span_s: number | null}} ReadPart */
 
 /** @param {string} text @param {(id: string) => boolean} [known] whether there is such a panel @returns {ReadPart} null: it says nothing that is believed */
 export function readPart(text, known = isKnown) {
   const told = parsed(text);
   const arrangement = readArrangement(told.Panels, known)?.arrangement ?? null;
-  const plots = told.Plots;
+  const { Open: open, Plots: plots } = told;
   const span = told["Plot span"];
   return {
     arrangement,
     layouts: Array.isArray(told.Layouts) ? readLayouts(told.Layouts, known).layouts : [],
+    open: Array.isArray(open) ? open.filter((id) => typeof id === "string" && known(id)) : [],
     plots: Array.isArray(plots) ? plots.filter(isSeries).slice(0, SERIES_MAX).map(plain) : null,
     span_s: typeof span === "number" && span >= SPAN_LEAST_S && span <= SPAN_MOST_S ? span : null,
   };
@@ -74,10 +75,10 @@ export function newOnes(layouts, own) {
 
 /** @param {string} text */
 function takePart(text) {
-  const { arrangement, layouts, plots, span_s: span } = readPart(text);
+  const { arrangement, layouts, open, plots, span_s: span } = readPart(text);
   addLayouts(newOnes(layouts, ownLayouts.value));
   if (plots) series.value = plots;
   if (span) span_s.value = span;
-  if (!arrangement) return;
-  layoutControl.value?.arrange(arrangement);
+  if (arrangement) layoutControl.value?.arrange(arrangement);
+  else if (open.length > 0) layoutControl.value?.open(open);
 }

@@ -29,6 +29,7 @@ import { headerActions, keepTabsWhole, TAB, tabOfPanel } from "./dock-tabs.js";
  * @typedef {object} Dock
  * @property {(id: string) => void} show bring a panel to the front, opened where it is missing
  * @property {(id: string, other: string) => void} showBeside the same, with another one kept in sight
+ * @property {(id: string) => void} add a panel behind the others, where it is missing
  * @property {() => void} nameAll panels by their titles, in another language or with their words
  * @property {(id: string) => boolean} isOpen
  * @property {() => string | null} active
@@ -142,6 +143,9 @@ export function createDock(element, panels, options) {
       show(api, panels, id);
       if (!single) uncover(api, panels, id, other);
     },
+    add(id) {
+      if (!api.getPanel(id)) add(api, panels, id, true);
+    },
     nameAll() {
       for (const { id, api: one } of api.panels) one.setTitle(titleOf(id, panels));
     },
@@ -240,10 +244,12 @@ function tabOf(panel) {
 /** @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id */
 function show(api, panels, id) {
   const open = api.getPanel(id);
-  if (open) {
-    open.api.setActive();
-    return;
-  }
+  if (open) open.api.setActive();
+  else add(api, panels, id);
+}
+
+/** @param {DockviewApi} api @param {Record<string, Panel>} panels @param {string} id @param {boolean} [inactive] behind the others */
+function add(api, panels, id, inactive = false) {
   const panel = panels[id];
   if (!panel) return;
   const group = api.groups.find((one) => isInGrid(one) && !keepsFrame(one, panels));
@@ -252,6 +258,7 @@ function show(api, panels, id) {
     component: id,
     tabComponent: id,
     title: panel.title(),
+    inactive,
     renderer: panel.keepsFrame ? "always" : "onlyWhenVisible",
     ...(group ? { position: { referenceGroup: group } } : {}),
   });

@@ -90,6 +90,7 @@ export const activePanel = signal(null);
  * @property {() => import("../lib/arrangement.js").Arrangement} present how the panels stand now
  * @property {(name: string) => void} use a layout; the empty name is the studio's own
  * @property {(id: string, other: string) => void} showBeside a panel, with another one kept in sight
+ * @property {(ids: readonly string[]) => void} open panels that are missing, behind the others
  * @property {() => void} reset to the layout in use as it was saved
  * @property {(arrangement: import("../lib/arrangement.js").Arrangement) => void} arrange the panels so, as a file says
  */

@@ -20,7 +20,7 @@ from studio.rviz.config_displays import (
 )
 from studio.rviz.config_groups import group_name, name_in_path
 from studio.rviz.config_kinds import GROUPS, OURS, RVIZ1, class_in_rviz2
-from studio.rviz.config_page import PAGE
+from studio.rviz.config_page import PAGE, panel_of
 from studio.rviz.config_text import is_null, read_tree, scalar_of, text_of, write_tree
 from studio.rviz.config_tools import DEVIATIONS, merge_tools, read_tools
 from studio.rviz.config_values import (
@@ -59,10 +59,6 @@ _OUR_BACKGROUND: Final = (_OPTIONS, OURS, "Background Color")
 _FRAME_RATE: Final = (_OPTIONS, "Frame Rate")
 _OUR_FRAME_RATE: Final = (_OPTIONS, OURS, "Frame Rate")
 _FRAME_MAX: Final = 300
-_PANELS: Final = frozenset({
-    "Displays", "Help", "Selection", "Time", "Tool Properties", "Views",
-})  # fmt: skip
-_OF_PANELS: Final = frozenset({"rviz_common", RVIZ1})
 _PANEL_LOOKS: Final = frozenset({
     "Class", "Expanded", "Help Height", "Name", "Property Tree Widget", "Splitter Ratio",
     "Tree Height",
@@ -373,8 +369,7 @@ def _other_losses(tree: Entry, manager: Entry) -> Iterator[Loss]:
 
 def _panel_losses(panel: Entry) -> Iterator[Loss]:
     class_name = text_at(panel, "Class")
-    package, _, name = class_name.partition("/")
-    if package not in _OF_PANELS or name not in _PANELS:
+    if panel_of(panel) is None:
         yield Loss("no_panel", class_name)
         return
     said = {text_of(key): text_at(panel, text_of(key)) for key in panel}

@@ -11,8 +11,9 @@ import math
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.errors import RvizConfigError
+from studio.rviz.config_kinds import RVIZ1
 from studio.rviz.config_text import DEPTH_MAX, NODES_MAX, quoted, scalar_of, text_of
-from studio.rviz.config_values import Entry, number_of, text_at
+from studio.rviz.config_values import Entry, entries_at, entry_at, number_of, text_at
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,6 +23,18 @@ if TYPE_CHECKING:
 PAGE: Final = "Studio"
 """Where it stands in a file."""
 VERSION: Final = 1
+OPEN: Final = "Open"
+"""What a page is told of a file without such a part: ids of panels that it opens, as RViz does."""
+RVIZ_PANELS: Final[Mapping[str, str]] = {
+    "Displays": "displays",
+    "Help": "",
+    "Selection": "selection",
+    "Time": "time",
+    "Tool Properties": "tools",
+    "Views": "views",
+}
+"""Panels of RViz, and the ids of those that show the same here; empty: RViz's own help."""
+_OF_PANELS: Final = frozenset({"rviz_common", RVIZ1})
 _VERSION: Final = "Version"
 _WHOLE_BELOW: Final = 2**53
 PAGE_TEXT_MAX: Final = 300_000
@@ -44,6 +57,21 @@ def page_entry(text: str, before: Entry) -> Entry:
     made = _tree_of(cast("dict[str, Any]", told), budget, 0)
     assert isinstance(made, dict)
     return {**before, **made, _VERSION: str(VERSION)}
+
+
+def panel_of(entry: Entry) -> str | None:
+    """Return which of RViz's panels an entry of a file is; None: one of a plug-in."""
+    package, _, name = text_at(entry, "Class").partition("/")
+    return name if package in _OF_PANELS and name in RVIZ_PANELS else None
+
+
+def page_of(tree: Entry) -> str:
+    """Return what a file says of a page as JSON: its part, else RViz's panels; empty: nothing."""
+    if part := entry_at(tree, PAGE):
+        return page_text(part)
+    found = (RVIZ_PANELS[panel_of(one) or "Help"] for one in entries_at(tree, "Panels"))
+    panels = list(dict.fromkeys(filter(None, found)))
+    return json.dumps({OPEN: panels}) if panels else ""
 
 
 def page_text(entry: Entry) -> str:

@@ -167,10 +167,13 @@ def open_another_and_go_back(page: Page) -> None:
     forget.click()
     row.get_by_text("in the package").wait_for()
     assert forget.count() == 0
+    assert page.get_by_role("tab", name="Views").count() == 0
     page.get_by_role("button", name="rover.rviz").click()
     report = page.get_by_role("dialog", name="rover.rviz is open")
     report.get_by_role("button", name="Back to the view before").click()
     page.get_by_role("treeitem", name="Planning").first.wait_for()
+    # Its panels were opened, too, behind those that are seen.
+    assert page.get_by_role("tab", name="Views").get_attribute("aria-selected") == "false"
 
 
 def drop_another(page: Page) -> None:

@@ -41,20 +41,29 @@ test("what a page tells of itself is what it takes", () => {
 });
 
 test("nothing of a file is believed", () => {
-  const nothing = { arrangement: null, layouts: [], plots: null, span_s: null };
-  for (const text of ["", "[", "5", "null", "[]", '{"Panels": 7, "Plots": {}, "Plot span": -1}'])
+  const nothing = { arrangement: null, layouts: [], open: [], plots: null, span_s: null };
+  for (const text of [
+    "",
+    "[",
+    "5",
+    "null",
+    "[]",
+    '{"Panels": 7, "Plots": {}, "Open": 3, "Plot span": -1}',
+  ])
     assert.deepEqual(readPart(text, isKnown), nothing);
   const told = readPart(
     JSON.stringify({
       Panels: { parts: [{ tabs: ["nowhere", "scene", 7], size: "x" }] },
       Plots: [{ topic: 5 }, { topic: "/a", path: ".b", more: 1 }],
       Layouts: [{ name: "Mine", arrangement: PANELS }, 5],
+      Open: ["plot", "nowhere", 5],
     }),
     isKnown,
   );
   assert.deepEqual(told.arrangement?.parts, [{ tabs: ["scene"], size: 1 }]);
   assert.deepEqual(told.plots, [{ topic: "/a", path: ".b" }]);
   assert.deepEqual(told.layouts, [{ name: "Mine", arrangement: PANELS }]);
+  assert.deepEqual(told.open, ["plot"]);
 });
 
 test("a layout of a file that got another name here is not added again", () => {

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import RvizConfigError
-from studio.rviz.config_page import page_entry, page_text
+from studio.rviz.config_page import page_entry, page_of, page_text
 from studio.rviz.config_text import read_tree, write_tree
 from studio.rviz.config_values import Entry, entry_at
 
@@ -58,3 +58,19 @@ def test_what_is_too_much_is_refused():
         page_entry(json.dumps({"a": [0] * 60_000}), {})
     with pytest.raises(RvizConfigError, match="too much"):
         page_entry('{"a": ' + "[" * 60 + "]" * 60 + "}", {})
+
+
+def test_a_file_without_such_a_part_opens_the_panels_that_rviz_has():
+    panels = """Panels:
+  - {Class: rviz_common/Displays}
+  - {Class: rviz/Tool Properties}
+  - {Class: rviz_common/Help}
+  - {Class: other/Views}
+  - {Class: rviz_common/Displays}
+"""
+    tree = read_tree(panels)
+    assert isinstance(tree, dict)
+    assert json.loads(page_of(tree)) == {"Open": ["displays", "tools"]}
+    own: Entry = {**tree, "Studio": page_entry('{"Plots": []}', {})}
+    assert json.loads(page_of(own)) == {"Plots": [], "Version": 1}
+    assert page_of({}) == page_of({"Panels": []}) == ""

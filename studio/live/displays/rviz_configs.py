@@ -418,8 +418,7 @@ def _spec_of(one: ConfigDisplay) -> DisplaySpec:
 def _opened(
     config: RvizConfig, losses: tuple[Loss, ...], name: str, request: int
 ) -> RvizConfigOpened:
-    from studio.rviz.config_page import PAGE, page_text  # noqa: PLC0415 - imports all displays
-    from studio.rviz.config_values import entry_at  # noqa: PLC0415
+    from studio.rviz.config_page import page_of  # noqa: PLC0415 - imports all displays
 
     return RvizConfigOpened(
         request=request,
@@ -429,5 +428,5 @@ def _opened(
         views=len(config.views),
         losses=tuple(LossView(reason=one.reason, what=one.what, names=one.names) for one in losses),
         view=_view_values(config.view),
-        page=page_text(entry_at(config.rest, PAGE)),
+        page=page_of(config.rest),
     )
