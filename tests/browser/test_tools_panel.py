@@ -358,8 +358,8 @@ def test_who_only_looks_can_take_no_tool_that_publishes_and_is_refused(
   const script = document.querySelector('script[type="module"]').src;
   const { send } = await import(new URL("../model/wire.js", script));
   return send({ type: "use_tool", tool: "t7", x: 0, y: 0, fixed_frame: "odom" })
-    .then(() => "sent", (error) => error.message);
+    .then(() => "sent", (error) => error.kind);
 }"""
         )
-    assert answer != "sent"
+    assert answer == "NotAllowedError"
     assert len(ear.goals) == before
