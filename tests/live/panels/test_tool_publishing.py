@@ -12,7 +12,15 @@ from studio.errors import CommandError, NotServedError, RosNameError
 from studio.live.displays.document_tools import ToolUse
 from studio.protocol.goals import CancelGoal
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
-from studio.rviz.tools import POINT, POSE, POSE_WITH_COVARIANCE, ToolSpec
+from studio.rviz.tools import (
+    DURABILITY,
+    HISTORY,
+    POINT,
+    POSE,
+    POSE_WITH_COVARIANCE,
+    RELIABILITY,
+    ToolSpec,
+)
 from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard, message
 from tests.support.navigation import navigator
@@ -25,6 +33,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.network
 ASKED = (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.TRANSIENT_LOCAL, 3)
 FIRST = (ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE, 5)
+POLICIES = (HISTORY, RELIABILITY, DURABILITY)
 QUARTER = (math.cos(math.pi / 8), 0.0, 0.0, math.sin(math.pi / 8))
 """pi / 4 about z."""
 STAMP_NS = 100_250_000_000
@@ -80,6 +89,7 @@ def test_a_point_and_a_goal_go_to_the_topics_of_their_tools_with_their_qos(
     }
 
     ends = tester.get_publishers_info_by_topic
+    told: list[QoSProfile] = []
 
     async def run() -> None:
         async with bridged(endpoint) as page:
@@ -91,8 +101,17 @@ def test_a_point_and_a_goal_go_to_the_topics_of_their_tools_with_their_qos(
                 found = ends(name)[0].qos_profile
                 assert (found.reliability, found.durability, found.depth) == wanted
                 assert found.history is HistoryPolicy.KEEP_LAST
+            for name, history in (
+                ("/all", {"Topic/History Policy": "Keep All"}),
+                ("/usual", dict.fromkeys(POLICIES, "System Default")),
+            ):
+                await used(page, "SetGoal", Topic=name, **history)
+                await until(lambda name=name: len(ends(name)) == 1)
+                told.append(ends(name)[0].qos_profile)
 
     asyncio.run(run())
+    assert [one.history for one in told] == [HistoryPolicy.KEEP_ALL, HistoryPolicy.KEEP_LAST]
+    assert (told[1].reliability, told[1].durability) == FIRST[:2]
     assert (points[0].point.x, points[0].point.y, points[0].point.z) == (1.0, 2.0, 0.5)
     assert goals[0].pose.orientation.w == QUARTER[0]
 
