@@ -235,12 +235,16 @@ class SeenDocument:
 
     Attributes:
         id: Of the document.
+        root: The root link of its robot; empty: it has none.
+        fixed_frame: The one in use.
         fixed_trouble: Why nothing can be drawn in the fixed frame; empty: all can.
     """
 
     id: str
     title: str
     links: frozenset[str] = frozenset()
+    root: str = ""
+    fixed_frame: str = ""
     fixed_trouble: str = ""
     displays: tuple[SeenDisplay, ...] = ()
     problems: tuple[Problem, ...] = ()
