@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from studio.live.doctor.examination import examine
-from studio.live.doctor.seen import Heard, HeardFrames, Seen, SeenDisplay, SeenDocument
+from studio.live.doctor.seen import (
+    Heard,
+    HeardFrames,
+    HeardParameters,
+    Seen,
+    SeenDisplay,
+    SeenDocument,
+)
 from studio.protocol.displays import DisplayState, Mend, Remark
 
 
@@ -54,7 +61,7 @@ def test_a_fixed_frame_that_is_not_known_is_an_error():
 
 def test_where_the_robots_frame_is_the_fixed_one_the_root_of_tf_is_offered():
     frames = HeardFrames((), ("base", "odom"), (), 0)
-    heard = Heard(3.0, {}, 0, None, frames, (), ())
+    heard = Heard(3.0, {}, 0, None, frames, HeardParameters(), ())
     document = SeenDocument("d", "r", root="base", fixed_frame="base", fixed_trouble="It is not.")
     found = {one.code: one for one in examine(Seen(heard=heard, document=document)).findings}
     mend = found["fixed-frame"].mend
