@@ -174,7 +174,7 @@ function Deeds({ finding: { mend, about } }) {
   const may = mend && mayCarryOut(mend.command);
   if (!may && places.length === 0) return null;
   return html`<p class="doctor-deeds">
-    ${may && html`<button type="button" class="button small primary" onClick=${() => carryOut(mend.command)}><${Icon} name="wand" size=${14} />${mend.label}</button>`}
+    ${may && html`<button type="button" class="button small primary" onClick=${() => carryOut(mend.command)}><${Icon} name="wand" size=${14} /><span>${mend.label}</span></button>`}
     ${places.map((one) => html`<button key=${`${one.kind} ${one.name}`} type="button" class="button small" onClick=${() => show(one)}><${Icon} name="eye" size=${14} /><span>${showWords(one)}</span></button>`)}</p>`;
 }
 

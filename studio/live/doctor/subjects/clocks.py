@@ -109,7 +109,7 @@ def _of_simulated_time(system: System) -> Iterator[Finding]:
                 "still. Start the simulation, or set use_sim_time to false."
             ),
             evidence=(
-                f"they subscribe to /clock: {listed(sorted(simulated))}",
+                f"subscribers of /clock: {listed(sorted(simulated))}",
                 "publishers of /clock: 0",
             ),
             mend=_first_mend(system, sorted(simulated), value=False),

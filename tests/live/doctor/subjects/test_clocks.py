@@ -60,7 +60,7 @@ def test_simulated_time_without_a_clock_is_an_error(patient: Patient):
     patient.subscribe(CLOCK, "/clock")
     found = patient.until("no-clock", "/robot")
     assert found.line == "ros2 param set /robot use_sim_time false"
-    assert found.evidence == ("they subscribe to /clock: /robot", "publishers of /clock: 0")
+    assert found.evidence == ("subscribers of /clock: /robot", "publishers of /clock: 0")
 
 
 def test_what_the_click_sets_ends_both_findings(patient: Patient):
