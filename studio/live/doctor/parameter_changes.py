@@ -1,7 +1,4 @@
-"""ParameterChanges: which parameters of nodes have other values than they were declared with.
-
-It imports what reads messages, so it is imported when somebody is connected.
-"""
+"""ParameterChanges: which parameters of nodes have other values than they were declared with."""
 
 from __future__ import annotations
 
@@ -12,8 +9,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import StudioError
 from studio.live.doctor.seen import ChangedParameter, HeardParameters, short
-from studio.ros.cdr import codec_of
-from studio.ros.parameters.parameter import value_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -109,6 +104,8 @@ class ParameterChanges:
             self._began_s = self._clock()
 
     def _read(self, payload: bytes, gid: bytes) -> None:
+        from studio.ros.cdr import codec_of  # noqa: PLC0415 - takes its time
+
         try:
             event = codec_of(self._types().message(EVENT_TYPE)).decode(payload)
         except StudioError:
@@ -138,6 +135,8 @@ class ParameterChanges:
 
 
 def _put(node: _Node, values: dict[str, str], parameter: Any) -> None:  # noqa: ANN401 - a message
+    from studio.ros.parameters.parameter import value_of  # noqa: PLC0415 - takes its time
+
     name = short(parameter.name)
     try:
         value = str(value_of(name, parameter.value)[1])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.debounce import Throttle
 from studio.errors import NotJoinedError, RouterGoneError, StudioError
+from studio.live.doctor.parameter_changes import ParameterChanges
 from studio.live.doctor.seen import Seen, SeenBrowser
 from studio.live.topics.request import Request
 from studio.protocol.commands import Commands, Limits, Scope
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.doctor.examination import Concluded, Examination
-    from studio.live.doctor.parameter_changes import ParameterChanges
     from studio.live.doctor.report import Language
     from studio.live.doctor.seen import Answers, Heard, Here, SeenDocument, System, Unanswered
     from studio.live.doctor.watching import Watching
@@ -106,8 +106,6 @@ class Doctor:
             return
         if topics.connection != "there":
             return
-        from studio.live.doctor.parameter_changes import ParameterChanges  # noqa: PLC0415 - zenoh
-
         loop = asyncio.get_running_loop()
         self._parameters = changes = ParameterChanges(lambda: topics.types, _SINCE)
 
