@@ -380,7 +380,7 @@ export interface CompletionsAnswer {
 
 /** Something that a finding is about. */
 export interface Concern {
-  kind: "node" | "topic" | "service" | "action" | "frame" | "parameter" | "display" | "document" | "connection";
+  kind: "node" | "topic" | "service" | "action" | "frame" | "parameter" | "interface" | "display" | "document" | "connection" | "graphics";
   name: string;
 }
 
@@ -903,9 +903,9 @@ export interface Finding {
   subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
   sentence: string;
   evidence: string[];
+  about: Concern[];
   mend: Mend | null;
   line: string;
-  about: Concern[];
   talk: Talk | null;
 }
 

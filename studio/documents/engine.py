@@ -423,6 +423,8 @@ def seen_document(document: Document) -> SeenDocument:
         id=document.id,
         title=document.title,
         links=frozenset(document.model.kinematics.link_names) if expansion else frozenset(),
+        root=document.model.robot.root if expansion else "",
+        fixed_frame=states.fixed_frame.frame if states else "",
         fixed_trouble=_trouble_of(states),
         displays=tuple(
             SeenDisplay(one.id, one.name, by_id.get(one.id)) for one in document.live.kept.displays

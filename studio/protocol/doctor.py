@@ -19,8 +19,9 @@ SubjectName: TypeAlias = Literal[
     "browser",
 ]  # fmt: skip
 ConcernKind: TypeAlias = Literal[
-    "node", "topic", "service", "action", "frame", "parameter", "display", "document", "connection"
-]
+    "node", "topic", "service", "action", "frame", "parameter", "interface", "display", "document",
+    "connection", "graphics",
+]  # fmt: skip
 _Text: TypeAlias = Annotated[str, StringConstraints(max_length=200)]
 
 
@@ -50,7 +51,8 @@ class Concern(Message):
 
     kind: ConcernKind
     name: str
-    """A full name; of a display its id, of a parameter its node; empty where there is one only."""
+    """A full name; of a display its id, of a parameter its node, of an interface its type; empty
+    where there is one only."""
 
 
 class Talk(Message):
@@ -75,12 +77,13 @@ class Finding(Message):
     subject: SubjectName
     sentence: str
     """What is wrong, where, and what to do."""
-    evidence: tuple[str, ...] = ()
-    """What it is concluded from, a line each."""
+    evidence: tuple[str, ...]
+    """What it is concluded from, a line each; never empty."""
+    about: tuple[Concern, ...]
+    """What the page shows by a click; empty only where `mend` is the click."""
     mend: Mend | None = None
     line: str = ""
     """A line for a terminal that mends it, or shows more."""
-    about: tuple[Concern, ...] = ()
     talk: Talk | None = None
 
 

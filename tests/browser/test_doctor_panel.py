@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.ros.messages import message
+from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
 from tests.support.demos import node_at
 from tests.support.panel_pictures import SHOW_PANEL
@@ -66,6 +67,20 @@ def stay_true(panel: Locator, talker: Node) -> None:
     assert card(panel, "qos").locator("details").get_attribute("open") is not None
 
 
+def mend_a_parameter(tab: StudioPage, panel: Locator, listener: Node) -> None:
+    """A node goes by a time that nobody publishes, until a click sets its parameter."""
+    listener.set_parameters([Parameter("use_sim_time", value=True)])
+    found = card(panel, "no-clock")
+    found.get_by_role("button", name="Show parameters of /listener").wait_for()
+    found.get_by_role("button", name="Set use_sim_time of /listener to false").click()
+    wait_until("that is over", lambda: panel.locator('[data-code="no-clock"]').count() == 0)
+    assert listener.get_parameter("use_sim_time").value is False
+    # It ran before the studio joined.
+    card(panel, "parameter-changed").get_by_text("at its start was not heard").wait_for()
+    card(panel, "router-of-this-machine").get_by_role("button", name="Show connection").click()
+    tab.page.get_by_role("dialog").get_by_role("button", name="Close").first.click()
+
+
 def filter_findings(panel: Locator) -> None:
     cards = panel.locator("article")
     panel.get_by_role("searchbox").fill("best effort")
@@ -119,6 +134,7 @@ def test_what_is_wrong_is_found_mended_shown_and_sent(browser: Browser, tmp_path
             mend_by_a_click(tab, panel)
             see_what_it_knows(panel)
             stay_true(panel, talker)
+            mend_a_parameter(tab, panel, listener)
             filter_findings(panel)
             save_the_report(tab, panel)
             show_it_elsewhere(tab, panel)

@@ -30,6 +30,8 @@ NAMES = (
     *("quadrocopter", "pan_tilt", "chess_piece", "menu", "button", "moving"),
 )
 """Markers of the demo, in the order in which their numbers are given."""
+QUADROCOPTER: Final = 7
+SHOW_OTHERS = "studio3d.setToolProperties('Interact', { 'Hide Inactive Objects': false })"
 ADD = """async () => {
   const at = (name) => new URL(name, document.querySelector('script[type="module"]').src);
   await (await import(at("../model/ros.js"))).connectRos();
@@ -62,6 +64,10 @@ SEEN_AT = """(name) => {
 SHOWN = """[/m1-body.c1-/, /m1-body.c0-/].map((name) => Object.entries(
   __viserMutable.nodeRefFromName).find(([one]) => name.test(one))[1].visible)"""
 """Of the first marker, whether a ring and the box, which is always visible, are seen."""
+HIDDEN = """Object.entries(__viserMutable.nodeRefFromName)
+  .filter(([name, node]) => /-body.c/.test(name) && !node.visible)
+  .map(([name]) => Number(/\\/m(\\d+)-body/.exec(name)[1]))"""
+"""Numbers of the markers of which a control is not seen."""
 TAKE = "(tool) => document.querySelector('iframe').contentWindow.studio3d.setTool(tool)"
 CURSOR = "() => document.querySelector('iframe').contentDocument.documentElement.dataset.cursor"
 
@@ -94,6 +100,10 @@ class View:
         name = f"/live/d1/m{NAMES.index(marker) + 1}-body"
         x, y, z = self.page.evaluate(SEEN_AT, name)
         return x, y, z
+
+    def hidden(self) -> set[int]:
+        """Numbers of the markers of which a control is hidden in this browser."""
+        return set(self.page.evaluate(IN_VIEW, HIDDEN))
 
     def hover(self, *point: float) -> None:
         """Move the mouse onto a handle until it is taken for one."""
@@ -155,6 +165,8 @@ def test_a_marker_is_dragged_at_once_given_back_and_asked_for_its_menu(
         view.look(-1.5, 1.5)
         view.drag((-1.05, 1.5, 0.0), (-0.75, 1.5, 0.0))
         wait_until("the marker to move", lambda: view.seen("simple_6dof")[0] > -1.3)
+        wait_until("the others' handles to hide", lambda: QUADROCOPTER in view.hidden())
+        assert 1 not in view.hidden()
         last = view.released("simple_6dof")
         assert view.events("simple_6dof")[:3] == ["POSE_UPDATE", "MOUSE_DOWN", "POSE_UPDATE"]
         assert (last.client_id, last.control_name) == ("/studio", "move_x")
@@ -163,8 +175,11 @@ def test_a_marker_is_dragged_at_once_given_back_and_asked_for_its_menu(
         assert (x, y, z) == pytest.approx((-1.2, 1.5, 0.0), abs=0.03)
         assert view.seen("simple_6dof") == pytest.approx((x, y, z), abs=1e-5)
 
+        wait_until("the others' handles", lambda: view.hidden() == set())
+        page.evaluate(IN_VIEW, SHOW_OTHERS)
         view.drag((x - 0.45, y, 0.0), (x - 1.0, y, 0.0))
         wait_until("the marker to move", lambda: view.seen("simple_6dof")[0] < x - 0.2)
+        assert view.hidden() == set()
         page.keyboard.press("Escape")
         page.mouse.up()
         wait_until("it to be back", lambda: abs(view.seen("simple_6dof")[0] - x) < 1e-5)

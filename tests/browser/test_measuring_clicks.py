@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.rviz.views import ORTHOGRAPHIC
 from tests.support.robots import rover
 from tests.support.scene_page import ScenePage
 from tests.support.scene_server import SceneServer
@@ -72,6 +73,18 @@ def test_a_point_is_taken_where_it_is_on_the_surface_with_the_way_that_faces(vie
     assert found["at"][0] == pytest.approx(HALF_LENGTH_M, abs=1e-6)
     assert math.dist(found["at"], wanted) < 0.01
     assert found["normal"] == pytest.approx([1, 0, 0], abs=1e-6)
+
+
+def test_without_perspective_the_point_under_the_mouse_is_taken_too(view: ScenePage):
+    wanted = (HALF_LENGTH_M, -0.06, 0.22)
+    view.run("(name) => studio3d.setViewValue(name, true)", ORTHOGRAPHIC)
+    view.pictures(2)
+    view.page.keyboard.down("Alt")
+    found = taken(view, "points", "base_link", wanted)
+    view.page.keyboard.up("Alt")
+    view.run("(name) => studio3d.setViewValue(name, false)", ORTHOGRAPHIC)
+    assert found["at"][0] == pytest.approx(HALF_LENGTH_M, abs=1e-6)
+    assert math.dist(found["at"], wanted) < 0.01
 
 
 def test_near_a_corner_the_corner_itself_is_taken_but_not_with_alt_held(view: ScenePage):

@@ -22,8 +22,9 @@ from studio.live.panels import driving
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.roles import Role
 from studio.ros.messages import message
+from studio.rviz.tools import POINT
 from studio.server.commands import ControlLane
-from tests.support.demos import node_at
+from tests.support.demos import heard, node_at
 from tests.support.patience import Stopwatch
 from tests.support.served_class import RawLane, served_class, text_frame
 from tests.support.strangers import resident_bytes
@@ -171,6 +172,32 @@ def is_driven(lane: Lane, speeds: list[float]) -> bool:
     """Ask for half a metre per second; whether that comes."""
     lane.ask("drive", topic="/cmd_vel", x=0.5)
     return speeds[-1:] == [0.5]
+
+
+def test_a_tool_publishes_for_who_has_control_and_for_nobody_else(served: ServedClass):
+    endpoint = free_endpoint()
+    with (
+        served.presenting() as presenter,
+        served.student("Ada") as (ada, person),
+        ada.lane() as lane,
+        router_at(endpoint),
+        node_at(endpoint, "robot") as node,
+    ):
+        points = heard(node, POINT, "/clicked_point")
+        assert presenter.ask("connect_wire", address=endpoint)["type"] == "done"
+        tools = served.look(lambda: tuple(served.rover.live.tools.list))
+        tool = next(one.id for one in tools if one.kind == "PublishPoint")
+        use = {"document": "rover", "tool": tool, "y": 0.0}
+        assert lane.ask("use_tool", x=1.0, **use)["kind"] == "NotInControlError"
+        presenter.ask("give_control", person=person, document="rover")
+        assert lane.ask("use_tool", x=2.0, **use)["type"] == "done"
+        assert presenter.ask("use_tool", x=3.0, **use)["kind"] == "NotInControlError"
+        presenter.ask("take_control", document="rover")
+        assert lane.ask("use_tool", x=4.0, **use)["kind"] == "NotInControlError"
+        assert presenter.ask("use_tool", x=5.0, **use)["type"] == "done"
+        wait_until("the last point", lambda: bool(points) and points[-1].point.x == 5.0)
+        presenter.ask("disconnect_wire")
+    assert [one.point.x for one in points] == [2.0, 5.0]
 
 
 def test_who_has_control_keeps_it_while_the_presenters_browser_is_dead(served: ServedClass):

@@ -44,18 +44,19 @@ test("a finding keeps its key while the numbers in its sentence change", () => {
   assert.notDeepEqual(keys([finding({ about: [] })]), before.slice(0, 1));
 });
 
-test("each place is shown by one button, and the connection only by who manages it", () => {
+test("each place is shown by one button", () => {
   const about = [
     { kind: "topic", name: "/scan" },
     { kind: "topic", name: "/scan" },
     { kind: "display", name: "1" },
     { kind: "display", name: "2" },
     { kind: "connection", name: "" },
+    { kind: "graphics", name: "" },
   ];
   const shown = shownPlaces(/** @type {Finding["about"]} */ (about));
   assert.deepEqual(
     shown.map(({ kind }) => kind),
-    ["topic", "display"],
+    ["topic", "display", "connection", "graphics"],
   );
 });
 

@@ -167,6 +167,22 @@ def test_a_view_goes_with_the_place_of_its_frame_and_stays_when_that_is_chosen(v
     view.run("studio3d.setViewValue('Target Frame', '<Fixed Frame>')")
 
 
+def test_a_follower_turns_with_its_frame_and_stays_upright(view: ScenePage):
+    use(view, "ThirdPersonFollower", Yaw=0.4, Pitch=0.3, Distance=2.0)
+    view.run("studio3d.setViewValue('Target Frame', 'upper arm')")
+    before, (angle, lift) = camera(view), (0.6, 0.5)
+    view.pose({"turn": angle, "lift": lift})
+    view.pictures(2)
+    after, (x, y, z) = camera(view), before["ahead"]
+    turned = (
+        math.cos(angle) * x - math.sin(angle) * y,
+        math.sin(angle) * x + math.cos(angle) * y,
+    )
+    assert after["ahead"] == pytest.approx((*turned, z), abs=1e-4)
+    assert math.dist(after["eye"], before["eye"]) > 0.5  # around its frame
+    view.run("studio3d.setViewValue('Target Frame', '<Fixed Frame>')")
+
+
 def test_the_mouse_does_to_an_orbit_what_it_does_in_rviz(view: ScenePage):
     use(view, "Orbit", Yaw=1.0, Pitch=0.5, Distance=4.0)
     drag(view, (20, 10))

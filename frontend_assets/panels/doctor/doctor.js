@@ -12,7 +12,8 @@ import { language, t } from "../../lib/i18n.js";
 import { shortTime } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
 import { askOrKeepWhy, polled, useLooking } from "../../model/asking.js";
-import { mayEdit, mayManage } from "../../model/connection.js";
+import { mayAct, mayEdit, mayManage } from "../../model/connection.js";
+import { showInterface } from "../../model/interfaces.js";
 import { chooseNode } from "../../model/parameters.js";
 import { ask } from "../../model/requests.js";
 import { setTarget } from "../../model/tf.js";
@@ -170,11 +171,17 @@ function Card({ finding }) {
 /** @param {{finding: Finding}} props what mends it, and what shows it */
 function Deeds({ finding: { mend, about } }) {
   const places = shownPlaces(about);
-  const may = mend && (mend.command.type === "connect_wire" ? mayManage.value : mayEdit.value);
+  const may = mend && mayCarryOut(mend.command);
   if (!may && places.length === 0) return null;
   return html`<p class="doctor-deeds">
-    ${may && html`<button type="button" class="button small primary" onClick=${() => carryOut(mend.command)}><${Icon} name="wand" size=${14} />${mend.label}</button>`}
+    ${may && html`<button type="button" class="button small primary" onClick=${() => carryOut(mend.command)}><${Icon} name="wand" size=${14} /><span>${mend.label}</span></button>`}
     ${places.map((one) => html`<button key=${`${one.kind} ${one.name}`} type="button" class="button small" onClick=${() => show(one)}><${Icon} name="eye" size=${14} /><span>${showWords(one)}</span></button>`)}</p>`;
+}
+
+/** @param {NonNullable<Finding["mend"]>["command"]} command @returns {boolean} whether this person may send it */
+function mayCarryOut({ type }) {
+  if (type === "connect_wire") return mayManage.value;
+  return type === "set_parameter" ? mayAct.value : mayEdit.value;
 }
 
 /** @param {{finding: Finding}} props folded: why it matters, what it is concluded from, and a line for a terminal */
@@ -247,12 +254,21 @@ const SHOWN = {
     chooseNode(name);
     commandById("panel.parameters")?.run();
   },
+  interface: (name) => {
+    showInterface(name);
+    commandById("panel.interfaces")?.run();
+  },
   display: () => commandById("panel.displays")?.run(),
   document: () => commandById("panel.problems")?.run(),
   connection: () => {
     dialog.value = { kind: "ros" };
   },
+  graphics: () => {
+    dialog.value = { kind: "graphics" };
+  },
 };
+/** Kinds of which there is one place for all. @type {readonly Concern["kind"][]} */
+const WHOLE = ["display", "document", "connection", "graphics"];
 
 /** @param {Concern} place */
 const show = ({ kind, name }) => SHOWN[kind](name);
@@ -262,18 +278,17 @@ function showWords({ kind, name }) {
   if (kind === "display") return t("doctor.show.displays");
   if (kind === "document") return t("doctor.show.document");
   if (kind === "connection") return t("doctor.show.connection");
+  if (kind === "graphics") return t("doctor.show.graphics");
+  if (kind === "parameter") return t("doctor.show.parameters", { name });
   return t("doctor.show", { name });
 }
 
-/** @param {readonly Concern[]} about @returns {Concern[]} each place once; only who manages it sees the connection */
+/** @param {readonly Concern[]} about @returns {Concern[]} each place once */
 export function shownPlaces(about) {
   /** @type {Map<string, Concern>} */
   const places = new Map();
-  for (const one of about) {
-    const isWhole = one.kind === "display" || one.kind === "document" || one.kind === "connection";
-    if (one.kind !== "connection" || mayManage.value)
-      places.set(`${one.kind} ${isWhole ? "" : one.name}`, one);
-  }
+  for (const one of about)
+    places.set(`${one.kind} ${WHOLE.includes(one.kind) ? "" : one.name}`, one);
   return [...places.values()];
 }
 

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 _Section = tuple[str, list[tuple[str, object]]]
 _KINDS: Final = {"qos": "QoS", "foreign-hash": "hash"}
 """Findings that are called otherwise than by their code."""
+_BELOW: Final = ""
+"""Name of a row that goes on with the one above it."""
 _NOBODY: Final = frozenset({"no-nodes", "other-domain"})
 """That nobody is there is no fault."""
 _NOT_JOINED: Final = 2
@@ -146,11 +148,18 @@ def _kind(finding: Finding) -> str:
     return _KINDS.get(finding.code, finding.code.replace("-", " "))
 
 
+def _why_and_how(finding: Finding) -> tuple[str, ...]:
+    """Return what it is concluded from, and the line for a terminal that mends it or shows more."""
+    return (*finding.evidence, f"$ {finding.line}") if finding.line else finding.evidence
+
+
 def _print_verdict(seen: Seen, found: Examination) -> None:
     faults = [one for one in found.findings if one.level != "note"]
     for one in faults:
         sentence = harmless(one.sentence)
         print(sentence if one.code in _NOBODY else f"{_kind(one)}: {sentence}")
+        for line in _why_and_how(one):
+            print(f"    {harmless(line)}")
     if not faults and seen.system is not None:
         system = seen.system
         topics = [name for name in system.topics if not is_hidden(name)]
@@ -158,11 +167,11 @@ def _print_verdict(seen: Seen, found: Examination) -> None:
 
 
 def _finding_sections(found: Examination, *, notes: bool) -> list[_Section]:
-    rows: list[tuple[str, object]] = [
-        (_kind(one), harmless(one.sentence))
-        for one in found.findings
-        if notes or one.level != "note"
-    ]
+    rows: list[tuple[str, object]] = []
+    for one in found.findings:
+        if notes or one.level != "note":
+            rows.append((_kind(one), one.sentence))
+            rows += [(_BELOW, line) for line in _why_and_how(one)]
     if found.more:
         rows.append(("more", f"{found.more} findings like these"))
     is_well = all(one.level == "note" for one in found.findings)
@@ -245,7 +254,8 @@ def _print_sections(sections: list[_Section]) -> None:
         print(f"\n   {title}")
         width = max((len(name) for name, _ in rows), default=0)
         for name, value in rows:
-            print(f"{harmless(name):<{width}} : {harmless(str(value))}")
+            sign = "     " if name == _BELOW else " : "
+            print(f"{harmless(name):<{width}}{sign}{harmless(str(value))}")
 
 
 def _as_json(seen: Seen, found: Examination) -> dict[str, object]:

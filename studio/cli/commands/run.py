@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,13 +17,15 @@ from studio.cli.packages import (
     opened_packages,
     workspace_folder,
 )
+from studio.cli.terminal import harmless
 from studio.cli.wire import STARTING, ended_by_signals
 from studio.errors import SettingsError
 from studio.packages.executables import executables_of, file_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
+    from studio.ros.node.arguments import RosArguments, Rule
 
 _ROS_ARGUMENTS = "--ros-args"
 _COMMANDS = {("rviz2", "rviz2"): "open", ("xacro", "xacro"): "xacro"}
@@ -62,11 +65,7 @@ def _run(options: argparse.Namespace) -> int:
     arguments = [argument.removeprefix(" ") for argument in options.arguments]
     command = _COMMANDS.get((options.package_name, options.executable_name))
     if command is not None:
-        from studio.cli.main import main
-
-        # The studio's node is its own: names and remappings of RViz's concern nobody here.
-        end = arguments.index(_ROS_ARGUMENTS) if _ROS_ARGUMENTS in arguments else len(arguments)
-        return main([command, *arguments[:end]])
+        return _run_command(command, options.executable_name, arguments)
     wire, arguments = _part_arguments(arguments)
     module = _demo_module(options) if options.demo else _module_of(options, wire.package_path)
     settings = wire_settings(tuple(wire.connect), wire.domain)
@@ -75,6 +74,37 @@ def _run(options: argparse.Namespace) -> int:
         os.environ.update(environment_for(held.settings, environment_with(wire.interfaces)))
         importlib.import_module(module).main(arguments)
     return 0
+
+
+def _run_command(command: str, program: str, arguments: Sequence[str]) -> int:
+    """Run a command in place of a program of ROS; print on stderr what it does not use.
+
+    Raises:
+        RosArgumentError: What follows `--ros-args` cannot be read.
+    """
+    from studio.cli.main import main
+    from studio.ros.node.arguments import parse_arguments
+
+    read = parse_arguments(arguments)
+    if unused := tuple(_unused(read)):
+        listed = harmless(", ".join(unused))
+        instead = f"studio {command}, which runs in place of {program}"
+        print(f"WARNING: {instead}, does not use {listed}.", file=sys.stderr)
+    return main([command, *read.rest])
+
+
+def _unused(read: RosArguments) -> Iterator[str]:
+    """Yield the arguments of ROS without a counterpart: the studio's node has names of its own."""
+    yield from (f"-r {one}" for one in read.remaps)
+    yield from (f"-p {one}" for one in read.parameters if not _is_sim_time(one))
+    yield from (f"--params-file {one}" for one in read.files)
+    for logger, level in read.levels:
+        yield f"--log-level {logger}{':=' if logger else ''}{level.name.lower()}"
+
+
+def _is_sim_time(rule: Rule) -> bool:
+    """Whether it asks for the time of /clock, which the studio takes where it is published."""
+    return rule.source == "use_sim_time" and rule.target.lower() == "true"
 
 
 def _part_arguments(arguments: Sequence[str]) -> tuple[argparse.Namespace, list[str]]:

@@ -388,8 +388,15 @@ class DocumentDisplays:
         return await asyncio.to_thread(frames.answer, command, frames.fixed)
 
     async def tool_use(self, pointed: Pointed) -> ToolUse:
-        """Return what a tool is to send; subscribes to TF for a while."""
-        return self.tools.use(pointed, await self._frames(wait=True))
+        """Return what a tool is to send; subscribes to TF and the clock for a while.
+
+        Raises:
+            StudioError: There is no connection, or the tool cannot be used so.
+        """
+        await self._wire.link()  # frames and the time come over it
+        frames = await self._frames(wait=True)
+        await frames.wait_for_clock()
+        return self.tools.use(pointed, frames)
 
     async def _frames(self, *, wait: bool) -> SceneFrames:
         """Return the frames of now; subscribes to TF for a while.

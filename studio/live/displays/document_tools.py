@@ -60,12 +60,14 @@ class ToolUse:
         frame: The frame of the message.
         wxyz: Orientation in that frame, of length 1.
         xyz: Place in that frame, m.
+        stamp_ns: ROS time when it was pointed at.
     """
 
     tool: ToolSpec
     frame: str
     wxyz: tuple[float, float, float, float]
     xyz: tuple[float, float, float]
+    stamp_ns: int
 
 
 class DocumentTools:
@@ -153,10 +155,10 @@ class DocumentTools:
         pose = (math.cos(half_rad), 0.0, 0.0, math.sin(half_rad))
         frame = str(tool.value(FRAME)) or fixed
         if frame == fixed:
-            return ToolUse(tool, fixed, pose, pointed.xyz)
+            return ToolUse(tool, fixed, pose, pointed.xyz, frames.ros_ns)
         frame_from_fixed = frames.buffer.fixed_from(frame, fixed)
         placed = compose((*frame_from_fixed.wxyz, *frame_from_fixed.xyz), (*pose, *pointed.xyz))
-        return ToolUse(tool, frame, placed[:4], placed[4:])
+        return ToolUse(tool, frame, placed[:4], placed[4:], frames.ros_ns)
 
     def close(self) -> None:
         """There are none any more."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
+import time
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.drawing import NO_TURN, ORIGIN
@@ -91,6 +92,12 @@ class SceneFrames:
         return self._clock.now_ns
 
     @property
+    def ros_ns(self) -> int:
+        """ROS time: that of /clock while it is published, else that of this machine."""
+        clock_ns = self.clock_ns
+        return time.time_ns() if clock_ns is None else clock_ns
+
+    @property
     def fixed_state(self) -> FixedFrameState:
         """Whether there is a frame of the fixed frame's name, as RViz's global status has it."""
         frame = self.fixed
@@ -113,6 +120,13 @@ class SceneFrames:
             if self.buffer.changes != before:
                 await asyncio.sleep(_OTHERS_S)
                 return
+
+    async def wait_for_clock(self) -> None:
+        """Wait for the first time on /clock where somebody publishes it; not for long."""
+        for _ in range(_FIRST_CHECKS):
+            if self.clock_ns is not None or not self._source.publishers(CLOCK.topic):
+                return
+            await asyncio.sleep(_CHECK_EVERY_S)
 
     def drop_gone(self) -> None:
         """Take back the robot's own links from those who published them and are gone."""

@@ -155,11 +155,26 @@ class HeardFrames:
 
 @dataclass(frozen=True, slots=True)
 class ChangedParameter:
-    """A parameter that was changed while the Doctor listened."""
+    """A parameter that has another value than before.
+
+    Attributes:
+        started: With which value it was declared; None: that was not heard.
+        gid: Of the publisher of its node's events, by which this life of the node is known.
+    """
 
     node: str
     name: str
     value: str
+    started: str | None
+    gid: bytes
+
+
+class HeardParameters(NamedTuple):
+    """What was heard of parameters, for how long, and since when, as the end of "since ..."."""
+
+    changed: tuple[ChangedParameter, ...] = ()
+    listened_s: float = 0.0
+    since: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +191,7 @@ class Heard:
     left_out: int
     clock: HeardClock | None
     frames: HeardFrames
-    parameters: tuple[ChangedParameter, ...]
+    parameters: HeardParameters
     offsets: tuple[Offset, ...]
 
 
@@ -235,12 +250,16 @@ class SeenDocument:
 
     Attributes:
         id: Of the document.
+        root: The root link of its robot; empty: it has none.
+        fixed_frame: The one in use.
         fixed_trouble: Why nothing can be drawn in the fixed frame; empty: all can.
     """
 
     id: str
     title: str
     links: frozenset[str] = frozenset()
+    root: str = ""
+    fixed_frame: str = ""
     fixed_trouble: str = ""
     displays: tuple[SeenDisplay, ...] = ()
     problems: tuple[Problem, ...] = ()

@@ -12,8 +12,8 @@ from collections import defaultdict
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CdrError, RosNameError, StudioError
+from studio.live.doctor.parameter_changes import ParameterChanges
 from studio.live.doctor.seen import (
-    ChangedParameter,
     Header,
     Heard,
     HeardClock,
@@ -24,10 +24,8 @@ from studio.live.doctor.seen import (
 )
 from studio.live.doctor.topic_watch import LeastOffset, Reading, TopicWatch
 from studio.live.topics.topic_rates import TOPICS_MAX, TopicRates
-from studio.ros.cdr import codec_of
 from studio.ros.columns.transforms import TransformCodec
 from studio.ros.names import is_hidden
-from studio.ros.parameters.parameter import value_of
 from studio.ros.qos import DurabilityPolicy
 from studio.ros.tokens import DataKey
 from studio.tf.buffer import TransformBuffer
@@ -47,7 +45,7 @@ _TF, _TF_STATIC, _EVENTS, _LOG = "/tf", "/tf_static", "/parameter_events", "/ros
 _UNPACED: Final = frozenset({_TF_STATIC, _EVENTS, _LOG})
 """They come when something happens, and are silent otherwise."""
 _HEADER: Final = "std_msgs/msg/Header"
-_EVENT_TYPE: Final = "rcl_interfaces/msg/ParameterEvent"
+_SINCE: Final = "the Doctor began to listen"
 _BYTES_MAX: Final = 8_000_000
 """So much a second is received beside what others do; a camera beyond it is heard now and then."""
 _FRAMES_MAX: Final = 2_000
@@ -56,9 +54,6 @@ _FRAME_LETTERS_MAX: Final = 300
 _NOTICES_MAX: Final = 40
 _NOTICE_S: Final = 60.0
 """What was amiss on /tf and is not for so long was mended; /tf_static says its own only once."""
-_PARAMETERS_MAX: Final = 200
-_EVENTS_BYTES_MAX: Final = 4_000_000
-"""So many bytes of /parameter_events wait to be read; more are left out."""
 _CLOCKS_MAX: Final = 16
 _NODES_NAMED: Final = 8
 
@@ -72,16 +67,22 @@ class Watching:
         context: Of the session to listen by.
         types: Message types that are known.
         clock: Seconds that never go back.
+        parameters: What somebody else hears of parameters; None: it listens itself.
     """
 
     def __init__(
-        self, context: Context, types: TypeLibrary, clock: Callable[[], float] = time.monotonic
+        self,
+        context: Context,
+        types: TypeLibrary,
+        clock: Callable[[], float] = time.monotonic,
+        parameters: ParameterChanges | None = None,
     ) -> None:
         self._context, self._types, self._clock = context, types, clock
         self._lock = threading.Lock()
         self._rates = TopicRates(self._watch, _BYTES_MAX)
         self._system: System | None = None
-        self._parameters = _Parameters(types)
+        self._own_parameters = ParameterChanges(lambda: types, _SINCE, clock)
+        self._parameters = parameters or self._own_parameters
         self._begin()
 
     def _begin(self) -> None:
@@ -133,7 +134,7 @@ class Watching:
             _TF: self._frames.take,
             _TF_STATIC: self._frames.take_static,
             _CLOCK: self._times.take,
-            _EVENTS: self._parameters.take,
+            _EVENTS: self._take_event,
         }
         try:
             watch = TopicWatch(
@@ -151,6 +152,10 @@ class Watching:
             return None
         self._watches[topic] = watch
         return watch
+
+    def _take_event(self, payload: bytes, sent: Attachment, _received_ns: int) -> None:
+        if self._parameters is self._own_parameters:
+            self._parameters.take(payload, sent.gid)
 
     def _heard_topic(self, watch: TopicWatch, ends: Ends) -> HeardTopic:
         header, is_paced = watch.header(), watch.topic not in _UNPACED
@@ -261,46 +266,6 @@ class _Times:
             return None
         now_ns, received_ns = max(newest, key=lambda one: one[1])
         return HeardClock(now_ns, received_ns)
-
-
-class _Parameters:
-    """Parameters that changed, by node and name."""
-
-    def __init__(self, types: TypeLibrary) -> None:
-        self._types = types
-        self._changed: dict[tuple[str, str], ChangedParameter] = {}
-        self._lock = threading.Lock()
-        self._waiting: list[bytes] = []
-        self._waiting_bytes = 0
-
-    def take(self, payload: bytes, _sent: Attachment, _received_ns: int) -> None:
-        """Keep a message of /parameter_events: to read a large one would hold up all topics."""
-        with self._lock:
-            if self._waiting_bytes + len(payload) <= _EVENTS_BYTES_MAX:
-                self._waiting.append(payload)
-                self._waiting_bytes += len(payload)
-
-    def heard(self) -> tuple[ChangedParameter, ...]:
-        """Read what came, and return all with their newest values."""
-        with self._lock:
-            waiting, self._waiting, self._waiting_bytes = self._waiting, [], 0
-        for payload in waiting:
-            self._read(payload)
-        return tuple(self._changed.values())
-
-    def _read(self, payload: bytes) -> None:
-        try:
-            event = codec_of(self._types.message(_EVENT_TYPE)).decode(payload)
-        except StudioError:
-            return
-        for one in event.changed_parameters:
-            node, name = short(event.node), short(one.name)
-            try:
-                value = str(value_of(name, one.value)[1])
-            except StudioError:
-                value = "?"
-            if len(self._changed) < _PARAMETERS_MAX or (node, name) in self._changed:
-                self._changed[node, name] = ChangedParameter(node, name, short(value))
 
 
 def has_header(types: TypeLibrary, type_name: str) -> bool:

@@ -7,8 +7,11 @@ import time
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from studio.debounce import Throttle
 from studio.errors import NotJoinedError, RouterGoneError, StudioError
+from studio.live.doctor.parameter_changes import ParameterChanges
 from studio.live.doctor.seen import Seen, SeenBrowser
+from studio.live.topics.request import Request
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.doctor import DoctorReport, ExamineSystem, GetDoctorReport, SystemExamined
 
@@ -25,6 +28,7 @@ if TYPE_CHECKING:
     from studio.protocol.doctor import LookingBrowser, SubjectName
     from studio.protocol.listeners import Listener
     from studio.ros.graph.diagnosis import DistroHashes
+    from studio.ros.node.samples import RawSample
 
 LISTENS_S: Final = 3.0
 """After so long rates, clocks and frames are known of all that comes once a second."""
@@ -32,6 +36,11 @@ _ASK_EVERY_S: Final = 10.0
 _LOOK_EVERY_S: Final = 0.5
 _PLACE_EVERY_S: Final = 4.0
 _FORGOTTEN_S: Final = 60.0
+_EVENTS: Final = Request(
+    "/parameter_events", ("rcl_interfaces/msg/ParameterEvent",), depth=1_000, as_known_here=True
+)
+_SINCE: Final = "the studio joined"
+_READ_EVERY_S: Final = 0.5
 _OFTEN: Final = Limits(bytes_max=2_000, per_second=4)
 _SELDOM: Final = Limits(bytes_max=2_000, per_second=1)
 
@@ -49,6 +58,8 @@ class _Visit:
     """What is known of one system; `link` None: of the place where the studio would connect."""
 
     link: WireLink | None = None
+    parameters: ParameterChanges | None = None
+    """What is heard of parameters; None: only what watching hears."""
     watching: Watching | None = None
     hashes: DistroHashes | None = None
     turn: asyncio.Lock = field(default_factory=asyncio.Lock)
@@ -78,8 +89,48 @@ class Doctor:
         """Returns what is known of an open document."""
         self.own_link: Callable[[str, str], Awaitable[WireLink | None]] = _nobodys
         """Returns the system of a person's own nodes, where a document of theirs is about it."""
+        self._parameters: ParameterChanges | None = None
+        self._epoch = connection.topics.epoch
+        self._reading = Throttle(self._read_parameters, first_s=_READ_EVERY_S)
         self._visits: dict[WireLink | None, _Visit] = {}
         self._here: Here | None = None
+
+    def listen(self) -> None:
+        """Hear changes of parameters from now on, where a system is connected.
+
+        Only who listened when a node declared them knows with which values it was started.
+        """
+        topics = self._connection.topics
+        if self._parameters is not None:
+            self._forget_another_system(self._parameters)
+            return
+        if topics.connection != "there":
+            return
+        loop = asyncio.get_running_loop()
+        self._parameters = changes = ParameterChanges(lambda: topics.types, _SINCE)
+
+        def take(sample: RawSample) -> None:  # in a thread of the source
+            self._forget_another_system(changes)
+            changes.take(sample.payload, sample.attachment.gid)
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(self._reading.trigger)
+
+        self._epoch = topics.epoch
+        topics.subscribe(_EVENTS, take=take)
+
+    def _forget_another_system(self, changes: ParameterChanges) -> None:
+        if self._epoch != self._connection.topics.epoch:
+            self._epoch = self._connection.topics.epoch
+            changes.forget()
+
+    async def _read_parameters(self) -> None:
+        if self._parameters is not None:
+            await asyncio.to_thread(self._parameters.read)
+
+    async def close(self) -> None:
+        """End all."""
+        await self.let_go()
+        await self._reading.close()
 
     async def examine(self, command: ExamineSystem, asker: Listener) -> SystemExamined:
         """Return what is found as of now; later answers know more."""
@@ -134,7 +185,8 @@ class Doctor:
             # One that was never seen had ended before.
             if not is_looking and (not visit.shared or _is_due(visit.shared.at_s, _FORGOTTEN_S)):
                 del self._visits[other]  # what it listened to has ended by itself
-        return self._visits.setdefault(link, _Visit(link))
+        shared = self._parameters if link is self._connection.current else None
+        return self._visits.setdefault(link, _Visit(link, shared))
 
     async def _looked_anew(self, visit: _Visit) -> _Shared:
         if self._here is None:
@@ -194,7 +246,7 @@ def _listening(visit: _Visit, link: WireLink) -> Watching:
     from studio.live.doctor.watching import Watching  # noqa: PLC0415
 
     if visit.watching is None:
-        visit.watching = Watching(link.context, link.types)
+        visit.watching = Watching(link.context, link.types, parameters=visit.parameters)
     return visit.watching
 
 

@@ -86,6 +86,7 @@ class RosSystem:
 
     def _connection_changed(self) -> None:
         """Notify pages; with another connection, of all that they follow."""
+        self.doctor.listen()
         if self._epoch == self.connection.topics.epoch:
             self.changes.changed("graph")
         else:
@@ -188,12 +189,11 @@ class RosSystem:
             self.changes.close(),
             self.browser_topics.close(),
             self.let_go_of_operations(),
-            self.doctor.let_go(),
             self.driving.let_go(),
             self.lessons.close(),
             self.lifecycle.let_go(),
         )
-        parts = (self.calls, self.goals, self.publishing, self.parameters)
+        parts = (self.calls, self.goals, self.publishing, self.parameters, self.doctor)
         await asyncio.gather(*(one.close() for one in parts))
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import CommandError
 from studio.live.panels.operations import Begins
+from studio.ros.duration import NANOSECONDS
 from studio.rviz.tools import (
     ACTION,
     COVARIANCES,
@@ -186,8 +187,9 @@ def settings_of(tool: ToolSpec) -> TopicSettings:
 
 
 def message_values(use: ToolUse) -> dict[str, Any]:
-    """Return the fields of the message that a tool publishes, stamped `now`."""
-    header = {"stamp": "now", "frame_id": use.frame}
+    """Return the fields of the message that a tool publishes."""
+    second, nanosecond = divmod(use.stamp_ns, NANOSECONDS)
+    header = {"stamp": {"sec": second, "nanosec": nanosecond}, "frame_id": use.frame}
     place = dict(zip("xyz", use.xyz, strict=True))
     message_type = kind_of(use.tool.kind).message_type
     if message_type == POINT:

@@ -5,7 +5,6 @@ It imports Zenoh (through `ros`), so it is imported when it is first used.
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.live.panels.requests import wire_name
@@ -60,9 +59,9 @@ class ToolPublisher:
         return self._publisher.get_subscription_count()
 
     def send(self, values: dict[str, Any]) -> None:
-        """Publish a message of these fields, in which `now` stands for this time."""
+        """Publish a message of these fields."""
         self.has_sent = True
-        self._publisher.publish(from_dict(self._kind, values, now_ns=time.time_ns()))
+        self._publisher.publish(from_dict(self._kind, values))
 
     def close(self) -> None:
         """Publish nothing any more."""

@@ -33,6 +33,9 @@ class Rule:
     source: str
     target: str
 
+    def __str__(self) -> str:
+        return f"{self.node or ''}{':' if self.node else ''}{self.source}:={self.target}"
+
     def is_for(self, name: str) -> bool:
         """Whether it counts for a node of that name."""
         return self.node is None or self.node.rpartition("/")[2] == name

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.live.doctor.seen import short
 from studio.ros.messages import message, service
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
 from tests.support.command_line import comes_to, studio
@@ -55,10 +56,25 @@ def test_each_fault_is_a_line_with_its_kind_and_exit_code_1(node: Node, at: tupl
     assert ran.out.splitlines() == [
         "QoS: /x: the publisher is best effort, the subscription wants reliable (/tester to "
         "/tester); Zenoh carries it, DDS would not.",
+        "    /tester offers best effort, volatile, depth 42",
+        "    /tester asks for reliable, volatile, depth 10",
+        "    $ ros2 topic info -v /x",
         "two servers: /go is served 2 times, by /tester, /tester: keep one.",
+        *[f"    /tester of process {node.wire.zid[:8]}: std_srvs/srv/Trigger"] * 2,
     ]
-    failed = studio("doctor", "-rf", *at)
-    assert failed.out.startswith("\n   FINDINGS\nQoS         : /x: ")
+    for option in "-rf", "--report":
+        lines = studio("doctor", option, *at).out.partition("\n   FINDINGS\n")[2].splitlines()
+        at_qos = next(number for number, one in enumerate(lines) if one.startswith("QoS "))
+        column = lines[at_qos].index("/x: the publisher is best effort")
+        assert lines[at_qos][column - 3 : column] == " : "
+        assert lines[at_qos + 1 : at_qos + 4] == [
+            f"{'':{column}}  {one}"
+            for one in (
+                "/tester offers best effort, volatile, depth 42",
+                "/tester asks for reliable, volatile, depth 10",
+                "$ ros2 topic info -v /x",
+            )
+        ]
 
 
 def test_a_topic_of_one_side_alone_is_no_fault(node: Node, at: tuple[str, ...]):
@@ -109,9 +125,12 @@ def test_two_nodes_of_one_name_are_one_finding(node: Node, endpoint: str, at: tu
         wait_until("both", lambda: node.graph.duplicate_nodes() == {"/tester": 2})
         wait_until("both serve", lambda: len(node.graph.servers("/go")) == 2)
         lines = studio("doctor", *at).out.splitlines()
-    assert lines == [
+    sentence, *evidence, line = lines
+    assert sentence == (
         "duplicate name: 2 nodes are called /tester: start all but one with another name."
-    ]
+    )
+    assert [one.startswith("    /tester of process ") for one in evidence] == [True, True]
+    assert line == "    $ ros2 run PACKAGE EXECUTABLE --ros-args -r __node:=OTHER_NAME"
 
 
 def test_a_faulty_text_of_the_workspace_is_found(
@@ -127,7 +146,12 @@ def test_a_faulty_text_of_the_workspace_is_found(
     ran = studio("doctor", *at)
     assert ran.code == 1
     assert ran.out.startswith(f"interface text: {package / 'msg' / 'Bad.msg'}:1: ")
-    assert ran.out.endswith("single underscores: write speed.\n")
+    sentence, evidence = ran.out.splitlines()
+    assert sentence.endswith("single underscores: write speed.")
+    assert evidence == (
+        "    own_interfaces/msg/Bad is not known because of "
+        f"{short(str(package / 'msg' / 'Bad.msg'))}, line 1"
+    )
 
 
 def test_what_comes_is_listened_to(node: Node, endpoint: str):

@@ -74,6 +74,37 @@ def test_what_cannot_be_started_is_one_sentence(tmp_path: Path, monkeypatch: pyt
         assert ran.err.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("given", "unused"),
+    [
+        (["-p", "use_sim_time:=true"], ""),
+        (["-p", "use_sim_time:=false"], "-p use_sim_time:=false"),
+        (
+            [
+                *("-r", "__ns:=/a", "-r", "rviz:scan:=/b", "-p", "use_sim_time:=True"),
+                *("-p", "x:=1", "--params-file", "p.yaml", "--log-level", "debug"),
+            ],
+            "-r __ns:=/a, -r rviz:scan:=/b, -p x:=1, --params-file p.yaml, --log-level debug",
+        ),
+    ],
+)
+def test_what_rviz_would_take_of_ros_arguments_and_the_studio_does_not_is_named(
+    tmp_path: Path, given: list[str], unused: str
+):
+    view = str(tmp_path / "none.rviz")
+    ran = studio("run", "rviz2", "rviz2", "--ros-args", *given, "--", "-d", view)
+    *before, last = ran.err.splitlines()
+    assert "No such file" in last
+    said = f"WARNING: studio open, which runs in place of rviz2, does not use {unused}."
+    assert before == ([said] if unused else [])
+
+
+def test_an_argument_that_is_none_of_ross_ends_rviz_with_a_sentence():
+    ran = studio("run", "rviz2", "rviz2", "--ros-args", "-d", "view.rviz")
+    assert (ran.code, ran.out) == (2, "")
+    assert "-d" in ran.err
+
+
 def test_xacro_is_a_command_of_the_studio(tmp_path: Path):
     robot = tmp_path / "r.xacro"
     robot.write_text('<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="${1 + 1}"/>')

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -11,7 +12,9 @@ from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.connection import SetJointSource
 from studio.protocol.displays import AddDisplay, SetDisplayProperty, SetFixedFrame
 from studio.protocol.scene_time import GetSceneTime, PauseScene, ResetScene
+from studio.protocol.tools import UseTool
 from studio.ros.messages import message
+from studio.rviz.tools import POINT, POSE_WITH_COVARIANCE
 from tests.live.displays.test_document_displays import (
     NOW_S,
     POSE,
@@ -22,6 +25,7 @@ from tests.live.displays.test_document_displays import (
     said,
     transform,
 )
+from tests.support.demos import heard
 from tests.support.open_documents import until
 from tests.support.wired_studio import STATES, TF, Studio, studio
 
@@ -152,6 +156,37 @@ async def hears(one: Studio, clock: Any, second: int) -> None:  # noqa: ANN401
         while (await time_of(one))["ros_s"] != float(second):
             clock.publish(at(second))
             await asyncio.sleep(0.02)
+
+
+def test_what_tools_send_is_stamped_with_wall_time_and_with_that_of_the_clock_topic_where_it_is(
+    endpoint: str, tester: Node, tmp_path: Path
+):
+    told = {
+        "SetInitialPose": heard(tester, POSE_WITH_COVARIANCE, "/initialpose"),
+        "PublishPoint": heard(tester, POINT, "/clicked_point"),
+    }
+
+    async def run() -> None:
+        async with studio(endpoint, tmp_path) as one:
+            tools = {each.kind: each.id for each in one.document.live.tools.list}
+
+            async def stamp_s(kind: str) -> int:
+                before = len(told[kind])
+                await one.do(UseTool(tool=tools[kind], x=1.0, y=2.0))
+                await until(lambda: len(told[kind]) > before)
+                return told[kind][-1].header.stamp.sec
+
+            for kind in told:
+                assert abs(await stamp_s(kind) - time.time_ns() / 1e9) < 60
+            clock = tester.create_publisher(message(CLOCK), "/clock", 10)
+            beat = tester.create_timer(0.02, lambda: clock.publish(at(100)))
+            link = await one.engine.ros.connection.link()
+            await until(lambda: bool(link.graph.publishers("/clock")))
+            for kind in told:
+                assert await stamp_s(kind) == 100
+            tester.destroy_timer(beat)
+
+    asyncio.run(run())
 
 
 def test_a_robot_that_follows_joint_states_stands_still_in_a_pause(

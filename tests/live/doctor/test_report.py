@@ -17,7 +17,7 @@ from studio.live.doctor.report import About, report_html, without_homes, words_o
 from studio.live.doctor.seen import Seen, SeenBrowser, SeenDisplay, SeenDocument
 from studio.problems import Place, Problem, Severity
 from studio.protocol.displays import DisplayState, Remark
-from studio.protocol.doctor import Finding, Level, SubjectName, Talk
+from studio.protocol.doctor import Concern, Finding, Level, SubjectName, Talk
 from studio.settings import repository_or_wheel
 
 ASSETS = repository_or_wheel("frontend_assets")
@@ -99,6 +99,8 @@ def test_who_talks_to_whom_is_drawn():
         level="error",
         subject="types",
         sentence="/x has 2 types.",
+        evidence=("/a: std_msgs/msg/String",),
+        about=(Concern(kind="topic", name="/x"),),
         talk=Talk(sources=("/a",), name="/x", targets=(), meets=False),
         line="ros2 topic info -v /x",
     )
@@ -129,6 +131,14 @@ def test_no_home_folder_is_in_a_report():
     html = html_of(Seen(document=SeenDocument("d", f"{HOMES}/anna/arm.xacro", problems=(problem,))))
     assert "anna" not in html
     assert "~/arm.xacro is wrong." in html
+
+
+def test_each_finding_has_a_test_that_makes_it():
+    words = json.loads((ASSETS / "panels/doctor/panel.json").read_text())["words"]["en"]
+    codes = {one.removeprefix("doctor.code.") for one in words if one.startswith("doctor.code.")}
+    folder = Path(__file__).with_name("subjects")
+    tests = "".join(one.read_text(encoding="utf-8") for one in folder.glob("test_*.py"))
+    assert {one for one in codes if f'"{one}"' not in tests} == set()
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

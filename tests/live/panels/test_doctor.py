@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import asynccontextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -16,6 +17,7 @@ from studio.live.panels import doctor
 from studio.live.panels.doctor import COMMANDS, Doctor
 from studio.protocol.doctor import FINDINGS_MAX, ExamineSystem, GetDoctorReport
 from studio.protocol.roles import Role
+from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
 from studio.ros.wire.zenoh import declare_token
@@ -23,7 +25,7 @@ from studio.settings import WireChoice
 from tests.support.demos import node_at
 from tests.support.loop_watch import stalls
 from tests.support.open_documents import Ear
-from tests.support.wire import PATIENCE_S, free_endpoint, open_test_session
+from tests.support.wire import PATIENCE_S, free_endpoint, open_test_session, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
@@ -45,7 +47,7 @@ async def doctor_at(endpoint: str) -> AsyncGenerator[tuple[Doctor, RosConnection
     try:
         yield made, connection
     finally:
-        await made.let_go()
+        await made.close()
         await connection.close()
 
 
@@ -56,6 +58,15 @@ async def complete(made: Doctor, code: str = "") -> SystemExamined:
             found = await made.examine(ExamineSystem(), ME)
             if found.is_complete and (not code or code in codes(found)):
                 return found
+            await asyncio.sleep(0.02)
+
+
+async def without(made: Doctor, code: str) -> None:
+    """Ask until something is found no more."""
+    async with asyncio.timeout(PATIENCE_S):
+        while True:
+            if code not in codes(await made.examine(ExamineSystem(), ME)):
+                return
             await asyncio.sleep(0.02)
 
 
@@ -92,6 +103,36 @@ def test_a_connection_is_examined_and_let_go_of(
             await made.let_go()
             await connection.disconnect()
             assert "not-connected" in codes(await made.examine(ExamineSystem(), ME))
+
+    assert tester.get_name()
+    asyncio.run(run())
+
+
+def test_parameters_that_changed_before_anybody_asked_are_known_with_their_start(
+    endpoint: str, tester: Node, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(doctor, "LISTENS_S", 0.2)
+
+    async def run() -> None:
+        async with doctor_at(endpoint) as (made, connection):
+            connection.on_change = made.listen
+            await connection.link()
+            with node_at(endpoint, "tuned") as node:
+                seen = partial(node.graph.subscriptions, "/parameter_events")
+                await asyncio.to_thread(wait_until, "the studio listens", lambda: bool(seen()))
+                node.declare_parameter("gain", 1)
+                node.set_parameters([Parameter("gain", value=2)])
+                node.declare_parameter("done", 1)
+                found = await complete(made, "parameter-changed")
+                (told,) = (one for one in found.findings if one.code == "parameter-changed")
+                assert told.evidence == ("gain is now 2, and was 1 when it was declared",)
+                assert told.sentence.endswith("a restart brings back those.")
+            await without(made, "parameter-changed")  # once its end is known
+            await made.let_go()
+            await connection.disconnect()
+            made.listen()
+            await connection.link()
+            assert "parameter-changed" not in codes(await complete(made))
 
     assert tester.get_name()
     asyncio.run(run())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import math
-import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -13,7 +12,15 @@ from studio.errors import CommandError, NotServedError, RosNameError
 from studio.live.displays.document_tools import ToolUse
 from studio.protocol.goals import CancelGoal
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
-from studio.rviz.tools import POINT, POSE, POSE_WITH_COVARIANCE, ToolSpec
+from studio.rviz.tools import (
+    DURABILITY,
+    HISTORY,
+    POINT,
+    POSE,
+    POSE_WITH_COVARIANCE,
+    RELIABILITY,
+    ToolSpec,
+)
 from tests.support.bridged import Bridged, bridged
 from tests.support.demos import heard, message
 from tests.support.navigation import navigator
@@ -26,8 +33,10 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.network
 ASKED = (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.TRANSIENT_LOCAL, 3)
 FIRST = (ReliabilityPolicy.RELIABLE, DurabilityPolicy.VOLATILE, 5)
+POLICIES = (HISTORY, RELIABILITY, DURABILITY)
 QUARTER = (math.cos(math.pi / 8), 0.0, 0.0, math.sin(math.pi / 8))
 """pi / 4 about z."""
+STAMP_NS = 100_250_000_000
 
 
 @pytest.fixture(autouse=True)
@@ -40,10 +49,11 @@ async def used(page: Bridged, kind: str, **values: Any) -> ToolSent:  # noqa: AN
     tool = ToolSpec(
         kind, kind, "Tool", {name.replace("_", " "): one for name, one in values.items()}
     )
-    return await page.ros.tools.use("d", ToolUse(tool, "odom", QUARTER, (1.0, 2.0, 0.5)), "me")
+    use = ToolUse(tool, "odom", QUARTER, (1.0, 2.0, 0.5), STAMP_NS)
+    return await page.ros.tools.use("d", use, "me")
 
 
-def test_a_pose_estimate_has_the_covariances_the_frame_and_the_time_of_now(
+def test_a_pose_estimate_has_the_covariances_the_frame_and_the_time_when_it_was_pointed_at(
     endpoint: str, tester: Node
 ):
     poses = heard(tester, POSE_WITH_COVARIANCE, "/initialpose")
@@ -58,8 +68,7 @@ def test_a_pose_estimate_has_the_covariances_the_frame_and_the_time_of_now(
     (said,) = poses
     assert (answer.name, answer.subscriptions, answer.operation) == ("/initialpose", 1, 0)
     assert said.header.frame_id == "odom"
-    stamp_s = said.header.stamp.sec + said.header.stamp.nanosec / 1e9
-    assert abs(time.time_ns() / 1e9 - stamp_s) < 60
+    assert (said.header.stamp.sec, said.header.stamp.nanosec) == (100, 250_000_000)
     place, turn = said.pose.pose.position, said.pose.pose.orientation
     assert (place.x, place.y, place.z) == (1.0, 2.0, 0.5)
     assert (turn.w, turn.x, turn.y, turn.z) == QUARTER
@@ -80,6 +89,7 @@ def test_a_point_and_a_goal_go_to_the_topics_of_their_tools_with_their_qos(
     }
 
     ends = tester.get_publishers_info_by_topic
+    told: list[QoSProfile] = []
 
     async def run() -> None:
         async with bridged(endpoint) as page:
@@ -91,8 +101,17 @@ def test_a_point_and_a_goal_go_to_the_topics_of_their_tools_with_their_qos(
                 found = ends(name)[0].qos_profile
                 assert (found.reliability, found.durability, found.depth) == wanted
                 assert found.history is HistoryPolicy.KEEP_LAST
+            for name, history in (
+                ("/all", {"Topic/History Policy": "Keep All"}),
+                ("/usual", dict.fromkeys(POLICIES, "System Default")),
+            ):
+                await used(page, "SetGoal", Topic=name, **history)
+                await until(lambda name=name: len(ends(name)) == 1)
+                told.append(ends(name)[0].qos_profile)
 
     asyncio.run(run())
+    assert [one.history for one in told] == [HistoryPolicy.KEEP_ALL, HistoryPolicy.KEEP_LAST]
+    assert (told[1].reliability, told[1].durability) == FIRST[:2]
     assert (points[0].point.x, points[0].point.y, points[0].point.z) == (1.0, 2.0, 0.5)
     assert goals[0].pose.orientation.w == QUARTER[0]
 
@@ -186,6 +205,7 @@ def test_a_goal_goes_to_the_action_where_it_is_served_and_is_cancelled(endpoint:
                 await page.operation_in("goals", answer.operation, "executing")
                 asked = await asyncio.to_thread(lambda: work.goal().request.pose)
                 assert (asked.header.frame_id, asked.pose.position.y) == ("odom", 2.0)
+                assert (asked.header.stamp.sec, asked.header.stamp.nanosec) == (100, 250_000_000)
                 await asyncio.to_thread(work.tell, 1.5, recoveries=2)
                 goals = page.ros.goals.operations
                 await until(lambda: goals.get(answer.operation).feedback_count == 1)

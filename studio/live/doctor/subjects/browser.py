@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.live.doctor.seen import Looked, short
-from studio.protocol.doctor import Finding
+from studio.protocol.doctor import Concern, Finding
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,5 +34,6 @@ def findings(seen: Seen) -> Iterator[Finding]:
                 "This browser draws 3D by software, so large scenes move slowly: switch on "
                 "hardware acceleration in its settings, or use another browser."
             ),
-            evidence=(short(seen.browser.renderer),) if seen.browser.renderer else (),
+            evidence=(short(seen.browser.renderer) or "the browser does not name its renderer",),
+            about=(Concern(kind="graphics", name=""),),
         )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import Looked, listed, short
+from studio.live.doctor.seen import NAME_MAX, Looked, listed, short
+from studio.protocol.displays import Mend
 from studio.protocol.doctor import Concern, Finding
 
 if TYPE_CHECKING:
@@ -73,6 +74,21 @@ def _of_offset(offset: Offset) -> Iterator[Finding]:
     )
 
 
+def set_simulated_time(system: System, node: str, *, value: bool) -> Mend | None:
+    """Return the click that sets use_sim_time of a node; None: it takes no parameters."""
+    ends = system.services.get(f"{node}/set_parameters")
+    if ends is None or not ends.senders or len(node) > NAME_MAX:
+        return None
+    text = "true" if value else "false"
+    command: dict[str, bool | int | float | str] = {
+        "type": "set_parameter",
+        "node": node,
+        "name": "use_sim_time",
+        "text": text,
+    }
+    return Mend(label=f"Set use_sim_time of {node} to {text}", command=command)
+
+
 def _of_simulated_time(system: System) -> Iterator[Finding]:
     clock = system.topics.get(_CLOCK)
     # A node of rclcpp or rclpy subscribes to /clock exactly when its use_sim_time is true.
@@ -92,19 +108,36 @@ def _of_simulated_time(system: System) -> Iterator[Finding]:
                 "simulated time (use_sim_time), and nobody publishes /clock: their time stands "
                 "still. Start the simulation, or set use_sim_time to false."
             ),
+            evidence=(
+                f"subscribers of /clock: {listed(sorted(simulated))}",
+                "publishers of /clock: 0",
+            ),
+            mend=_first_mend(system, sorted(simulated), value=False),
             line=f"ros2 param set {short(min(simulated))} use_sim_time false",
-            about=(Concern(kind="topic", name=_CLOCK),),
+            about=(
+                Concern(kind="topic", name=_CLOCK),
+                *(Concern(kind="parameter", name=one) for one in sorted(simulated)[:3]),
+            ),
         )
-    if len(publishers) > 1:
+    if clock and len(publishers) > 1:
         yield Finding(
             code="two-clocks",
             level="warn",
             subject=SUBJECT,
             sentence=f"/clock is published by {listed(publishers)}: time jumps between them.",
+            evidence=tuple(
+                f"{short(one.node.path)} of process {one.node.zid[:8]}" for one in clock.senders[:8]
+            ),
             about=(Concern(kind="topic", name=_CLOCK),),
         )
     if publishers:
         yield from _mixed(system, simulated, set(publishers))
+
+
+def _first_mend(system: System, nodes: list[str], *, value: bool) -> Mend | None:
+    """One click for the first of some nodes; once it is mended, the next is offered."""
+    mends = (set_simulated_time(system, one, value=value) for one in nodes)
+    return next((one for one in mends if one is not None), None)
 
 
 def _mixed(system: System, simulated: set[str], clocks: set[str]) -> Iterator[Finding]:
@@ -128,6 +161,7 @@ def _mixed(system: System, simulated: set[str], clocks: set[str]) -> Iterator[Fi
                 "of time never fit together. Set use_sim_time to true."
             ),
             evidence=(f"by simulated time: {listed(sorted(simulated)) or 'no node'}",),
+            mend=_first_mend(system, on_wall_time, value=True),
             line=f"ros2 param set {short(on_wall_time[0])} use_sim_time true",
             about=tuple(Concern(kind="node", name=one) for one in on_wall_time[:3]),
         )

@@ -40,6 +40,6 @@ def findings(seen: Seen) -> Iterator[Finding]:
             level=_LEVELS[problem.severity],
             subject=SUBJECT,
             sentence=short(problem.sentence, 500),
-            evidence=tuple(one for one in (where, problem.code) if one),
+            evidence=tuple(one for one in (where, problem.code) if one) or (seen.document.title,),
             about=(Concern(kind="document", name=seen.document.id),),
         )

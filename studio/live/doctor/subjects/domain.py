@@ -34,7 +34,8 @@ def findings(seen: Seen) -> Iterator[Finding]:
         return
     endpoint, domain = _place(seen)
     others = {one: many for one, many in counts.items() if one != domain}
-    evidence = tuple(_of_domain(*one) for one in list(counts.items())[:8])
+    there = tuple(_of_domain(*one) for one in list(counts.items())[:8])
+    evidence = there or (f"no node in any domain at {endpoint or 'the configured address'}",)
     if sentence := _why_nobody(seen.system, endpoint, domain, counts):
         target = min(others) if others else None
         yield Finding(
@@ -69,6 +70,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
                 f"ROS_DOMAIN_ID is {named[:12]} where the studio was started, and it looks at "
                 f"domain {domain}: nodes that are started there are in domain {named[:12]}."
             ),
+            evidence=(f"ROS_DOMAIN_ID={named[:12]}", f"the studio is in domain {domain}"),
             line=f"export ROS_DOMAIN_ID={domain}",
             about=(CONNECTION,),
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.catalogue import displays_of_type
@@ -13,7 +13,7 @@ from studio.tf.transforms import plain_name
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.live.doctor.seen import Heard, HeardFrames, Seen
+    from studio.live.doctor.seen import Heard, HeardFrames, HeardTopic, Seen
     from studio.protocol.doctor import Level, SubjectName
     from studio.tf.transforms import Kind, Notice
 
@@ -78,6 +78,7 @@ def _missing(heard: Heard, links: frozenset[str]) -> Iterator[Finding]:
                     f"{listed(topics)}: no frame is named in the header, so nobody knows where "
                     "it belongs."
                 ),
+                evidence=tuple(_header_of(heard.topics[one]) for one in topics[:8]),
                 about=about,
             )
             continue
@@ -103,6 +104,12 @@ def _missing(heard: Heard, links: frozenset[str]) -> Iterator[Finding]:
         )
 
 
+def _header_of(topic: HeardTopic) -> str:
+    sender = topic.header.sender if topic.header else ""
+    by = f" by {short(sender)}" if sender else ""
+    return f'{short(topic.topic)}: {short(topic.type_name)}{by} with frame_id ""'
+
+
 def is_placed(type_name: str, topic: str) -> bool:
     """Whether messages of a type are drawn somewhere, so that their frame matters."""
     return type_name not in _NOWHERE and any(displays_of_type(type_name, topic))
@@ -123,6 +130,7 @@ def _two_authors(frames: HeardFrames) -> Iterator[Finding]:
                 f"{listed(authors)} publish the transform of {listed(names)}: it jumps between "
                 "them. Keep one."
             ),
+            evidence=tuple(f"{short(one)}: by {listed(authors)}" for one in names[:8]),
             about=tuple(Concern(kind="frame", name=one) for one in names[:3]),
             talk=Talk(
                 sources=tuple(map(short, authors[:6])), name=short(names[0]), targets=(), meets=True
@@ -147,14 +155,16 @@ def _of_notices(frames: HeardFrames) -> Iterator[Finding]:
                 f"from {short(one.publisher)}: {short(one.child)} in {short(one.parent)}"
                 for one in same[:8]
             ),
-            about=(Concern(kind="frame", name=child),) if child else (),
+            about=(
+                Concern(kind="frame", name=child) if child else Concern(kind="topic", name="/tf"),
+            ),
         )
 
 
 def _trees(frames: HeardFrames) -> Iterator[Finding]:
     if len(frames.roots) < 2:
         return
-    count = len(frames.roots)
+    count, sizes = len(frames.roots), Counter(one.root for one in frames.reports)
     yield Finding(
         code="several-trees",
         level="warn",
@@ -163,5 +173,6 @@ def _trees(frames: HeardFrames) -> Iterator[Finding]:
             f"Frames are in {count} trees that no transform connects, with the roots "
             f"{listed(frames.roots)}: what is in one cannot be drawn in another."
         ),
+        evidence=tuple(f"{short(one)}: frames {sizes[one]}" for one in frames.roots[:8]),
         about=tuple(Concern(kind="frame", name=one) for one in frames.roots[:3]),
     )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import StudioError
 from studio.live.doctor.seen import Looked, listed, short
+from studio.live.doctor.subjects.router import CONNECTION
 from studio.protocol.doctor import Finding
 from studio.ros.wire.endpoints import parse_endpoint
 
@@ -57,7 +58,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
             "note",
             f"The router is reached at {_endpoint(seen)}, by which every machine means itself: "
             "nodes elsewhere connect to this machine's address in the network.",
-            (),
+            (f"the router's address is {_endpoint(seen)}",),
         )
     yield from _of_variables(seen)
 
@@ -112,5 +113,11 @@ def _found(
     code: str, level: Level, sentence: str, evidence: tuple[str, ...], line: str = ""
 ) -> Finding:
     return Finding(
-        code=code, level=level, subject=SUBJECT, sentence=sentence, evidence=evidence, line=line
+        code=code,
+        level=level,
+        subject=SUBJECT,
+        sentence=sentence,
+        evidence=evidence,
+        line=line,
+        about=(CONNECTION,),
     )

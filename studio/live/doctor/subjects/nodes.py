@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import Looked, short
+from studio.live.doctor.seen import Looked, listed, short
+from studio.live.doctor.subjects.router import CONNECTION
 from studio.protocol.doctor import Concern, Finding
 from studio.ros.graph.diagnosis import why_unseen
 
@@ -41,7 +42,11 @@ def findings(seen: Seen) -> Iterator[Finding]:
             code="token",
             level="warn",
             subject=SUBJECT,
-            sentence=f"{count} liveliness tokens were not understood; the last: {short(last, 400)}",
+            sentence=(
+                f"{count} liveliness tokens were not understood: what they stand for is not shown."
+            ),
+            evidence=(f"the last: {short(last, 380)}",),
+            about=(CONNECTION,),
         )
 
 
@@ -78,6 +83,12 @@ def _unseen(answers: Answers) -> Iterator[Finding]:
             level="error",
             subject=SUBJECT,
             sentence=why_unseen(answers.unseen),
+            evidence=(
+                f"processes that publish without a token: {answers.unseen.count}",
+                f"Zenoh of these: {listed(answers.unseen.versions) or 'they do not tell'}",
+                f"Zenoh of routers: {listed(answers.unseen.router_versions) or 'they do not tell'}",
+            ),
+            about=(CONNECTION,),
         )
 
 

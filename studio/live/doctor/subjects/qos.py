@@ -93,6 +93,10 @@ def _on_the_wire(name: str, ends: Ends, heard: Heard | None) -> Iterator[Finding
                     f"{short(one.node.path)} promises {short(name)} every {deadline_s:g} s at the "
                     f"latest, and it comes every {1 / rate_hz:.3g} s: nobody is told over Zenoh."
                 ),
+                evidence=(
+                    f"{short(one.node.path)} offers {_profile(one)}",
+                    f"{rate_hz:.3g} messages a second came",
+                ),
                 about=(Concern(kind="topic", name=name),),
             )
             return

@@ -76,6 +76,10 @@ def _of_topic(topic: HeardTopic, system: System) -> Iterator[Finding]:
                 f"{name} comes {pace.recent_hz:.3g} times a second, and came {pace.usual_hz:.3g} "
                 "times until a moment ago: its node or the network is busy."
             ),
+            evidence=(
+                f"{pace.usual_hz:.4g} Hz is usual, {pace.recent_hz:.4g} Hz of late",
+                f"{topic.samples} samples came in {topic.listened_s:.0f} s",
+            ),
             line=f"ros2 topic hz {name}",
             about=(Concern(kind="topic", name=topic.topic),),
         )

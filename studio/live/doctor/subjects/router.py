@@ -39,6 +39,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
             "router-gone",
             "error",
             f"The router at {seen.system.endpoint} went away: it is joined again once it runs.",
+            evidence=(f"{seen.system.endpoint} does not answer",),
             line=_START,
         )
     routers = dict(seen.answers.routers) if seen.answers else dict[str, str]()
@@ -62,11 +63,24 @@ def _of_place(place: WireReport) -> Iterator[Finding]:
         _CODES.get(place.verdict, "not-connected"),
         level,
         sentence.format(endpoint=place.endpoint),
+        evidence=_evidence(place),
         mend=CONNECT if place.verdict not in {"foreign", "not_admitted"} else None,
         line=_START if place.verdict == "no_router" else "",
     )
 
 
+def _evidence(place: WireReport) -> tuple[str, ...]:
+    domains = ", ".join(f"{one.nodes} in domain {one.domain}" for one in place.domains[:6])
+    looked = f"{place.endpoint}: {_SAID.get(place.verdict, 'a router of Zenoh answers')}"
+    return (looked, f"nodes there: {domains}") if domains else (looked,)
+
+
+_SAID: Final[dict[Verdict, str]] = {
+    "no_router": "nothing answers",
+    "foreign": "something answers that is not Zenoh",
+    "not_admitted": "a router refuses the studio",
+    "bridge": "only keys of a bridge to DDS are there",
+}
 _CODES: Final[dict[Verdict, str]] = {
     "no_router": "no-router",
     "foreign": "no-zenoh",
@@ -112,7 +126,7 @@ def _found(
     level: Level,
     sentence: str,
     *,
-    evidence: tuple[str, ...] = (),
+    evidence: tuple[str, ...],
     mend: Mend | None = None,
     line: str = "",
 ) -> Finding:

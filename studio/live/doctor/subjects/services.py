@@ -13,7 +13,7 @@ from studio.ros.names import is_hidden
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.live.doctor.seen import Ends, Seen, System
+    from studio.live.doctor.seen import Ends, Seen, System, Unanswered
     from studio.protocol.doctor import SubjectName
 
 SUBJECT: Final[SubjectName] = "services"
@@ -41,8 +41,17 @@ def findings(seen: Seen) -> Iterator[Finding]:
             sentence=(
                 f"The last {what} of {short(one.name)} was not answered. {short(one.why, 300)}"
             ),
+            evidence=(_who_serves(one, seen.system),),
             about=(Concern(kind="action" if one.is_action else "service", name=one.name),),
         )
+
+
+def _who_serves(unanswered: Unanswered, system: System | None) -> str:
+    name = goal_service(unanswered.name) if unanswered.is_action else unanswered.name
+    ends = system.services.get(name) if system else None
+    if ends is None or not ends.senders:
+        return f"nobody serves {short(unanswered.name)} now"
+    return f"{short(unanswered.name)} is served by {listed(one.node.path for one in ends.senders)}"
 
 
 def _served_twice(name: str, ends: Ends, twice: dict[str, int]) -> Iterator[Finding]:
@@ -59,6 +68,10 @@ def _served_twice(name: str, ends: Ends, twice: dict[str, int]) -> Iterator[Find
         level="warn",
         subject=SUBJECT,
         sentence=f"{short(name)} is served {len(servers)} times, by {shown}: keep one.",
+        evidence=tuple(
+            f"{short(one.node.path)} of process {one.node.zid[:8]}: {short(one.type_name)}"
+            for one in servers[:8]
+        ),
         about=(Concern(kind="service", name=name),),
     )
 
@@ -77,7 +90,13 @@ def _not_served(name: str, ends: Ends, system: System) -> Iterator[Finding]:
         level="warn",
         subject=SUBJECT,
         sentence=f"{who} has a client of the {what} {short(plain)}, which nobody serves.",
-        about=(Concern(kind="node", name=waiting[0].node.path),),
+        evidence=tuple(
+            f"{short(one.node.path)} calls it as {short(one.type_name)}" for one in waiting[:8]
+        ),
+        about=(
+            Concern(kind="node", name=waiting[0].node.path),
+            Concern(kind="action" if is_action else "service", name=plain),
+        ),
         talk=Talk(
             sources=(short(waiting[0].node.path),), name=short(plain), targets=(), meets=False
         ),

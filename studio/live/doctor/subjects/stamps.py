@@ -5,13 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.live.doctor.seen import Looked, listed, short
+from studio.live.doctor.subjects.clocks import set_simulated_time
 from studio.live.doctor.subjects.frames import is_placed
 from studio.protocol.doctor import Concern, Finding
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.live.doctor.seen import Header, HeardClock, HeardFrames, HeardTopic, Seen
+    from studio.live.doctor.seen import Header, HeardClock, HeardFrames, HeardTopic, Seen, System
+    from studio.protocol.displays import Mend
     from studio.protocol.doctor import SubjectName
     from studio.tf.report import FrameReport
 
@@ -37,11 +39,13 @@ def findings(seen: Seen) -> Iterator[Finding]:
         return
     for one in seen.heard.topics.values():
         if one.header is not None:
-            yield from _of_data(one, one.header, seen.heard.clock)
+            yield from _of_data(one, one.header, seen.heard.clock, seen.system)
     yield from _of_frames(seen.heard.frames, seen.heard.clock)
 
 
-def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Iterator[Finding]:
+def _of_data(
+    topic: HeardTopic, header: Header, clock: HeardClock | None, system: System | None
+) -> Iterator[Finding]:
     name = short(topic.topic)
     who = header.sender or "its sender"
     if header.stamp_ns == 0 and not is_placed(topic.type_name, topic.topic):
@@ -64,6 +68,7 @@ def _of_data(topic: HeardTopic, header: Header, clock: HeardClock | None) -> Ite
                 f"{name} is stamped with wall time, and /clock says {clock.now_ns / 1e9:.1f} s: "
                 f"set use_sim_time of {short(who)} to true.",
                 header,
+                set_simulated_time(system, header.sender, value=True) if system else None,
             )
             return
         ahead_ns = header.stamp_ns - clock.now_ns - (header.received_ns - clock.received_ns)
@@ -128,7 +133,9 @@ def _of_tf(code: str, where: str, reports: list[FrameReport], now_ns: int) -> Fi
     )
 
 
-def _found(code: str, topic: HeardTopic, sentence: str, header: Header) -> Finding:
+def _found(
+    code: str, topic: HeardTopic, sentence: str, header: Header, mend: Mend | None = None
+) -> Finding:
     return Finding(
         code=code,
         level="warn",
@@ -138,6 +145,7 @@ def _found(code: str, topic: HeardTopic, sentence: str, header: Header) -> Findi
             f"stamped {header.stamp_ns / 1e9:.3f} s, sent {header.sent_ns / 1e9:.3f} s, "
             f"received {header.received_ns / 1e9:.3f} s",
         ),
+        mend=mend,
         line=f"ros2 topic delay {short(topic.topic)}",
         about=(Concern(kind="topic", name=topic.topic),),
     )

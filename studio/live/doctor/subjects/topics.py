@@ -22,6 +22,7 @@ _LIKENESS: Final = 0.75
 _COMPARED_MAX: Final = 200
 """Names compared with one another; more is no help, and takes its time."""
 _SHOWN_MAX: Final = 3
+_EVIDENCE_MAX: Final = 8
 _OF_ROS: Final = frozenset({"/rosout", "/parameter_events", "/clock", "/tf", "/tf_static"})
 """Every node has these, or may; that one side is missing means nothing."""
 
@@ -41,7 +42,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
     for waiting, there in meant.items():
         yield _perhaps_meant(waiting, there, unsaid[waiting], unheard[there])
     for name in [one for one in unsaid if one not in waited]:
-        yield _studio_waits(name)
+        yield _studio_waits(name, unsaid[name])
     yield from _by_node(
         {name: unsaid[name].receivers for name in waited if name not in meant}, "to"
     )
@@ -69,7 +70,7 @@ def _is_own(system: System, ends: Ends) -> bool:
     return all(map(system.is_own, ends.receivers))
 
 
-def _studio_waits(name: str) -> Finding:
+def _studio_waits(name: str, ends: Ends) -> Finding:
     return Finding(
         code="studio-waits",
         level="note",
@@ -77,6 +78,7 @@ def _studio_waits(name: str) -> Finding:
         sentence=(
             f"A panel or a display of the studio waits for {short(name)}, which nobody publishes."
         ),
+        evidence=(_counted(name, ends.senders, ends.receivers),),
         about=(_topic(name),),
         line=f"ros2 topic info -v {short(name)}",
     )
@@ -133,30 +135,49 @@ def _by_node(
         by_node[_who(ends)].append(name)
     for who, names in by_node.items():
         node = ends_by_topic[names[0]][0].node.path
-        yield _waiting(who, names, node) if side == "to" else _unheard(who, names, node)
+        evidence = tuple(
+            _counted(name, (), ends_by_topic[name])
+            if side == "to"
+            else _counted(name, ends_by_topic[name], ())
+            for name in names[:_EVIDENCE_MAX]
+        )
+        one_sided = _waiting if side == "to" else _unheard
+        yield one_sided(who, names, node, evidence)
 
 
-def _waiting(who: str, names: list[str], node: str) -> Finding:
+def _waiting(who: str, names: list[str], node: str, evidence: tuple[str, ...]) -> Finding:
     return Finding(
         code="no-publisher",
         level="note",
         subject=SUBJECT,
         sentence=f"{who} waits for {listed(names)}, which nobody publishes.",
+        evidence=evidence,
         about=(*map(_topic, names[:_SHOWN_MAX]), Concern(kind="node", name=node)),
         talk=Talk(sources=(), name=listed(names, 2), targets=(short(node),), meets=False),
         line=f"ros2 topic info -v {short(names[0])}",
     )
 
 
-def _unheard(who: str, names: list[str], node: str) -> Finding:
+def _unheard(who: str, names: list[str], node: str, evidence: tuple[str, ...]) -> Finding:
     return Finding(
         code="no-subscriber",
         level="note",
         subject=SUBJECT,
         sentence=f"{who} publishes {listed(names)}, which nobody subscribes to.",
+        evidence=evidence,
         about=(*map(_topic, names[:_SHOWN_MAX]), Concern(kind="node", name=node)),
         talk=Talk(sources=(short(node),), name=listed(names, 2), targets=(), meets=False),
         line=f"ros2 topic info -v {short(names[0])}",
+    )
+
+
+def _counted(
+    name: str, senders: tuple[GraphEndpoint, ...], receivers: tuple[GraphEndpoint, ...]
+) -> str:
+    type_name = (*senders, *receivers)[0].type_name
+    return (
+        f"{short(name)}: {short(type_name)}, publishers {len(senders)}, "
+        f"subscriptions {len(receivers)}"
     )
 
 

@@ -12,6 +12,7 @@ from studio.protocol.doctor import Concern, ConcernKind, Finding, Talk
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from studio.errors import InterfaceTextError
     from studio.live.doctor.seen import Seen
     from studio.protocol.doctor import SubjectName
     from studio.ros.graph.endpoints import GraphEndpoint
@@ -36,10 +37,20 @@ def findings(seen: Seen) -> Iterator[Finding]:
         yield from _of_name(_Named(name, ends, "topic"), unknown, written)
     for name, ends in system.services.items():
         yield from _of_name(_Named(name, ends, "service"), unknown, written)
-    for error in system.types.faults().values():
-        yield Finding(
-            code="interface-text", level="warn", subject=SUBJECT, sentence=short(str(error), 500)
-        )
+    for type_name, error in system.types.faults().items():
+        yield _faulty_text(type_name, error)
+
+
+def _faulty_text(type_name: str, error: InterfaceTextError) -> Finding:
+    place = short(error.name) if error.line is None else f"{short(error.name)}, line {error.line}"
+    return Finding(
+        code="interface-text",
+        level="warn",
+        subject=SUBJECT,
+        sentence=short(str(error), 500),
+        evidence=(f"{short(type_name)} is not known because of {place}",),
+        about=(Concern(kind="interface", name=type_name),),
+    )
 
 
 class _Unknown:
@@ -76,7 +87,7 @@ def _of_name(named: _Named, unknown: _Unknown, written: Written) -> Iterator[Fin
         if len({one.type_hash for one in both if one.type_name == type_name}) > 1:
             yield written("hash", partial(_several_forms, named, type_name))
         if why := unknown(type_name):
-            yield written("unknown-type", partial(_not_known, named, why))
+            yield written("unknown-type", partial(_not_known, named, type_name, why))
 
 
 def _several_types(named: _Named, types: list[str]) -> Finding:
@@ -111,13 +122,18 @@ def _several_forms(named: _Named, type_name: str) -> Finding:
     )
 
 
-def _not_known(named: _Named, why: str) -> Finding:
+def _not_known(named: _Named, type_name: str, why: str) -> Finding:
+    both = (*named.ends.senders, *named.ends.receivers)
     return Finding(
         code="unknown-type",
         level="warn",
         subject=SUBJECT,
         sentence=f"{short(named.name)}: {short(why, 400)}",
-        about=(Concern(kind=named.kind, name=named.name),),
+        evidence=_evidence(one for one in both if one.type_name == type_name),
+        about=(
+            Concern(kind=named.kind, name=named.name),
+            Concern(kind="interface", name=type_name),
+        ),
     )
 
 

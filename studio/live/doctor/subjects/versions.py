@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 import studio
 from studio.live.doctor.seen import Looked, listed, short
+from studio.live.doctor.subjects.router import CONNECTION
 from studio.protocol.doctor import Concern, Finding
 
 if TYPE_CHECKING:
@@ -42,6 +43,10 @@ def findings(seen: Seen) -> Iterator[Finding]:
                     "attachment of rmw_zenoh as it is now: bring rmw_zenoh_cpp of their sender up "
                     "to date (0.1.2 for Humble, 0.2.4 for Jazzy), for nobody else hears it either."
                 ),
+                evidence=(
+                    f"{one.not_understood} of {one.samples + one.not_understood} samples in "
+                    f"{one.listened_s:.0f} s have an attachment of another form",
+                ),
                 about=(Concern(kind="topic", name=one.topic),),
             )
 
@@ -59,6 +64,11 @@ def _of_zenoh(answers: Answers) -> Iterator[Finding]:
                 f"Routers have Zenoh {listed(routers)} and nodes {listed(sessions)}, which do not "
                 "understand each other: use the rmw_zenoh of one distribution everywhere."
             ),
+            evidence=(
+                *(f"router {zid}: Zenoh {one}" for zid, one in list(answers.routers.items())[:4]),
+                *(f"process {zid}: Zenoh {one}" for zid, one in list(answers.sessions.items())[:6]),
+            ),
+            about=(CONNECTION,),
         )
     elif len(routers) > 1:
         yield Finding(
@@ -69,4 +79,5 @@ def _of_zenoh(answers: Answers) -> Iterator[Finding]:
             evidence=tuple(
                 f"{zid}: {version}" for zid, version in list(answers.routers.items())[:8]
             ),
+            about=(CONNECTION,),
         )

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import time
+from typing import TYPE_CHECKING
 
 import pytest
 
 from studio.live.topics.topic_rates import KEPT_S
+from studio.protocol.parameters import SetParameter
 from studio.ros.attachment import packed
 from studio.ros.messages import message
+from studio.ros.parameters.parameter import Parameter
 from studio.ros.tokens import DataKey
 from studio.ros.wire.zenoh import declare_publisher
+from studio.server.commands import parse_command
 from tests.support.patient import CLOCK, STRING, Patient, clock_at
 from tests.support.wire import wait_until
+
+if TYPE_CHECKING:
+    from studio.protocol.displays import Mend
 
 pytestmark = pytest.mark.network
 
@@ -52,6 +60,28 @@ def test_simulated_time_without_a_clock_is_an_error(patient: Patient):
     patient.subscribe(CLOCK, "/clock")
     found = patient.until("no-clock", "/robot")
     assert found.line == "ros2 param set /robot use_sim_time false"
+    assert found.evidence == ("subscribers of /clock: /robot", "publishers of /clock: 0")
+
+
+def test_what_the_click_sets_ends_both_findings(patient: Patient):
+    node = patient.node("simulated")
+    patient.publisher(STRING, "/by_simulated", node=node)
+
+    def set_as(mend: Mend | None) -> None:
+        assert mend is not None
+        command = parse_command(json.dumps({"request": 1, **mend.command}).encode())
+        assert isinstance(command, SetParameter)
+        assert (command.node, command.name) == ("/simulated", "use_sim_time")
+        assert mend.label == f"Set use_sim_time of /simulated to {command.text}"
+        (done,) = node.set_parameters([Parameter(command.name, value=command.text == "true")])
+        assert done.successful
+
+    node.set_parameters([Parameter("use_sim_time", value=True)])
+    set_as(patient.until("no-clock", "/simulated").mend)
+    wait_until("it is mended", lambda: "no-clock" not in patient.codes("/simulated"))
+    patient.publisher(CLOCK, "/clock")
+    set_as(patient.until("time-mixed", "/simulated").mend)
+    wait_until("it goes by it", lambda: "time-mixed" not in patient.codes("/simulated"))
 
 
 def test_two_clocks_and_nodes_of_wall_time_are_warnings(patient: Patient):

@@ -20,6 +20,7 @@ def test_problems_that_hinder_are_findings():
         ("warn", "arm has no inertia."),
     ]
     assert found[1].evidence == ("a.xacro:4", "no-inertia")
+    assert {one.code for one in found} == {"problem"}
 
 
 def test_without_a_document_it_is_not_examined():

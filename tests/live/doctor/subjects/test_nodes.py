@@ -51,7 +51,7 @@ def test_a_token_that_is_none_is_found(patient: Patient):
     token = declare_token(session, "@ros2_lv/0/junk")
     found = patient.until("token", "not understood")
     token.undeclare()
-    assert "junk" in found.sentence
+    assert "junk" in found.evidence[0]
 
 
 def test_processes_that_the_router_does_not_show_are_an_error(patient: Patient):

@@ -24,6 +24,8 @@ def test_a_changed_parameter_is_a_note_with_its_value(patient: Patient):
         do=lambda: node.set_parameters([Parameter("gain", value=next(values))]),
     )
     assert found.level == "note"
+    assert "since the Doctor began to listen" in found.sentence
+    assert "restart" not in found.sentence
     assert found.evidence[0].startswith("gain is now ")
     assert "gain" in found.sentence
 

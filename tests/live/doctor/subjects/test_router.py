@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import socket
 import threading
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -14,6 +15,9 @@ from studio.live.doctor.seen import Seen
 from studio.settings import WireChoice
 from tests.support.patient import Patient, patient_system
 from tests.support.wire import free_endpoint, router_at
+
+if TYPE_CHECKING:
+    from studio.protocol.connection import Verdict
 
 pytestmark = pytest.mark.network
 
@@ -48,6 +52,17 @@ def test_another_program_at_its_address_is_an_error():
         other.shutdown(socket.SHUT_RDWR)  # which ends `accept`
     answering.join()
     assert found["no-zenoh"] == "error"
+
+
+@pytest.mark.parametrize(
+    ("verdict", "code"), [("not_admitted", "not-admitted"), ("bridge", "only-a-bridge")]
+)
+def test_a_router_that_does_not_serve_the_studio_is_an_error(verdict: Verdict, code: str):
+    nowhere = examine_place(WireChoice("off", (free_endpoint(),), 0, "jazzy"), ())
+    place = nowhere.model_copy(update={"verdict": verdict})
+    found = {one.code: one for one in examine(Seen(place=place)).findings}[code]
+    assert found.level == "error"
+    assert found.evidence[0].startswith(f"{place.endpoint}: ")
 
 
 def test_a_router_that_is_there_and_not_joined_can_be_joined(patient: Patient):

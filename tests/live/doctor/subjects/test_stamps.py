@@ -59,6 +59,8 @@ def test_wall_time_beside_simulated_time_is_a_warning(patient: Patient):
 
     found = patient.until("stamp-of-wall-time", "/of_wall_time", do=send)
     assert "/clock says 7.0 s" in found.sentence
+    assert found.mend is not None
+    assert found.mend.label == "Set use_sim_time of /robot to true"
 
 
 @pytest.mark.parametrize(("code", "off_s"), [("tf-future", 5), ("tf-past", -30)])
