@@ -90,6 +90,16 @@ class KeptDisplays(msgspec.Struct, frozen=True, omit_defaults=True):
     """The `.rviz` file that was opened or saved last."""
     views: tuple[ViewSpec, ...] = ()
 
+    def regrouped(self, group: str, to: str | None) -> KeptDisplays:
+        """Return it for a group that has another path; None: it has the same.
+
+        Raises:
+            CommandError: A group would stand in too many others.
+        """
+        if self.config is None or to is None:
+            return self
+        return msgspec.structs.replace(self, config=self.config.regrouped(group, to))
+
 
 _DECODER: Final = msgspec.json.Decoder(KeptDisplays)
 _BROKEN: Final = (msgspec.MsgspecError, UnicodeDecodeError, RecursionError)

@@ -11,7 +11,7 @@ from studio.errors import CommandError
 from studio.live.displays.groups import all_groups, group_path, groups_to, is_within, regrouped
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 DISPLAYS_MAX: Final = 200
 
@@ -188,6 +188,11 @@ class DisplayList:
             self._specs[one.id] = replace(one, enabled=shown)
         if shown:
             self._groups_off.clear()
+
+    def set_entries(self, entries: Sequence[dict[str, Any]]) -> None:
+        """Note what a config file says of each from now on."""
+        specs = zip(self, entries, strict=True)
+        self._specs = {one.id: replace(one, entry=entry) for one, entry in specs}
 
     def regroup(self, group: str, to: str) -> None:
         """Give a group another path; what is hidden with it or in it stays hidden.

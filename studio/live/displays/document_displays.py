@@ -167,16 +167,14 @@ class DocumentDisplays:
 
     def set_entries(self, entries: Sequence[dict[str, Any]]) -> None:
         """Note what a config file says of each display from now on."""
-        for spec, entry in zip(tuple(self._list), entries, strict=True):
-            self._list.change(replace(spec, entry=entry))
+        self._list.set_entries(entries)
         self._respecify()
 
     async def connect_if_needed(self) -> None:
         """Ensure a connection where a display has a topic, or the fixed frame is no link."""
         frame = self._fixed_frame
-        if any(one.topic for one in self._list) or (
-            frame and frame not in self._room.frames.own.links
-        ):
+        is_foreign = frame and frame not in self._room.frames.own.links
+        if is_foreign or any(one.topic for one in self._list):
             await self._connect()
 
     @property
@@ -188,8 +186,7 @@ class DocumentDisplays:
         """Have the displays and tools of another document; how displays look here stays."""
         self.tools.mirror(other.tools)
         missing = {(one.kind, one.name, one.topic): one for one in other.displays}
-        before = tuple(self._list)
-        gone = [one for one in before if not missing.pop((one.kind, one.name, one.topic), None)]
+        gone = [one for one in self._list if not missing.pop((one.kind, one.name, one.topic), None)]
         for one in gone:
             self._remove(one.id)
         for spec in missing.values():
@@ -308,11 +305,9 @@ class DocumentDisplays:
 
     def arrange_group(self, command: ArrangeGroup) -> None:
         """Name or move a group with all that is in it."""
-        config, to = self._beside.config, command.to
-        if config is not None and to is not None:
-            config = config.regrouped(command.group, to)
+        beside = self._beside.regrouped(command.group, command.to)
         self._list.arrange_group(command.group, command.to, command.before)
-        self._beside = structs.replace(self._beside, config=config)
+        self._beside = beside
         self._respecify()
         self._changed()
 
@@ -534,9 +529,8 @@ class DocumentDisplays:
             except Exception as error:  # noqa: BLE001 - what fails once must not end the rest
                 self._log_once(error)
             ended_s = loop.time()
-            await asyncio.sleep(
-                max(began_s + _TICK_S - ended_s, _PAUSE_SHARE * (ended_s - began_s))
-            )
+            rest_s = max(began_s + _TICK_S - ended_s, _PAUSE_SHARE * (ended_s - began_s))
+            await asyncio.sleep(rest_s)
         self._room.step(self._list, time.time_ns())
         self._send_states()
         self.let_go()
