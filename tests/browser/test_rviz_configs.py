@@ -114,6 +114,7 @@ def save(page: Page, data: Path) -> Path:
     page.get_by_role("dialog").get_by_role("button", name="Save", exact=True).click()
     page.locator(".config-text", has_text="mine.studio.yaml").wait_for()
     wait_until("it is saved", lambda: not is_marked(page))
+    wait_until("its dialog is gone", lambda: page.get_by_role("dialog").count() == 0)
     (saved,) = data.rglob("mine.studio.yaml")
     assert "Frame Rate: 20" in saved.read_text()
     return saved

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import struct
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
 import pytest
+from playwright.sync_api import Error as PlaywrightError
 
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.ros.messages import message
@@ -335,18 +337,21 @@ def test_a_navigation_goal_shows_how_far_it_is_and_is_cancelled(
 ):
     sent = len(ear.goals)
     with navigator(endpoint) as work:
-        take(tab, "g", "2D Goal Pose")
         card = tab.page.get_by_role("complementary", name="2D Goal Pose")
         send = card.get_by_role("button", name="Send")
 
+        goal = tab.page.locator(".navigation-goal")
+
         def is_sent() -> bool:  # once it is known that the action is served
-            if tab.page.locator(".navigation-goal").count() == 0:
-                take(tab, "g", "2D Goal Pose") if send.count() == 0 else send.click()
-            return tab.page.locator(".navigation-goal").count() == 1
+            if send.count() == 0:
+                take(tab, "g", "2D Goal Pose")
+            send.click()
+            with suppress(PlaywrightError):
+                goal.wait_for(timeout=3000)
+            return goal.count() == 1
 
         wait_until("the goal in the view", is_sent)
         work.tell(2.5, recoveries=1, seconds=3)
-        goal = tab.page.locator(".navigation-goal")
         goal.get_by_text("2.5 m to go · 3 s under way · 1 recovery").wait_for()
         goal.get_by_role("button", name="Cancel").click()
         wait_until("the cancel request", lambda: work.goal().is_cancel_requested)

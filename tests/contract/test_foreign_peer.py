@@ -151,7 +151,7 @@ def test_a_wrong_hash_there_is_silence_which_the_graph_explains(
 def test_each_sees_the_other_in_its_graph(peer: ForeignPeer, node: Node, graph: Graph):
     node.create_publisher(string(node), "/seen_there", 7)
     peer.tell("publish", topic="/seen_here", data="x", node="seen_peer")
-    assert graph.wait_for(lambda: graph.node("/seen_peer") is not None, 10)
+    assert graph.wait_for(lambda: bool(graph.publishers("/seen_here")), 10)
     (theirs,) = graph.publishers("/seen_here")
     assert (theirs.node.path, theirs.type_name) == ("/seen_peer", "std_msgs/msg/String")
     topics = peer.asked("look", "topics")
