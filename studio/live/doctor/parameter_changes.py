@@ -68,9 +68,10 @@ class ParameterChanges:
     def take(self, payload: bytes, gid: bytes) -> None:
         """Keep an event of the publisher with this GID, to be read later."""
         with self._lock:
-            if self._waiting_bytes + len(payload) <= _WAITING_BYTES_MAX:
+            size = len(payload) + len(gid)  # an empty one takes room, too
+            if self._waiting_bytes + size <= _WAITING_BYTES_MAX:
                 self._waiting.append((payload, gid))
-                self._waiting_bytes += len(payload)
+                self._waiting_bytes += size
 
     def read(self) -> None:
         """Read what came; in a thread, for it may take its time."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from studio.live.doctor.seen import Interface, Seen
-    from studio.protocol.doctor import Level, SubjectName
+    from studio.protocol.doctor import SubjectName
 
 SUBJECT: Final[SubjectName] = "network"
 _ZENOH: Final = "rmw_zenoh_cpp"
@@ -38,27 +38,39 @@ def findings(seen: Seen) -> Iterator[Finding]:
     others = [one for one in seen.here.interfaces if not one.is_loopback]
     is_here_only = _is_here_only(seen)
     if seen.here.interfaces and not any(one.is_up for one in others):
-        yield _found(
-            "no-network",
-            "note" if is_here_only else "warn",
-            "No network interface of this machine is up: it meets only nodes that run on it.",
-            tuple(map(_described, seen.here.interfaces[:8])),
+        yield Finding(
+            code="no-network",
+            level="note" if is_here_only else "warn",
+            subject=SUBJECT,
+            sentence=(
+                "No network interface of this machine is up: it meets only nodes that run on it."
+            ),
+            evidence=tuple(map(_described, seen.here.interfaces[:8])),
+            about=(CONNECTION,),
         )
     elif others and not any(one.has_multicast for one in others if one.is_up):
-        yield _found(
-            "no-multicast",
-            "note",
-            "No network interface has multicast. rmw_zenoh needs none, for its nodes find each "
-            "other by the router; nodes on DDS would not.",
-            tuple(map(_described, others[:8])),
+        yield Finding(
+            code="no-multicast",
+            level="note",
+            subject=SUBJECT,
+            sentence=(
+                "No network interface has multicast. rmw_zenoh needs none, for its nodes find each "
+                "other by the router; nodes on DDS would not."
+            ),
+            evidence=tuple(map(_described, others[:8])),
+            about=(CONNECTION,),
         )
     if is_here_only:
-        yield _found(
-            "router-of-this-machine",
-            "note",
-            f"The router is reached at {_endpoint(seen)}, by which every machine means itself: "
-            "nodes elsewhere connect to this machine's address in the network.",
-            (f"the router's address is {_endpoint(seen)}",),
+        yield Finding(
+            code="router-of-this-machine",
+            level="note",
+            subject=SUBJECT,
+            sentence=(
+                f"The router is reached at {_endpoint(seen)}, by which every machine means itself: "
+                "nodes elsewhere connect to this machine's address in the network."
+            ),
+            evidence=(f"the router's address is {_endpoint(seen)}",),
+            about=(CONNECTION,),
         )
     yield from _of_variables(seen)
 
@@ -67,22 +79,30 @@ def _of_variables(seen: Seen) -> Iterator[Finding]:
     variables = seen.here.variables
     rmw = variables.get("RMW_IMPLEMENTATION", "")
     if rmw and rmw != _ZENOH:
-        yield _found(
-            "other-rmw",
-            "warn",
-            f"RMW_IMPLEMENTATION is {short(rmw)} where the studio was started: nodes that are "
-            f"started there speak that, and {_ZENOH} nodes do not hear them.",
-            (f"RMW_IMPLEMENTATION={short(rmw)}",),
-            f"export RMW_IMPLEMENTATION={_ZENOH}",
+        yield Finding(
+            code="other-rmw",
+            level="warn",
+            subject=SUBJECT,
+            sentence=(
+                f"RMW_IMPLEMENTATION is {short(rmw)} where the studio was started: nodes that are "
+                f"started there speak that, and {_ZENOH} nodes do not hear them."
+            ),
+            evidence=(f"RMW_IMPLEMENTATION={short(rmw)}",),
+            line=f"export RMW_IMPLEMENTATION={_ZENOH}",
+            about=(CONNECTION,),
         )
     idle = [name for name in _OF_DDS if variables.get(name)]
     if idle:
-        yield _found(
-            "settings-of-dds",
-            "note",
-            f"{listed(idle)} {'is' if len(idle) == 1 else 'are'} set, which rmw_zenoh does not "
-            "read: its nodes are found by the router alone.",
-            tuple(f"{name} is set" for name in idle),
+        yield Finding(
+            code="settings-of-dds",
+            level="note",
+            subject=SUBJECT,
+            sentence=(
+                f"{listed(idle)} {'is' if len(idle) == 1 else 'are'} set, which rmw_zenoh does not "
+                "read: its nodes are found by the router alone."
+            ),
+            evidence=tuple(f"{name} is set" for name in idle),
+            about=(CONNECTION,),
         )
 
 
@@ -107,17 +127,3 @@ def _described(interface: Interface) -> str:
         "multicast" if interface.has_multicast else "no multicast"
     )  # fmt: skip
     return f"{interface.name} {state}, {kind}"
-
-
-def _found(
-    code: str, level: Level, sentence: str, evidence: tuple[str, ...], line: str = ""
-) -> Finding:
-    return Finding(
-        code=code,
-        level=level,
-        subject=SUBJECT,
-        sentence=sentence,
-        evidence=evidence,
-        line=line,
-        about=(CONNECTION,),
-    )

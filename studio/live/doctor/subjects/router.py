@@ -35,20 +35,28 @@ def findings(seen: Seen) -> Iterator[Finding]:
     if seen.place is not None and seen.system is None:
         yield from _of_place(seen.place)
     if seen.system is not None and not seen.system.is_connected:
-        yield _found(
-            "router-gone",
-            "error",
-            f"The router at {seen.system.endpoint} went away: it is joined again once it runs.",
+        yield Finding(
+            code="router-gone",
+            level="error",
+            subject=SUBJECT,
+            sentence=(
+                f"The router at {seen.system.endpoint} went away: it is joined again once it runs."
+            ),
             evidence=(f"{seen.system.endpoint} does not answer",),
             line=_START,
+            about=(CONNECTION,),
         )
     routers = dict(seen.answers.routers) if seen.answers else dict[str, str]()
     if len(routers) > 1:
-        yield _found(
-            "several-routers",
-            "note",
-            f"{len(routers)} routers are connected with each other: nodes of all of them meet.",
+        yield Finding(
+            code="several-routers",
+            level="note",
+            subject=SUBJECT,
+            sentence=(
+                f"{len(routers)} routers are connected with each other: nodes of all of them meet."
+            ),
             evidence=tuple(f"{zid}: Zenoh {version}" for zid, version in list(routers.items())[:8]),
+            about=(CONNECTION,),
         )
 
 
@@ -59,13 +67,15 @@ def _of_place(place: WireReport) -> Iterator[Finding]:
         return
     if place.verdict == "no_router" and place.starts_router:
         sentence, level = _STARTS, "warn"
-    yield _found(
-        _CODES.get(place.verdict, "not-connected"),
-        level,
-        sentence.format(endpoint=place.endpoint),
+    yield Finding(
+        code=_CODES.get(place.verdict, "not-connected"),
+        level=level,
+        subject=SUBJECT,
+        sentence=sentence.format(endpoint=place.endpoint),
         evidence=_evidence(place),
         mend=CONNECT if place.verdict not in {"foreign", "not_admitted"} else None,
         line=_START if place.verdict == "no_router" else "",
+        about=(CONNECTION,),
     )
 
 
@@ -119,24 +129,3 @@ _SENTENCES: Final[dict[Verdict, tuple[str, Level]]] = {
     "other_distro": (_CONNECTABLE, "warn"),
     "unseen": (_CONNECTABLE, "warn"),
 }
-
-
-def _found(
-    code: str,
-    level: Level,
-    sentence: str,
-    *,
-    evidence: tuple[str, ...],
-    mend: Mend | None = None,
-    line: str = "",
-) -> Finding:
-    return Finding(
-        code=code,
-        level=level,
-        subject=SUBJECT,
-        sentence=sentence,
-        evidence=evidence,
-        mend=mend,
-        line=line,
-        about=(CONNECTION,),
-    )
