@@ -1368,7 +1368,7 @@ export interface GetRvizText {
   rviz2?: boolean;
 }
 
-/** Ask with what the `.rviz` file has a page begin. */
+/** Ask for the view and the page settings that the `.rviz` file starts a page with. */
 export interface GetRvizView {
   request?: number;
   document?: string;

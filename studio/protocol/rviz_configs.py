@@ -71,7 +71,7 @@ class RvizConfigOpened(Event):
 
 
 class GetRvizView(Command):
-    """Ask with what the `.rviz` file has a page begin."""
+    """Ask for the view and the page settings that the `.rviz` file starts a page with."""
 
     type: Literal["get_rviz_view"] = "get_rviz_view"
 
@@ -82,7 +82,7 @@ class RvizView(Event):
     type: Literal["rviz_view"] = "rviz_view"
     request: int
     view: ViewValues | None
-    """None: it has none that there is here."""
+    """None: it has none that the studio knows."""
     page: PageText
     """Only for the first page of a presenter after the command line named the file."""
 

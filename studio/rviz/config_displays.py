@@ -424,7 +424,6 @@ def _refused_of_topic(entry: Entry, key: str) -> Iterator[str]:
     for policy, taken in _POLICIES.items():
         if text_at(entry, key, policy) not in ("", *taken):
             yield f"{key}/{policy}"
-    depth = text_at(entry, key, "Depth")
     depth = number_of(text_at(entry, key, "Depth") or "1")
     if depth is None or not 0 <= depth <= _DEPTH_MAX:
         yield f"{key}/Depth"

@@ -33,7 +33,9 @@ _KEY_MAX: Final = 1000
 """No YAML reader takes a longer one on the line of its value."""
 NULL: Final = "~"
 _NULLS: Final = frozenset({"~", "null", "Null", "NULL"})
-_PLAIN: Final = re.compile(r"[A-Za-z0-9_/<.(+$][^\x00-\x1f\x7f-\x9f\ufeff\u2028\u2029#:]*")
+_PLAIN: Final = re.compile(
+    r"[A-Za-z0-9_/<.(+$][^\x00-\x1f\x7f-\x9f\ufeff\u2028\u2029\ud800-\udfff#:]*"
+)
 """Texts that no YAML reader takes for anything else, if they also read as texts."""
 _WORDS: Final = re.compile(
     r"(?i:true|false|yes|no|on|off|null|~)|[-+.]?[0-9][-+0-9a-zA-Z_.:]*|[-+]?\.(?i:inf|nan)|="

@@ -74,3 +74,9 @@ def test_a_file_without_such_a_part_opens_the_panels_that_rviz_has():
     own: Entry = {**tree, "Studio": page_entry('{"Plots": []}', {})}
     assert json.loads(page_of(own)) == {"Plots": [], "Version": 1}
     assert page_of({}) == page_of({"Panels": []}) == ""
+
+
+def test_half_a_letter_is_written_as_its_number():
+    """JSON may name one; a file in UTF-8 holds none."""
+    entry = page_entry(r'{"Plots": [{"topic": "a\ud800"}]}', {})
+    assert rb'"a\ud800"' in write_tree({"Studio": entry}).encode()

@@ -115,7 +115,18 @@ class ConfigFiles:
             raise NotSavedError(str(path), "it may only be read here; name another")
         return path
 
-    def lost_by_writing(self, path: Path) -> Literal["", "file", "changes"]:
+    def write(self, path: Path, text: str, *, replace: bool) -> Literal["", "file", "changes"]:
+        """Write a file, unless something is lost by it: another one, or changes of others.
+
+        Raises:
+            NotSavedError: The disk refuses it.
+        """
+        lost = "" if replace else self._lost_by_writing(path)
+        if not lost:
+            _write_config(path, text)
+        return lost
+
+    def _lost_by_writing(self, path: Path) -> Literal["", "file", "changes"]:
         """Return what is written over: another file, or what others changed in the open one."""
         config = self._config()
         if not is_there(path):
@@ -169,7 +180,7 @@ class ConfigFiles:
         return {self.named, config.path if config and config.named else ""} - {""}
 
 
-def write_config(path: Path, text: str) -> None:
+def _write_config(path: Path, text: str) -> None:
     """Write a file whole; it keeps its permissions.
 
     Raises:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import asyncio
 import os
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from msgspec import structs
 
 from studio.debounce import Debouncer
 from studio.errors import CommandError, NotAllowedError, RvizConfigError
-from studio.live.displays.config_files import ConfigFiles, digest_of, write_config
+from studio.live.displays.config_files import ConfigFiles, digest_of
+from studio.live.displays.display_file import KeptDisplays
 from studio.live.displays.display_list import DisplaySpec, Listening
 from studio.protocol.commands import Commands, Limits, OnCopies, Scope
 from studio.protocol.listeners import LastSent
@@ -43,7 +45,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from studio.live.displays.config_files import ConfigFolders
-    from studio.live.displays.display_file import KeptDisplays, OpenedConfig
+    from studio.live.displays.display_file import OpenedConfig
     from studio.live.displays.document_displays import DocumentDisplays
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
@@ -78,6 +80,8 @@ class RvizConfigs:
         self._before: KeptDisplays | None = None
         self._after: KeptDisplays | None = None
         self._page = ""
+        self._turn = asyncio.Lock()
+        """One file is opened, saved or closed after the other."""
         self._checking = Debouncer(self._check, _QUIET_S)
         displays.on_change = self._checking.trigger
 
@@ -134,7 +138,7 @@ class RvizConfigs:
         return await self._open(command.text, command.name, "", command.request)
 
     async def view(self, command: GetRvizView, who: Listener) -> RvizView:
-        """Return the view of the file, and what it says of the page to the first of the owner."""
+        """Return the view of the file and, to the first presenter who asks, its page settings."""
         page = ""
         if who.role.includes(Role.PRESENTER):
             page, self._page = self._page, ""
@@ -155,13 +159,13 @@ class RvizConfigs:
             PackageError: It leads out of the folders that may be written.
             NotSavedError: The disk refuses it.
         """
-        files = self._files
-        path = await asyncio.to_thread(files.target, command.path)
-        lost = "" if command.replace else await asyncio.to_thread(files.lost_by_writing, path)
-        if not lost:
+        async with self._turn:
+            path = await asyncio.to_thread(self._files.target, command.path)
             text = await self._written(command)
-            await asyncio.to_thread(write_config, path, text)
-            await self._take_saved(text, path)
+            write = partial(self._files.write, path, text, replace=command.replace)
+            lost = await asyncio.to_thread(write)
+            if not lost:
+                await self._take_saved(text, path)
         return RvizFileSaved(
             request=command.request,
             path=str(path),
@@ -175,18 +179,20 @@ class RvizConfigs:
         Raises:
             CommandError: Something was changed since.
         """
-        before = self._before
-        if before is None or self._displays.kept != self._after:
-            raise CommandError("What was shown before cannot be brought back any more.")
-        self._before = self._after = None
-        self._displays.replace_all(before)
-        await self._checked_now()
+        async with self._turn:
+            before = self._before
+            if before is None or self._displays.kept != self._after:
+                raise CommandError("What was shown before cannot be brought back any more.")
+            self._before = self._after = None
+            self._displays.replace_all(before)
+            await self._checked_now()
         await self._displays.connect_if_needed()
 
     async def close_config(self, _: CloseRvizConfig) -> None:
         """Forget the file; what is shown stays."""
-        self._displays.keep_beside(config=None)
-        await self._checked_now()
+        async with self._turn:
+            self._displays.keep_beside(config=None)
+            await self._checked_now()
 
     def set_options(self, command: SetViewOptions) -> None:
         """Change background or frame rate."""
@@ -213,13 +219,15 @@ class RvizConfigs:
             config, losses = await asyncio.to_thread(_read_text, text)
         except RvizConfigError as error:
             raise RvizConfigError(error.reason, error.line, name) from error
-        before = self._displays.kept
-        kept = _kept_of(config, before, self._files.opened_as(name, path, text))
-        self._displays.replace_all(await asyncio.to_thread(_as_clean, kept))
-        self._before, self._after = before, self._displays.kept
-        if path:
-            self._files.note(path, name)
-        await self._checked_now()
+        async with self._turn:
+            kept = _kept_of(config, self._files.opened_as(name, path, text))
+            kept = await asyncio.to_thread(_as_clean, kept)
+            before = self._displays.kept
+            self._displays.replace_all(kept)
+            self._before, self._after = before, self._displays.kept
+            if path:
+                self._files.note(path, name)
+            await self._checked_now()
         await self._displays.connect_if_needed()
         return _opened(config, losses, name, request)
 
@@ -380,10 +388,9 @@ def _config_display(spec: DisplaySpec) -> ConfigDisplay:
     )
 
 
-def _kept_of(config: RvizConfig, before: KeptDisplays, opened: OpenedConfig) -> KeptDisplays:
+def _kept_of(config: RvizConfig, opened: OpenedConfig) -> KeptDisplays:
     """Return what a document keeps of a file."""
-    return structs.replace(
-        before,
+    return KeptDisplays(
         displays=tuple(map(_spec_of, config.displays)),
         groups_off=config.groups_off,
         fixed_frame=config.fixed_frame,
