@@ -134,12 +134,15 @@ export function aloneIn(api, element, arrange) {
   let isOn = false;
   /** @type {{arrangement: Arrangement, room: Room} | null} */
   let before = null;
+  /** @type {(() => void)[]} */
+  const waiting = [];
   const restore = () => {
     // It is alone again, or all stand as before already.
     if (isOn || !before) return;
     const { arrangement } = before;
     before = null;
     arrange(arrangement);
+    for (const run of waiting.splice(0)) run();
   };
   return {
     /** How all stood and will stand again; null: they do. */
@@ -150,6 +153,11 @@ export function aloneIn(api, element, arrange) {
       before = { ...before, arrangement };
       restore();
       return true;
+    },
+    /** @param {() => void} run called once all stand as before @returns {boolean} false: they do, it is not called */
+    later(run) {
+      if (before) waiting.push(run);
+      return before !== null;
     },
     /** @param {IDockviewPanel} panel @param {() => Arrangement} arrangement as it is now */
     begin(panel, arrangement) {

@@ -144,7 +144,14 @@ export function createDock(element, panels, options) {
       if (!single) uncover(api, panels, id, other);
     },
     add(id) {
-      if (!api.getPanel(id)) add(api, panels, id, true);
+      const addNow = () => {
+        if (!api.getPanel(id)) add(api, panels, id, true);
+      };
+      const addLater = () => {
+        addNow();
+        options.onChange(); // it comes while the dock is still quiet
+      };
+      if (!alone.later(addLater)) addNow();
     },
     nameAll() {
       for (const { id, api: one } of api.panels) one.setTitle(titleOf(id, panels));

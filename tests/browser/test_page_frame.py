@@ -45,6 +45,12 @@ _FIRST_LAYOUT = """async () => {
   (await import(new URL("../lib/commands.js", script))).commandById("layout.0").run();
 }"""
 _SHOW_VIEWS = _FIRST_LAYOUT.replace("layout.0", "panel.views")
+_OPEN_VIEWS = """async () => {
+  const script = document.querySelector('script[type="module"]').src;
+  const { layoutControl } = await import(new URL("../model/view.js", script));
+  layoutControl.value.open(["views"]);
+}"""
+"""As a config does that has this panel."""
 _SOME_PICTURES = """async () => {
   for (let n = 0; n < 12; n += 1) await new Promise(requestAnimationFrame);
 }"""
@@ -350,6 +356,15 @@ def test_a_panel_floats_is_moved_and_sized_by_keys_and_mouse_kept_and_docked(tab
     wait_until("it is docked", lambda: page.locator(".dv-resize-container").count() == 0)
     page.get_by_role("button", name="Close Masses").click()
     wait_until("it is closed", lambda: panel_tab(tab, "Masses").count() == 0)
+
+
+def test_a_panel_that_is_opened_behind_a_view_alone_is_there_afterwards(tab: StudioPage):
+    tab.page.keyboard.press("F11")
+    leave = tab.page.get_by_role("button", name="Leave full screen")
+    leave.wait_for()
+    tab.page.evaluate(_OPEN_VIEWS)
+    leave.click()
+    wait_until("its tab", lambda: panel_tab(tab, "Views").count() == 1)
 
 
 def test_the_3d_view_fills_the_screen_and_gives_it_back(tab: StudioPage):
