@@ -44,9 +44,12 @@ export const configName = computed(() => {
 export const configUnsaved = computed(() => mayManage.value && configChanged.value);
 
 let isFirst = true;
+let isSaving = false;
 subscribe("rviz_config_state", (event) => {
   const { name, path } = rvizConfig.peek();
-  if (event.name !== name || event.path !== path) movedByHand.value = false;
+  const isOther = event.name !== name || event.path !== path;
+  // One that this page saves elsewhere holds its view, which may have been moved since.
+  if (isOther && !isSaving) movedByHand.value = false;
   rvizConfig.value = event;
   // What somebody opens later moves no one else's camera.
   if (isFirst && event.name) void begin();
@@ -142,6 +145,7 @@ export async function saveConfig(path, { replace = false, rviz2 = false } = {}) 
   // What is moved while it is written is not in it.
   const moved = movedByHand.peek();
   movedByHand.value = false;
+  isSaving = true;
   const answer = await ask({
     type: "save_rviz_file",
     path,
@@ -150,6 +154,7 @@ export async function saveConfig(path, { replace = false, rviz2 = false } = {}) 
     rviz2,
     ...(view && { view }),
   });
+  isSaving = false;
   const saved = answer?.type === "rviz_file_saved" ? answer : null;
   if (moved && (!saved || saved.is_there)) movedByHand.value = true;
   return saved && { path: saved.path, isThere: saved.is_there, changed: saved.changed };

@@ -113,21 +113,21 @@ def save(page: Page, data: Path) -> Path:
     page.get_by_label("Name", exact=True).fill("mine")
     page.get_by_role("dialog").get_by_role("button", name="Save", exact=True).click()
     page.locator(".config-text", has_text="mine.studio.yaml").wait_for()
-    wait_until("it is saved", lambda: not is_marked(page))
+    wait_until("it is saved", lambda: is_marked(page, marked=False))
     wait_until("its dialog is gone", lambda: page.get_by_role("dialog").count() == 0)
     (saved,) = data.rglob("mine.studio.yaml")
     assert "Frame Rate: 20" in saved.read_text()
     return saved
 
 
-def is_marked(page: Page) -> bool:
-    """Whether the page says that the file is not saved, wherever it does."""
+def is_marked(page: Page, *, marked: bool = True) -> bool:
+    """Whether the page says everywhere that the file is not saved, or nowhere."""
     marks = {
         "•" in page.locator(".config-text").inner_text(),
         page.title().startswith("•"),
         bool(page.evaluate(LEAVING_IS_ASKED_ABOUT)),
     }
-    return marks == {True}
+    return marks == {marked}
 
 
 def move_the_camera_and_save_over_changes_of_others(page: Page, file: Path) -> None:
@@ -151,7 +151,7 @@ def move_the_camera_and_save_over_changes_of_others(page: Page, file: Path) -> N
     assert is_marked(page)
     page.evaluate(RUN, "rviz_save")
     asked.get_by_role("button", name="Replace").click()
-    wait_until("it is saved", lambda: not is_marked(page))
+    wait_until("it is saved", lambda: is_marked(page, marked=False))
     after = file.read_text()
     assert "Frame Rate: 20" in after
     assert after != before, "the view is another"
