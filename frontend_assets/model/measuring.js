@@ -15,6 +15,7 @@ import { addCommands } from "../lib/commands.js";
 import { AT_REST, moved, translationOf, turned, turnedBack } from "../lib/kinematics.js";
 import { shownMeasure, shownNumber, toDegrees } from "../lib/numbers.js";
 import { recall, remember, remembered } from "../lib/remembered.js";
+import { cross, dot, lengthOf, minus } from "../lib/vectors.js";
 import { displays, documentState, robot } from "./document.js";
 import { followFrames, linkPoses } from "./frames.js";
 import { centreOfMass, followMasses, masses, sumOf } from "./masses.js";
@@ -36,19 +37,6 @@ import { viewport } from "./viewport.js";
  * @property {number | null} corner angle at the second of three; null: there are two, or they coincide
  */
 
-/** @param {Triple} a @param {Triple} b @returns {Triple} from b to a */
-const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-/** @param {Triple} a @param {Triple} b @returns {number} */
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-/** @param {Triple} a @param {Triple} b @returns {Triple} */
-const cross = (a, b) => [
-  a[1] * b[2] - a[2] * b[1],
-  a[2] * b[0] - a[0] * b[2],
-  a[0] * b[1] - a[1] * b[0],
-];
-/** @param {Triple} a @returns {number} */
-const length = (a) => Math.hypot(...a);
-
 /**
  * @param {readonly Anchor[]} anchors two or three
  * @param {ReadonlyMap<string, Pose>} poses of the links in the root frame
@@ -63,7 +51,7 @@ export function measured(anchors, poses, joints) {
   const firstPose = poses.get(first.anchor.link) ?? AT_REST;
   return {
     ends,
-    distance: length(inRoot),
+    distance: lengthOf(inRoot),
     inRoot,
     inFirst: turnedBack(firstPose, inRoot),
     toAxis: shortest(first, second),
@@ -91,8 +79,8 @@ function placed(anchor, poses, joints) {
 
 /** @param {Triple} a @param {Triple} b @returns {number | null} rad, 0 to pi; exact for small ones too; null: one has no length */
 export function angleBetween(a, b) {
-  if (length(a) === 0 || length(b) === 0) return null;
-  return Math.atan2(length(cross(a, b)), dot(a, b));
+  if (lengthOf(a) === 0 || lengthOf(b) === 0) return null;
+  return Math.atan2(lengthOf(cross(a, b)), dot(a, b));
 }
 
 /** Below this sine two axes are parallel. */
@@ -104,16 +92,16 @@ function shortest(one, other) {
   const [a, b] = [lineOf(one), lineOf(other)];
   if (a && b) {
     const across = cross(a, b);
-    if (length(across) > PARALLEL) return Math.abs(dot(between, across)) / length(across);
+    if (lengthOf(across) > PARALLEL) return Math.abs(dot(between, across)) / lengthOf(across);
   }
   const line = a ?? b;
-  return line && length(cross(between, line));
+  return line && lengthOf(cross(between, line));
 }
 
 /** @param {Placed} one @returns {Triple | null} where the axis points, of length 1; null: it is no axis */
 function lineOf({ anchor, direction }) {
   if (anchor.kind !== "axis" || !direction) return null;
-  const size = length(direction);
+  const size = lengthOf(direction);
   return size > 0 ? [direction[0] / size, direction[1] / size, direction[2] / size] : null;
 }
 

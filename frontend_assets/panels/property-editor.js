@@ -8,11 +8,10 @@ import { niceStep, parseNumber, shownNumber } from "../lib/numbers.js";
 import { PickBox } from "../lib/pick-box.js";
 import { TextBox } from "../lib/slider.js";
 import { Switch } from "../lib/ui.js";
+import { FIXED_FRAME } from "../lib/view-poses.js";
 import { framesNow, markerServersNow, topicsNow } from "../model/live-displays.js";
 
 /** @typedef {boolean | number | string} Value */
-/** What RViz writes for it. */
-export const FIXED_FRAME = "<Fixed Frame>";
 
 /** @param {{label: string, value: string, disabled: boolean, choices: readonly (readonly [string, string])[], onChoose: (value: string) => void}} props */
 export function Choice({ label, value, disabled, choices, onChoose }) {

@@ -211,9 +211,11 @@ class StudioPage:
             points = [{"x": x, "y": y} for x, y in places]
             session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
-        yield touch
-        session.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
-        session.detach()
+        try:
+            yield touch
+        finally:
+            session.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
+            session.detach()
 
     def undo_all(self) -> None:
         """Take back every edit, as for the next test with this tab."""
