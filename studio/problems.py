@@ -63,18 +63,27 @@ class Replacement:
 
 
 @dataclass(frozen=True, slots=True)
+class NewFile:
+    """A file that an edit makes, with its whole text; nothing bears that name yet."""
+
+    file: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Fix:
     """One click that mends a Problem: `action` names it, `target` is what it works on.
 
     Actions: `choose_package` (target: package name), `undo` (target: empty),
     `open_file` (target: path), `resolve_collisions` (target: path of the file), `give_arguments`
-    (target: empty), `edit` (all of `edits`, as one undo step that bears the label).
+    (target: empty), `edit` (all of `edits` and `new_files`, as one undo step that bears the label).
     """
 
     label: str
     action: str
     target: str = ""
     edits: tuple[Replacement, ...] = ()
+    new_files: tuple[NewFile, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

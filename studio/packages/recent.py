@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import msgspec
 
-from studio.files import write_whole
+from studio.files import is_there, write_whole
 from studio.packages.folder_memory import is_text
 
 if TYPE_CHECKING:
@@ -67,6 +67,6 @@ class RecentFiles:
 
 
 def last_opened(data_folder: Path) -> RecentFile | None:
-    """Return the newest entry whose file is still there."""
-    there = (one for one in RecentFiles(data_folder).all() if Path(one.path).is_file())
+    """Return the newest entry whose file, or folder, is still there."""
+    there = (one for one in RecentFiles(data_folder).all() if is_there(Path(one.path)))
     return next(there, None)

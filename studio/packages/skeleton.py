@@ -66,7 +66,7 @@ def make_package(folder: Path, package: str, text: bytes) -> Path:
     file = f"{robot_of(package)}{_SUFFIX}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        _write_all(partial, package, file, text)
+        _write_all(partial, package, text)
         partial.rename(target)
     except OSError as error:
         shutil.rmtree(partial, ignore_errors=True)
@@ -93,14 +93,20 @@ def make_file(folder: Path, package: str, text: bytes) -> Path:
     return file
 
 
-def _write_all(folder: Path, package: str, file: str, text: bytes) -> None:
+def description_files(package: str, text: bytes) -> dict[str, bytes]:
+    """Return the files of a package around a robot's text, by their paths below its folder."""
+    file = f"{robot_of(package)}{_SUFFIX}"
     values = {"PACKAGE": package, "ROBOT": robot_of(package), "FILE": file, "ROOT": _root_of(text)}
+    around = ("package.xml", "CMakeLists.txt", "README.md", "launch/display.launch.py")
+    filled = {path: _filled(f"{Path(path).name}.in", values) for path in around}
+    return {f"urdf/{file}": text, **filled}
+
+
+def _write_all(folder: Path, package: str, text: bytes) -> None:
     shutil.rmtree(folder, ignore_errors=True)
-    for inner in ("urdf", "launch"):
-        (folder / inner).mkdir(parents=True)
-    _write_new(folder / "urdf" / file, text)
-    for path in ("package.xml", "CMakeLists.txt", "README.md", "launch/display.launch.py"):
-        _write_new(folder / path, _filled(f"{Path(path).name}.in", values))
+    for path, data in description_files(package, text).items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        _write_new(folder / path, data)
 
 
 def _write_new(file: Path, text: bytes) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.errors import DataFolderError, UnreadableFileError, UnsafeArchiveError
-from studio.files import is_file, is_folder, is_there
+from studio.files import is_file, is_folder, is_there, write_whole
 from studio.packages.archive import folder_to_open, unpack_zip
 from studio.packages.discovery import FOLDER_LIMIT, Discovery, discover
 from studio.packages.entry_points import EntryPoint, entry_points
@@ -42,6 +42,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
 UPLOADS: Final = "uploads"
+_BARE: Final = "workspaces"
+_BARE_ROBOT: Final = b'<robot name="workspace">\n  <link name="map"/>\n</robot>\n'
+"""For displays to stand in: as RViz, which has a fixed frame before anybody names one."""
 _MEMORY: Final = "package_index"
 
 Progress: TypeAlias = "Callable[[str, int, int], None]"
@@ -69,10 +72,45 @@ class Location:
         return any(self.root.is_relative_to(self.data_folder / one) for one in folders)
 
     @property
+    def is_bare(self) -> bool:
+        """Whether the folder holds no robot, and its entry file is one of `with_bare_entry`."""
+        return self.entry is not None and self.entry.parent.parent == self.data_folder / _BARE
+
+    def with_bare_entry(self, *, may_run: bool = False) -> Location:
+        """Return a folder of packages without a robot as one that can be opened all the same.
+
+        Its entry file lies in the data folder: a frame, for the displays of a 3D view to stand in.
+        Any other location is returned as it is.
+
+        Args:
+            may_run: Whether it lies in a folder of --allow-run: such a folder is a workspace also
+                while it is empty, for its first package is made in the page.
+
+        Raises:
+            DataFolderError: The data folder cannot take it.
+        """
+        if self.entry is not None or self.is_unpacked:
+            return self
+        here = (one for one in self.index.packages if is_below(one.folder, self.root))
+        if not may_run and next(here, None) is None:
+            return self
+        name = hashlib.sha256(os.fsencode(self.root)).hexdigest()[:16]
+        entry = self.data_folder / _BARE / name / "workspace.urdf"
+        try:
+            entry.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(entry, _BARE_ROBOT)
+        except OSError as error:
+            raise DataFolderError(str(entry.parent), error.strerror or "not writable") from error
+        served = self.served.with_roots((), [entry.parent])
+        return replace(self, entry=entry, served=served)
+
+    @property
     def title(self) -> str:
-        """The entry file's name, or which untitled text it is."""
+        """The entry file's name, or which untitled text it is; that of a folder without a robot."""
         if self.entry is None:
             return ""
+        if self.is_bare:
+            return self.root.name
         number = untitled_number(self.entry, self.data_folder)
         return self.entry.name if number is None else f"Untitled {number}"
 

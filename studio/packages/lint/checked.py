@@ -1,0 +1,136 @@
+"""The package that a check gets, and how a finding and its mend are made.
+
+A file of this folder with a function `findings(checked: CheckedPackage) -> Iterator[Problem]` is a
+check: `package_checks` finds it by that name. Its `WHY` explains each of its codes to the user.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from itertools import islice
+from typing import TYPE_CHECKING, Final
+
+from studio.problems import Fix, Place, Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from studio.packages.known import Known
+    from studio.packages.sources.package_source import PackageSource
+    from studio.packages.sources.python_file import PythonFile
+    from studio.packages.sources.spans import SourceText
+    from studio.problems import NewFile, Replacement
+
+ERROR: Final = Severity.ERROR
+WARNING: Final = Severity.WARNING
+INFO: Final = Severity.INFO
+KINDS: Final = ("msg", "srv", "action")
+_PYTHON_FILES_MAX: Final = 300
+_WORD_MAX: Final = 100
+_WORDS_MAX: Final = 3_000
+"""To find a misspelt word among these takes 50 ms at most."""
+
+
+@dataclass(frozen=True)
+class CheckedPackage:
+    """One package of a workspace.
+
+    Attributes:
+        source: Its files.
+        packages: All packages of the workspace by their names, this one too.
+        known: What ROS and the studio have.
+    """
+
+    source: PackageSource
+    packages: Mapping[str, PackageSource]
+    known: Known
+
+    def has_package(self, name: str) -> bool:
+        """Whether the workspace or ROS has a package."""
+        return name in self.packages or self.known.has_package(name)
+
+    def types_of(self, package: str) -> frozenset[str]:
+        """Return the full names of a package's types: of its source if it is in the workspace."""
+        return self._types.get(package, frozenset())
+
+    @cached_property
+    def _types(self) -> dict[str, frozenset[str]]:
+        found = dict(self.known.types_by_package)
+        for name, source in self.packages.items():
+            own = frozenset(
+                f"{name}/{one.removesuffix(f'.{kind}')}"
+                for kind in KINDS
+                for one in source.below(kind, f".{kind}")
+            )
+            if own:
+                found[name] = own
+        return found
+
+    def packages_with_type(self, kind: str, name: str) -> list[str]:
+        """Return the packages that have a type of that name, those of the workspace first."""
+        found = [one for one, types in self._types.items() if f"{one}/{kind}/{name}" in types]
+        return sorted(found, key=lambda one: (one not in self.packages, one))
+
+    @cached_property
+    def python_files(self) -> tuple[PythonFile, ...]:
+        """Its Python files but setup.py, launch files and tests."""
+        names = [
+            one
+            for one in self.source.below("", ".py")
+            if one != "setup.py"
+            and not one.startswith(("test/", "tests/", "launch/"))
+            and not one.endswith((".launch.py", "_launch.py"))
+        ][:_PYTHON_FILES_MAX]
+        return self._parsed(names)
+
+    @cached_property
+    def launch_files(self) -> tuple[PythonFile, ...]:
+        """Its launch files in Python."""
+        ends = (".launch.py", "_launch.py")
+        names = [
+            one
+            for one in self.source.below("", ".py")
+            if one.endswith(ends) or (one.startswith("launch/") and one.count("/") == 1)
+        ]
+        return self._parsed(names[:_PYTHON_FILES_MAX])
+
+    def _parsed(self, names: list[str]) -> tuple[PythonFile, ...]:
+        files = (self.source.python(one) for one in names)
+        return tuple(one for one in files if one is not None)
+
+
+def found(
+    severity: Severity,
+    code: str,
+    sentence: str,
+    text: SourceText | str,
+    at: int = 0,
+    fix: Fix | None = None,
+) -> Problem:
+    """Return a finding at a byte of a text, or at a file as a whole."""
+    place = Place(text) if isinstance(text, str) else text.place(at)
+    return Problem(severity, code, sentence, place, fix=fix)
+
+
+def edit(label: str, *edits: Replacement, new_files: tuple[NewFile, ...] = ()) -> Fix:
+    """Return a fix that is these changes."""
+    return Fix(label, "edit", edits=edits, new_files=new_files)
+
+
+def safely(label: str, change: Callable[[], Iterable[Replacement]]) -> Fix | None:
+    """Return a fix of changes that may refuse a broken file; None if they do, or change nothing."""
+    try:
+        edits = tuple(change())
+    except ValueError:
+        return None
+    return edit(label, *edits) if edits else None
+
+
+def meant(word: str, known: Iterable[str], cutoff: float = 0.8) -> str:
+    """Return the known word that a misspelt one is closest to; empty if none is close."""
+    if len(word) > _WORD_MAX:
+        return ""
+    alike = get_close_matches(word, list(islice(known, _WORDS_MAX)), n=1, cutoff=cutoff)
+    return alike[0] if alike and alike[0] != word else ""

@@ -1,0 +1,34 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from studio.packages.edits.new_files import node_text
+from tests.support.seeded_packages import codes, finding, sound, written
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+IMPORT = (
+    "from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy\n"
+    "print(DurabilityPolicy, ReliabilityPolicy)\n"
+)
+BEST = "QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)"
+LATCHED = "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)"
+
+
+@pytest.mark.parametrize(
+    ("offered", "asked", "fits"),
+    [(BEST, "10", False), ("10", LATCHED, False), (LATCHED, "10", True), ("10", BEST, True)],
+)
+def test_what_is_asked_must_be_offered(tmp_path: Path, offered: str, asked: str, *, fits: bool):
+    package = sound(tmp_path)
+    hear = node_text("hear", "subscriber").replace("self.hear, 10)", f"self.hear, {asked})")
+    talk = node_text("talker", "publisher").replace("'chatter', 10)", f"'chatter', {offered})")
+    written(package, "my_pkg/hear.py", hear.replace("import rclpy\n", f"import rclpy\n{IMPORT}"))
+    written(package, "my_pkg/talker.py", talk.replace("import rclpy\n", f"import rclpy\n{IMPORT}"))
+    if fits:
+        assert codes(tmp_path) == set()
+    else:
+        assert "talker.py" in finding(tmp_path, "qos-mismatch", "hear.py").sentence

@@ -1,0 +1,74 @@
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.support.seeded_packages import changed, codes, finding, mended, sound, written
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def test_a_package_of_python_has_no_build_tool_of_cmake(tmp_path: Path):
+    # A listing of the course, S4:268/278
+    package = sound(tmp_path)
+    changed(
+        package,
+        "package.xml",
+        "  <depend>rclpy</depend>\n",
+        "  <buildtool_depend>ament_cmake</buildtool_depend>\n  <depend>rclpy</depend>\n",
+    )
+    mended(tmp_path, "buildtool-of-cmake", "package.xml", 10)
+    assert codes(tmp_path) == set()
+
+
+def test_the_build_type_is_that_of_the_files(tmp_path: Path):
+    changed(sound(tmp_path), "package.xml", "<build_type>ament_python", "<build_type>ament_cmake")
+    mended(tmp_path, "build-type", "package.xml")
+    assert codes(tmp_path) == set()
+
+
+def test_a_build_type_that_is_not_said_is_said(tmp_path: Path):
+    changed(sound(tmp_path), "package.xml", "    <build_type>ament_python</build_type>\n", "")
+    mended(tmp_path, "build-type", "package.xml")
+    assert codes(tmp_path) == set()
+
+
+def test_without_its_file_nothing_is_built(tmp_path: Path):
+    (sound(tmp_path) / "setup.py").unlink()
+    finding(tmp_path, "build-file-missing", "package.xml")
+
+
+@pytest.mark.parametrize(
+    "file", ["launch/up.launch.py", "urdf/r2d2.urdf.xml", "config/params.yaml", "srv/Old.srv"]
+)
+def test_a_folder_that_is_not_installed_is(tmp_path: Path, file: str):
+    # A listing of the course, S0, S3:335
+    package = sound(tmp_path)
+    written(
+        package, file, "def generate_launch_description():\n    pass\n" if ".py" in file else "\n"
+    )
+    mended(tmp_path, "folder-not-installed", "setup.py")
+    assert "folder-not-installed" not in codes(tmp_path)
+
+
+def test_a_launch_file_in_the_root_that_is_not_installed_is(tmp_path: Path):
+    package = sound(tmp_path)
+    written(package, "up.launch.py", "def generate_launch_description():\n    pass\n")
+    mended(tmp_path, "launch-not-installed", "setup.py")
+    assert "('share/' + package_name, ['up.launch.py'])" in (package / "setup.py").read_text()
+    assert codes(tmp_path) == set()
+
+
+def test_a_file_that_is_to_be_installed_and_is_not_there_is_told(tmp_path: Path):
+    changed(
+        sound(tmp_path), "setup.py", "['package.xml']", "['package.xml', 'launch/no.launch.py']"
+    )
+    finding(tmp_path, "data-file-missing", "setup.py", 11)
+
+
+def test_a_manifest_that_is_not_installed_is_told(tmp_path: Path):
+    package = sound(tmp_path)
+    changed(package, "setup.py", "        ('share/' + package_name, ['package.xml']),\n", "")
+    finding(tmp_path, "manifest-not-installed", "setup.py")
