@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import studio.ros.client as rclpy
 from studio.course.running import until_stopped
-from studio.course.tf2_ros import TransformBroadcaster
 from studio.ros.client import Node
 from studio.ros.interactive_markers import InteractiveMarkerServer, MenuHandler
 from studio.ros.messages.geometry_msgs.msg import (
@@ -28,6 +27,7 @@ from studio.ros.messages.visualization_msgs.msg import (
     InteractiveMarkerFeedback,
     Marker,
 )
+from studio.tf2.broadcasters import TransformBroadcaster
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -91,17 +91,10 @@ DEMOS = (
 )
 """Every demo, in the order in which `studio demos` lists them."""
 
-COMPANIONS = {
-    ("robot_state_publisher", "robot_state_publisher"): "studio.nodes.robot_state_publisher",
-    ("joint_state_publisher", "joint_state_publisher"): "studio.nodes.joint_state_publisher",
-}
-"""Nodes of ours that are no demos: the module of each executable."""
-
 
 def executables() -> dict[tuple[str, str], str]:
-    """Return the module of every executable by package and name."""
-    demos = {pair: demo.module for demo in DEMOS for pair in demo.executables}
-    return demos | COMPANIONS
+    """Return the module of every demo by package and executable."""
+    return {pair: demo.module for demo in DEMOS for pair in demo.executables}
 
 
 def find_demo(name: str) -> Demo | None:

@@ -10,10 +10,10 @@ from contextlib import suppress
 from math import cos, pi, sin
 
 import studio.ros.client as rclpy
-from studio.course.tf2_ros import TransformBroadcaster
 from studio.ros.client import ExternalShutdownException, Node, QoSProfile
 from studio.ros.messages.geometry_msgs.msg import Quaternion, TransformStamped
 from studio.ros.messages.sensor_msgs.msg import JointState
+from studio.tf2.broadcasters import TransformBroadcaster
 
 
 class StatePublisher(Node):

@@ -6,7 +6,7 @@ import struct
 from functools import cache
 from typing import Any
 
-from studio.errors import CdrError, MessageValueError
+from studio.errors import CdrError, MessageValueError, OtherMessageError
 from studio.ros.types.classes import MessageValue, check_message, definition_of, parts_of
 from studio.ros.types.definitions import Message, Shape
 from studio.ros.types.rosbags import SerdeError, cdr_code
@@ -93,11 +93,11 @@ def check_kind(expected: Message, value: object) -> MessageValue:
     """Return a value if it is of the expected type.
 
     Raises:
-        MessageValueError: It is no message, or one of another type.
+        OtherMessageError: It is no message, or one of another type.
     """
     if not isinstance(value, MessageValue):
         given = type(value).__name__
-        raise MessageValueError(expected.name, f"a value of the type is expected, not {given}")
+        raise OtherMessageError(expected.name, f"a value of the type is expected, not {given}")
     if definition_of(value) is not expected and definition_of(value).name != expected.name:
-        raise MessageValueError(expected.name, f"it was given a {definition_of(value).name}")
+        raise OtherMessageError(expected.name, f"it was given a {definition_of(value).name}")
     return value

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from studio.errors import RosNameError
+from studio.errors import NamespaceError, NodeNameError, RosNameError, TopicNameError
 
 NODE_NAME_CHARACTERS_MAX = 255
 NAMESPACE_CHARACTERS_MAX = 245
@@ -21,6 +21,8 @@ _PARTS_OF_TYPES = {
     "|(?:SendGoal|GetResult)(?:_(?:Request|Response|Event))?",
 }
 KINDS = tuple(_PARTS_OF_TYPES)
+INTERFACES_VARIABLE = "STUDIO_INTERFACES"
+"""The variable that names paths, as in PATH, whose types every node of the process knows."""
 
 
 def check_node_name(name: str) -> str:
@@ -29,10 +31,10 @@ def check_node_name(name: str) -> str:
     Raises:
         RosNameError: rcl would refuse it.
     """
-    _check_length(name, NODE_NAME_CHARACTERS_MAX)
+    _check_length(name, NODE_NAME_CHARACTERS_MAX, NodeNameError)
     if not name:
-        raise RosNameError(name, "a node needs a name")
-    _check_part(name, name)
+        raise NodeNameError(name, "a node needs a name")
+    _check_part(name, name, NodeNameError)
     return name
 
 
@@ -42,11 +44,11 @@ def check_namespace(namespace: str) -> str:
     Raises:
         RosNameError: rcl would refuse it.
     """
-    _check_length(namespace, NAMESPACE_CHARACTERS_MAX)
+    _check_length(namespace, NAMESPACE_CHARACTERS_MAX, NamespaceError)
     if not namespace.startswith("/"):
-        raise RosNameError(namespace, "a namespace begins with a slash")
+        raise NamespaceError(namespace, "a namespace begins with a slash")
     if namespace != "/":
-        _check_parts(namespace, namespace[1:])
+        _check_parts(namespace, namespace[1:], NamespaceError)
     return namespace
 
 
@@ -62,11 +64,11 @@ def check_topic_name(name: str) -> str:
         RosNameError: rcl would refuse it.
     """
     if not name:
-        raise RosNameError(name, "a topic needs a name")
+        raise TopicNameError(name, "a topic needs a name")
     _check_length(name, TOPIC_NAME_CHARACTERS_MAX)
     rest = name.removeprefix("~")
     if rest != name and rest and not rest.startswith("/"):
-        raise RosNameError(name, "a slash follows ~")
+        raise TopicNameError(name, "a slash follows ~")
     body = rest.removeprefix("/")
     if body or rest:
         _check_parts(name, _SUBSTITUTION.sub(lambda found: _known(name, found[1]), body))
@@ -103,7 +105,7 @@ def check_full_name(name: str) -> str:
     """
     _check_length(name, TOPIC_NAME_CHARACTERS_MAX)
     if not name.startswith("/"):
-        raise RosNameError(name, "a fully qualified name begins with a slash")
+        raise TopicNameError(name, "a fully qualified name begins with a slash")
     _check_parts(name, name[1:])
     return name
 
@@ -179,24 +181,26 @@ def full_type_name(name: str, kind: str = "msg") -> str:
 
 def _known(name: str, substitution: str) -> str:
     if substitution not in {"node", "ns", "namespace"}:
-        raise RosNameError(name, "only {node}, {ns} and {namespace} are filled in")
+        raise TopicNameError(name, "only {node}, {ns} and {namespace} are filled in")
     return "x"
 
 
-def _check_parts(name: str, body: str) -> None:
+def _check_parts(name: str, body: str, error: type[RosNameError] = TopicNameError) -> None:
     for part in body.split("/"):
         if not part:
-            raise RosNameError(name, "no slash stands at the end or beside another one")
-        _check_part(name, part)
+            raise error(name, "no slash stands at the end or beside another one")
+        _check_part(name, part, error)
 
 
-def _check_part(name: str, part: str) -> None:
+def _check_part(name: str, part: str, error: type[RosNameError] = TopicNameError) -> None:
     if part[0].isdigit():
-        raise RosNameError(name, f'no part begins with a digit, as "{part}" does')
+        raise error(name, f'no part begins with a digit, as "{part}" does')
     if not _PART.fullmatch(part):
-        raise RosNameError(name, f'only a-z, A-Z, 0-9 and _ are allowed, "{part}" has others')
+        raise error(name, f'only a-z, A-Z, 0-9 and _ are allowed, "{part}" has others')
 
 
-def _check_length(name: str, characters_max: int) -> None:
+def _check_length(
+    name: str, characters_max: int, error: type[RosNameError] = TopicNameError
+) -> None:
     if len(name) > characters_max:
-        raise RosNameError(name, f"it is longer than {characters_max} characters")
+        raise error(name, f"it is longer than {characters_max} characters")

@@ -50,10 +50,10 @@ class AsyncParameterClient:
     ) -> None:
         self._node = node
         self.remote = node.resolve_service_name(remote_node_name)
-        self._messages = ParameterMessages.of(node.wire.types)
+        self._messages = ParameterMessages.of(node.context.wire.types)
         self.clients: dict[str, Client] = {
             name: node.create_client(
-                node.wire.types.service(f"rcl_interfaces/srv/{kind}"),
+                node.context.wire.types.service(f"rcl_interfaces/srv/{kind}"),
                 f"{self.remote}/{name}",
                 qos_profile=qos_profile,
                 callback_group=callback_group,

@@ -71,7 +71,11 @@ class QoSProfile:
 
 def as_profile(qos: QoSProfile | int) -> QoSProfile:
     """Return a new profile, made of a profile or of a depth alone."""
-    return QoSProfile(depth=qos) if isinstance(qos, int) else copy.copy(qos)
+    if isinstance(qos, int):
+        return QoSProfile(depth=qos)
+    if not isinstance(qos, QoSProfile):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise TypeError(f"Expected QoSProfile or int, but received {type(qos)!r}")
+    return copy.copy(qos)
 
 
 def qos_text(qos: QoSProfile) -> str:

@@ -1,4 +1,4 @@
-"""The checks of lessons: what one line of a lesson asks of the model, the graph or the page."""
+"""The checks of lessons: what a line of a lesson asks of model, graph, page or packages."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ class Concern(StrEnum):
     MODEL = "model"
     GRAPH = "graph"
     PAGE = "page"
+    PACKAGES = "packages"
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +117,7 @@ FORMS: Final = tuple(
         ("parameter", Concern.GRAPH, "parameter /NODE NAME is VALUE"),
         ("tf", Concern.GRAPH, "tf leads from PARENT to CHILD"),
         ("opened", Concern.PAGE, "opened PANEL"),
+        ("package", Concern.PACKAGES, "package NAME has no problems"),
     )
 )
 _OF_TYPE: Final = {"topic_type": "msg", "service_type": "srv", "action_type": "action"}

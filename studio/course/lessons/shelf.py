@@ -26,6 +26,10 @@ EXERCISES: Final = (
     "qos_experiment",
     "own_add_two_ints",
     "r2d2_in_odom",
+    "own_interface",
+    "mend_a_node",
+    "mend_a_package",
+    "mend_a_launch",
 )
 """Lessons of the course that have no demo of their own, in the order in which they are taught."""
 NAME: Final = re.compile(r"[a-z0-9][a-z0-9_-]{0,59}")

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from studio.course.tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 from studio.ros.messages.geometry_msgs.msg import Quaternion, TransformStamped
 from studio.ros.messages.nav_msgs.msg import Odometry
 from studio.ros.messages.sensor_msgs.msg import Imu, JointState
+from studio.tf2.broadcasters import StaticTransformBroadcaster, TransformBroadcaster
 
 if TYPE_CHECKING:
     from studio.course.rover.drive import Drive

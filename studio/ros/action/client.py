@@ -146,7 +146,7 @@ class ActionClient:
         self._listening: OrderedDict[bytes, Callable[[Any], object]] = OrderedDict()
         self._goals: OrderedDict[bytes, ClientGoalHandle] = OrderedDict()
         self._statuses: dict[bytes, int] = {}
-        self._goal_info_type = node.wire.types.message("action_msgs/msg/GoalInfo")
+        self._goal_info_type = node.context.wire.types.message("action_msgs/msg/GoalInfo")
         names = ActionNames.of(self._name)
         qos = ActionQos(
             goal_service_qos_profile,
@@ -196,7 +196,7 @@ class ActionClient:
             MessageValueError: It is no goal of this action.
         """
         check_kind(definition_of(self._type.Goal), goal)
-        goal_id = goal_uuid or goal_id_message(self._node.wire.types, new_goal_id())
+        goal_id = goal_uuid or goal_id_message(self._node.context.wire.types, new_goal_id())
         if feedback_callback is not None:
             # Before it is sent: the first feedback may come before the answer.
             self._keep(self._listening, goal_id, feedback_callback)
@@ -240,7 +240,7 @@ class ActionClient:
     def _clients(
         self, names: ActionNames, qos: ActionQos, group: CallbackGroup | None
     ) -> tuple[Client, Client, Client]:
-        cancel = self._node.wire.types.service("action_msgs/srv/CancelGoal")
+        cancel = self._node.context.wire.types.service("action_msgs/srv/CancelGoal")
         send, cancel, result = (
             self._node.create_client(
                 kind, name, qos_profile=profile, callback_group=group, timeout_s=timeout_s
@@ -256,7 +256,7 @@ class ActionClient:
     def _subscribe(
         self, names: ActionNames, qos: ActionQos, group: CallbackGroup | None
     ) -> list[Subscription]:
-        status = self._node.wire.types.message("action_msgs/msg/GoalStatusArray")
+        status = self._node.context.wire.types.message("action_msgs/msg/GoalStatusArray")
         return [
             self._node.create_subscription(kind, name, callback, profile, callback_group=group)
             for kind, name, callback, profile in (
@@ -409,7 +409,7 @@ class ResultWait:
 
     def _stay_patient(self) -> bool:
         """Take note of a router that is away; whether one is there."""
-        is_there = self._node.wire.is_connected
+        is_there = self._node.context.wire.is_connected
         if not is_there:
             self._router_was_away = True
             self._patience_until_s = time.monotonic() + RETURNS_WITHIN_S

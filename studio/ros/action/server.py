@@ -11,6 +11,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import MessageValueError
+from studio.ros import strictness
 from studio.ros.action.protocol import (
     FEEDBACK_QOS,
     ActionNames,
@@ -36,6 +37,7 @@ from studio.ros.types.classes import definition_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
 
+    from studio.ros.node.logger import Logger
     from studio.ros.node.node import Node
     from studio.ros.node.service import Service
     from studio.ros.node.work import CallbackGroup
@@ -116,9 +118,9 @@ class ActionServer:
         self._goals = ServerGoals(result_timeout)
         self._destroyed = False
         self._status_lock = threading.Lock()
-        self._status_type = node.wire.types.message("action_msgs/msg/GoalStatusArray")
-        self._goal_status_type = node.wire.types.message("action_msgs/msg/GoalStatus")
-        self._goal_info_type = node.wire.types.message("action_msgs/msg/GoalInfo")
+        self._status_type = node.context.wire.types.message("action_msgs/msg/GoalStatusArray")
+        self._goal_status_type = node.context.wire.types.message("action_msgs/msg/GoalStatus")
+        self._goal_info_type = node.context.wire.types.message("action_msgs/msg/GoalInfo")
         self.register_goal_callback(goal_callback)
         self.register_handle_accepted_callback(handle_accepted_callback)
         self.register_cancel_callback(cancel_callback)
@@ -225,7 +227,7 @@ class ActionServer:
     def _serve(
         self, names: ActionNames, qos: ActionQos, group: CallbackGroup | None
     ) -> list[Service]:
-        cancel = self._node.wire.types.service("action_msgs/srv/CancelGoal")
+        cancel = self._node.context.wire.types.service("action_msgs/srv/CancelGoal")
         # A request for a result waits for the end of its goal: it must not block others.
         waiting = ReentrantCallbackGroup()
         return [
@@ -316,15 +318,31 @@ class ActionServer:
         try:
             result = await call_or_await(callback, goal)
         except _RAISED as error:
-            self._log_raised(callback, error)
+            self._log_raised(callback, error, "execute callback")
+            if strictness.is_begun():
+                self._warn_if_active(goal)
             self._end(goal, None)
             return
+        self._warn_if_active(goal)
+        if result is None:
+            result = goal.given_result
+        if strictness.is_begun() and not isinstance(result, self._type.Result):
+            given = type(result).__name__
+            raise AssertionError(
+                f"The 'result' field must be a sub message of type '{self._type.Result.__name__}': "
+                f"the execute callback returned {given}, end it with return result"
+            )
+        self._end(goal, result)
+
+    def _warn_if_active(self, goal: ServerGoalHandle) -> None:
         if goal.is_active:
-            self._node.get_logger().warning(
+            self._logger().warning(
                 "Goal state not set, assuming aborted: call succeed(), abort() or canceled() "
                 "on the goal handle before the result is returned."
             )
-        self._end(goal, result)
+
+    def _logger(self) -> Logger:
+        return self._node.get_logger().get_child("action_server")
 
     def _end(self, goal: ServerGoalHandle, result: object) -> None:
         """Send the result; a goal whose state was not set is aborted."""
@@ -339,12 +357,18 @@ class ActionServer:
         self._goals.end(goal)
         goal.result.set_result(given)
 
-    def _log_raised(self, callback: Callable[..., Any], error: BaseException) -> None:
+    def _log_raised(
+        self, callback: Callable[..., Any], error: BaseException, word: str = ""
+    ) -> None:
         if self._destroyed:  # what it met then is the end of the node
+            return
+        if strictness.is_begun() and word:
+            self._logger().error(f"Error raised in {word}: {error}")
+            traceback.print_exception(error)
             return
         name = getattr(callback, "__name__", "a callback")
         text = "".join(traceback.format_exception(error)[-2:]).strip()
-        self._node.get_logger().error(f"Error raised in {name} of the action: {text}")
+        self._logger().error(f"Error raised in {name} of the action: {text}")
 
 
 class CoroutineQueue(Work):

@@ -45,6 +45,7 @@ class ServerGoalHandle:
 
     Attributes:
         result: Becomes the result when the goal is over.
+        given_result: The result, where it was given when the goal was ended.
         ended_s: Time of its end, on the monotonic clock; None before.
     """
 
@@ -58,6 +59,7 @@ class ServerGoalHandle:
         self._status = GoalStatus.ACCEPTED
         self._lock = threading.Lock()
         self.result: Future[MessageValue] = Future()
+        self.given_result: MessageValue | None = None
         self.ended_s: float | None = None
 
     @property
@@ -114,29 +116,32 @@ class ServerGoalHandle:
         """
         self._server.publish_feedback(self, feedback)
 
-    def succeed(self) -> None:
-        """End it as succeeded; then return the result.
+    def succeed(self, response: MessageValue | None = None) -> None:
+        """End it as succeeded; then return the result, or give it here.
 
         Raises:
             GoalStateError: It is over, or was never begun.
         """
         self.change(GoalEvent.SUCCEED)
+        self.given_result = response
 
-    def abort(self) -> None:
+    def abort(self, response: MessageValue | None = None) -> None:
         """End it as aborted.
 
         Raises:
             GoalStateError: It is over, or was never begun.
         """
         self.change(GoalEvent.ABORT)
+        self.given_result = response
 
-    def canceled(self) -> None:
+    def canceled(self, response: MessageValue | None = None) -> None:
         """End it as canceled.
 
         Raises:
             GoalStateError: Nobody asked it to end, or it is over.
         """
         self.change(GoalEvent.CANCELED)
+        self.given_result = response
 
     def change(self, event: GoalEvent) -> None:
         """Take it to the state after an event, and publish that.

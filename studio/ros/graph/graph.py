@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import OrderedDict
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 from studio.ros.condition import Condition
@@ -23,6 +24,8 @@ NamesAndTypes = list[tuple[str, list[str]]]
 """What rclpy returns for topics, services and actions: names in order, each with its types."""
 CHECK_TIMEOUT_S = 1.0
 SETTLE_TIMEOUT_S = 3.0
+_WITHDRAWN_MAX = 10_000
+"""Own tokens that were taken back, of which samples may still come."""
 NamesAndType = list[tuple[str, str]]
 """Names in order, each with its type."""
 
@@ -30,7 +33,8 @@ NamesAndType = list[tuple[str, str]]
 class Graph:
     """The nodes and endpoints of a session's domain, from the moment it is made until `close`.
 
-    It begins empty: `settle` waits for what stood before, `wait_for` for what is to come.
+    Nodes of the session itself are there at once. Of others it begins empty: `settle` waits for
+    what stood before, `wait_for` for what is to come.
     """
 
     def __init__(self, wire: WireSession) -> None:
@@ -39,11 +43,14 @@ class Graph:
         self._changed = Condition()
         self._version = 0
         self._listeners: list[Callable[[], None]] = []
+        self._withdrawn: OrderedDict[str, None] = OrderedDict()
+        self._leave_own = wire.own_tokens.follow(self._take_own)
         tokens = watch_tokens(wire.zenoh, tokens_of_domain(wire.domain))
         self._thread = ReadingThread("ros-graph", tokens, self._take)
 
     def close(self) -> None:
         """Stop watching; again is harmless."""
+        self._leave_own()
         self._thread.close()
 
     def __enter__(self) -> Self:
@@ -205,8 +212,23 @@ class Graph:
         for listener in listeners:
             listener()
 
+    def _take_own(self, token: str, is_alive: bool) -> None:  # noqa: FBT001
+        """Take in what the session itself shows; listeners are called when it comes by the wire."""
+        with self._changed:
+            if is_alive:
+                self._table.put(token, sure=True)
+            else:
+                self._table.delete(token)
+                self._withdrawn[token] = None
+                if len(self._withdrawn) > _WITHDRAWN_MAX:
+                    self._withdrawn.popitem(last=False)
+            self._version += 1
+            self._changed.notify_all()
+
     def _take_one(self, sample: Sample) -> Taken:
         token, is_alive = token_change(sample)
+        if token in self._wire.own_tokens or token in self._withdrawn:
+            return Taken.KNOWN  # it comes later than `_take_own`, perhaps when it is gone again
         return self._table.put(token) if is_alive else self._table.delete(token)
 
     def _is_alive(self, token: str) -> bool:

@@ -32,7 +32,7 @@ class LifecycleClient:
         self._node = node
         self._timeout_s = timeout_s
         self.remote = node.resolve_service_name(remote)
-        types = node.wire.types
+        types = node.context.wire.types
         self._transition_type = types.message("lifecycle_msgs/msg/Transition")
         self._clients = {
             name: node.create_client(

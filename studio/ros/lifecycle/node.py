@@ -118,7 +118,7 @@ class LifecycleServices:
         self._node = node
         self._machine = machine
         self._trigger = trigger
-        types = node.wire.types
+        types = node.context.wire.types
         self._state_type, self._transition_type, self._description_type, self._event_type = (
             types.message(f"lifecycle_msgs/msg/{name}")
             for name in ("State", "Transition", "TransitionDescription", "TransitionEvent")

@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import RosNameError, StudioError, UnknownTypeError, WireSettingsError
-from studio.ros.names import KINDS, full_type_name
+from studio.ros.duration import make_messages_by
+from studio.ros.names import INTERFACES_VARIABLE, KINDS, full_type_name
 from studio.ros.profiles import JAZZY, PROFILES
 from studio.ros.types.files import texts_at
 from studio.ros.types.library import ActionType, ServiceType, TypeLibrary
@@ -33,11 +34,9 @@ __all__ = [
     "message",
     "service",
     "shared_types",
+    "spec_of_types",
     "types_of",
 ]
-
-INTERFACES_VARIABLE = "STUDIO_INTERFACES"
-"""The variable that names paths, as in PATH, whose types every node of the process knows."""
 
 
 @cache
@@ -125,10 +124,15 @@ class MessageFinder(MetaPathFinder):
         if not fullname.startswith(self._prefix):
             return None
         package, _, kind = fullname.removeprefix(self._prefix).partition(".")
-        if kind not in {"", *KINDS} or not _names_in(package, kind):
-            return None
-        loader = _PackageLoader() if not kind else _KindLoader(package, kind)
-        return ModuleSpec(fullname, loader, is_package=not kind)
+        return spec_of_types(fullname, package, kind)
+
+
+def spec_of_types(fullname: str, package: str, kind: str) -> ModuleSpec | None:
+    """Return the module of a package that has types (no kind), or of one of its kinds."""
+    if kind not in {"", *KINDS} or not _names_in(package, kind):
+        return None
+    loader = _PackageLoader() if not kind else _KindLoader(package, kind)
+    return ModuleSpec(fullname, loader, is_package=not kind)
 
 
 class _PackageLoader(Loader):
@@ -167,3 +171,4 @@ def _names_in(package: str, kind: str) -> list[str]:
 
 
 install(__name__)
+make_messages_by(message)

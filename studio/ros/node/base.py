@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import threading
+import time
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from studio.errors import DestroyedError
+from studio.errors import DestroyedError, NodeNameNonExistentError
 from studio.ros.names import as_namespace, check_node_name, expand, logger_name
 from studio.ros.node.clock import Clock, ClockType
 from studio.ros.node.drain import Source
@@ -14,7 +15,6 @@ from studio.ros.node.logger import Logger, get_logger
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
 from studio.ros.qos import as_profile
 from studio.ros.tokens import DataKey, EndpointKind, EndpointToken, NodeToken, gid_of
-from studio.ros.wire.zenoh import declare_token
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,6 +30,23 @@ if TYPE_CHECKING:
     from studio.ros.wire.zenoh import Declaration
 
 
+_CHECK_EVERY_S = 0.05
+node_listeners: list[Callable[[NodeBase], None]] = []
+"""Called with each node of this process as it begins to be made; for who looks after programs."""
+_Value = TypeVar("_Value")
+
+
+class Hideable(Generic[_Value]):
+    """A property that an attribute of the same name hides: users name theirs as they like."""
+
+    def __init__(self, get: Callable[[Any], _Value]) -> None:
+        self._get = get
+        self.__doc__ = get.__doc__
+
+    def __get__(self, owner: object, kind: type | None = None) -> _Value:
+        return self._get(owner)
+
+
 class NodeBase:
     """The basis of a node, which creates nothing; users derive from `Node`."""
 
@@ -39,6 +56,7 @@ class NodeBase:
         self._context = context
         self._wire: WireSession = context.wire
         self._executor: Executor | None = None
+        self._was_spun = False
         self._default_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
         self._lock = threading.RLock()
         self._all_work: list[Work] = []
@@ -51,7 +69,9 @@ class NodeBase:
         self._token = NodeToken(
             self._wire.domain, self._wire.zid, self._wire.next_id(), space, name
         )
-        self._shown = declare_token(self._wire.zenoh, str(self._token))
+        self._shown = self._wire.own_tokens.show(str(self._token))
+        for listener in node_listeners:
+            listener(self)
         context.on_close(self.destroy_node)
 
     # Students name attributes of their nodes as they like: what is cached here they may hide.
@@ -65,12 +85,12 @@ class NodeBase:
         """The context, shared with the other nodes of the process."""
         return self._context
 
-    @property
+    @Hideable
     def graph(self) -> Graph:
         """The graph, which all nodes of the process share."""
         return self._context.graph
 
-    @property
+    @Hideable
     def token(self) -> NodeToken:
         """Its liveliness token."""
         return self._token
@@ -83,8 +103,14 @@ class NodeBase:
     @executor.setter
     def executor(self, executor: Executor | None) -> None:
         before, self._executor = self._executor, executor
+        self._was_spun = self._was_spun or executor is not None
         if before is not None and before is not executor:
             before.remove_node(self)
+
+    @property
+    def was_spun(self) -> bool:
+        """Whether an executor ever carried out its work."""
+        return self._was_spun
 
     @property
     def default_callback_group(self) -> CallbackGroup:
@@ -117,6 +143,14 @@ class NodeBase:
         """Return its clock, which /clock sets if `use_sim_time` is true."""
         return self._clock
 
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """Return the full name of a service of this node.
+
+        Raises:
+            RosNameError: No service can be named so.
+        """
+        return self.resolve_topic_name(service, only_expand=only_expand)
+
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Return the full name of a topic of this node, as remappings make it unless only expanded.
 
@@ -125,8 +159,6 @@ class NodeBase:
         """
         full = expand(topic, self._token.namespace, self._token.name)
         return full if only_expand else self._remapped(full, self._token)
-
-    resolve_service_name = resolve_topic_name
 
     def add_work(self, work: Work) -> None:
         """Add work of any kind to the node's own; it is destroyed with the node.
@@ -201,31 +233,90 @@ class NodeBase:
 
     def get_node_names(self) -> list[str]:
         """Name all nodes without their namespaces."""
-        return [node.name for node in self.graph.nodes()]
+        return [node.name for node in self._context.graph.nodes()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Return name and namespace of all nodes."""
-        return [(node.name, node.namespace) for node in self.graph.nodes()]
+        return [(node.name, node.namespace) for node in self._context.graph.nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """Return the full names of all nodes."""
-        return [node.path for node in self.graph.nodes()]
+        return [node.path for node in self._context.graph.nodes()]
 
-    def get_topic_names_and_types(self) -> NamesAndTypes:
+    def get_topic_names_and_types(
+        self,
+        no_demangle: bool = False,  # noqa: FBT001, FBT002 - rclpy's
+    ) -> NamesAndTypes:
         """Return all topics, each with its types."""
-        return self.graph.topics()
+        del no_demangle
+        return self._context.graph.topics()
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """Return all services, each with its types."""
-        return self.graph.services()
+        return self._context.graph.services()
 
-    def get_publishers_info_by_topic(self, topic_name: str) -> list[GraphEndpoint]:
+    def get_publishers_info_by_topic(
+        self,
+        topic_name: str,
+        no_mangle: bool = False,  # noqa: FBT001, FBT002 - rclpy's
+    ) -> list[GraphEndpoint]:
         """Return the publishers of a topic."""
-        return self.graph.publishers(self.resolve_topic_name(topic_name))
+        del no_mangle
+        return self._context.graph.publishers(self.resolve_topic_name(topic_name))
 
-    def get_subscriptions_info_by_topic(self, topic_name: str) -> list[GraphEndpoint]:
+    def get_subscriptions_info_by_topic(
+        self,
+        topic_name: str,
+        no_mangle: bool = False,  # noqa: FBT001, FBT002 - rclpy's
+    ) -> list[GraphEndpoint]:
         """Return the subscriptions of a topic."""
-        return self.graph.subscriptions(self.resolve_topic_name(topic_name))
+        del no_mangle
+        return self._context.graph.subscriptions(self.resolve_topic_name(topic_name))
+
+    def get_publisher_names_and_types_by_node(
+        self,
+        node_name: str,
+        node_namespace: str,
+        no_demangle: bool = False,  # noqa: FBT001, FBT002
+    ) -> NamesAndTypes:
+        """Return the topics that a node publishes, each with its types."""
+        del no_demangle
+        return self._of_node(EndpointKind.PUBLISHER, node_name, node_namespace)
+
+    def get_subscriber_names_and_types_by_node(
+        self,
+        node_name: str,
+        node_namespace: str,
+        no_demangle: bool = False,  # noqa: FBT001, FBT002
+    ) -> NamesAndTypes:
+        """Return the topics that a node subscribes to, each with its types."""
+        del no_demangle
+        return self._of_node(EndpointKind.SUBSCRIPTION, node_name, node_namespace)
+
+    def get_service_names_and_types_by_node(
+        self, node_name: str, node_namespace: str
+    ) -> NamesAndTypes:
+        """Return the services of a node, each with its types."""
+        return self._of_node(EndpointKind.SERVICE, node_name, node_namespace)
+
+    def get_client_names_and_types_by_node(
+        self, node_name: str, node_namespace: str
+    ) -> NamesAndTypes:
+        """Return the services that a node calls, each with its types."""
+        return self._of_node(EndpointKind.CLIENT, node_name, node_namespace)
+
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """Return name, namespace and enclave of all nodes."""
+        return [(one.name, one.namespace, one.enclave) for one in self._context.graph.nodes()]
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Wait until a node is there, or that many seconds; whether it is."""
+        end_s = time.monotonic() + timeout
+        while fully_qualified_node_name not in self.get_fully_qualified_node_names():
+            if time.monotonic() >= end_s:
+                return False
+            time.sleep(_CHECK_EVERY_S)
+        return True
 
     def count_publishers(self, topic_name: str) -> int:
         """Count the publishers of a topic."""
@@ -272,8 +363,25 @@ class NodeBase:
         if self._destroyed:
             raise DestroyedError(f"node {self._token.path}")
 
+    def _of_node(self, kind: EndpointKind, name: str, namespace: str) -> NamesAndTypes:
+        """Return the names of ends of a kind that a node has, each with its types.
+
+        Raises:
+            NodeNameNonExistentError: There is no such node.
+        """
+        path = f"{namespace.rstrip('/')}/{name}"
+        nodes = [one for one in self._context.graph.nodes() if one.path == path]
+        if not nodes:
+            raise NodeNameNonExistentError(path)
+        found: dict[str, set[str]] = {}
+        for node in nodes:
+            for end in self._context.graph.endpoints_of(node):
+                if end.kind is kind:
+                    found.setdefault(end.name, set()).add(end.type_name)
+        return [(topic, sorted(found[topic])) for topic in sorted(found)]
+
     def _count(self, kind: EndpointKind, name: str) -> int:
-        return self.graph.count(kind, self.resolve_topic_name(name))
+        return self._context.graph.count(kind, self.resolve_topic_name(name))
 
 
 class Endpoint:
@@ -295,7 +403,7 @@ class Endpoint:
 
     def show(self) -> None:
         """Show the token, after what it stands for was declared."""
-        self._shown = declare_token(self.wire.zenoh, str(self.token))
+        self._shown = self.wire.own_tokens.show(str(self.token))
 
     def hide(self, *declared: Declaration) -> None:
         """Take back the token, then what it stands for; nothing when the session is closed."""

@@ -80,6 +80,8 @@ class Time:
         return cls(seconds=0, nanoseconds=stamp_ns(msg), clock_type=clock_type)
 
     def __add__(self, other: Duration) -> Time:
+        if not isinstance(other, Duration):  # pyright: ignore[reportUnnecessaryIsInstance]
+            return NotImplemented
         return self._moved(other.nanoseconds)
 
     __radd__ = __add__

@@ -8,19 +8,21 @@ import queue
 import threading
 import time
 from collections import deque
+from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 
-from studio.errors import ExternalShutdownException
+from studio.errors import ExecutorTimeoutError, ExternalShutdownException
+from studio.ros import strictness
 from studio.ros.condition import Condition
 from studio.ros.node.context import default_context
-from studio.ros.node.task import Task
+from studio.ros.node.task import Future, Task
 from studio.ros.node.work import Home, Work
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine
+    from collections.abc import Callable, Coroutine, Generator, Sequence
 
     from studio.ros.node.context import Context
-    from studio.ros.node.task import Future
 
 _WAIT_MAX_S = 3_600.0
 _CHECK_EVERY_S = 0.05
@@ -62,7 +64,7 @@ class Executor:
 
     def __init__(self, *, context: Context | None = None) -> None:
         self.context = context or default_context()
-        self.is_shut_down = False
+        self.is_shut_down = self._is_spinning = False
         # Taken by its own name: a condition takes twice as long, and Ctrl-C may come within it.
         self._lock = threading.RLock()
         self._changed = Condition(self._lock)
@@ -147,6 +149,30 @@ class Executor:
         self.resume(task)
         return task
 
+    def create_future(self) -> Future[Any]:
+        """Return a future whose callbacks are carried out here."""
+        return Future(executor=self)
+
+    def wait_for_ready_callbacks(
+        self,
+        timeout_sec: float | None = None,
+        nodes: Sequence[ExecutorNode] | None = None,
+        condition: Callable[[], bool] = lambda: False,
+    ) -> tuple[Task, Work | None, object]:
+        """Wait for a piece of work: what carries it out when it is called, the work and its node.
+
+        For executors of a user's own, which call it in a thread of their choice.
+
+        Raises:
+            ExecutorTimeoutError: None is ready in time, or the condition came true.
+        """
+        del nodes
+        piece = self._next(timeout_sec, condition)
+        if piece is None:
+            raise ExecutorTimeoutError
+        task = Task(partial(self._carry_out, piece), executor=self)
+        return task, piece.work, None if piece.work is None else piece.work.home
+
     def resume(self, task: Task) -> None:
         """Continue a task; thread-safe."""
         with self._lock:
@@ -164,8 +190,9 @@ class Executor:
         Raises:
             ExternalShutdownException: The process was asked to end.
         """
-        while self.context.ok() and not self.is_shut_down:
-            self._spin_once(None, None)
+        with self._alone():
+            while self.context.ok() and not self.is_shut_down:
+                self._spin_once(None, None)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Carry out one piece of work, or none when none is ready in time.
@@ -173,7 +200,8 @@ class Executor:
         Raises:
             ExternalShutdownException: The process was asked to end.
         """
-        self._spin_once(timeout_sec, None)
+        with self._alone():
+            self._spin_once(timeout_sec, None)
 
     def spin_until_future_complete(
         self, future: Future[Any], timeout_sec: float | None = None
@@ -185,10 +213,11 @@ class Executor:
         """
         future.listen(self.wake)
         try:
-            for left_s in _left(timeout_sec):
-                if future.done() or not self.context.ok() or self.is_shut_down:
-                    return
-                self._spin_once(left_s, future.done)
+            with self._alone():
+                for left_s in _left(timeout_sec):
+                    if future.done() or not self.context.ok() or self.is_shut_down:
+                        return
+                    self._spin_once(left_s, future.done)
         finally:
             future.unlisten(self.wake)
 
@@ -212,6 +241,32 @@ class Executor:
         self.context.forget_end(self.wake)
         self.wake()
         return True
+
+    @property
+    def is_spinning(self) -> bool:
+        """Whether a thread of a user's program spins it."""
+        return self._is_spinning
+
+    @contextmanager
+    def _alone(self) -> Generator[None]:
+        """Spin, unless it spins already: within a callback, or in another thread.
+
+        The studio's own nodes may, users' programs may not, as in rclpy.
+
+        Raises:
+            RuntimeError: A user's program spins what spins.
+        """
+        if not strictness.is_begun():
+            yield
+            return
+        with self._lock:
+            if self._is_spinning:
+                raise RuntimeError("Executor is already spinning")
+            self._is_spinning = True
+        try:
+            yield
+        finally:
+            self._is_spinning = False
 
     def _keep(self, task: Task) -> None:
         """Hold a task until it is done: nothing else may refer to it."""

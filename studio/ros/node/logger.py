@@ -7,21 +7,23 @@ import threading
 import time
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 from studio.errors import DestroyedError
+from studio.ros import strictness
 from studio.ros.duration import NANOSECONDS
+from studio.ros.node.log_lines import write_line
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import FrameType
 
+    from studio.ros.node.clock import Clock
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import TypeLibrary
 
-_COLOURS = {30: "\033[33m", 40: "\033[31m", 50: "\033[31m", 10: "\033[32m"}
-_PLAIN = "\033[0m"
-_Place = tuple[str, int]
+_Place = tuple[str, int, int]
+"""File, line, and where in the bytecode: two calls of one line are two places."""
 _loggers: dict[str, Logger] = {}
 LEVELS_MAX = 1_000
 """Loggers with a level of their own: peers may invent names."""
@@ -88,11 +90,17 @@ class Logger:
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._lock = threading.Lock()
-        self._logged_s: dict[_Place, float] = {}
+        self._seen: dict[_Place, _Seen] = {}
 
     def get_child(self, name: str) -> Logger:
-        """Return the logger of a part."""
-        return get_logger(f"{self.name}.{name}" if self.name else name)
+        """Return a logger of a part; what places in the code logged counts for itself.
+
+        Raises:
+            ValueError: The name is empty.
+        """
+        if not name:
+            raise ValueError("a part needs a name: write get_child('part')")
+        return Logger(f"{self.name}.{name}" if self.name else name)
 
     def set_level(self, level: LoggingSeverity | int) -> None:
         """Log nothing that is less severe; UNSET leaves it to the parent."""
@@ -107,33 +115,35 @@ class Logger:
         """Whether entries of a severity are logged."""
         return severity >= self.get_effective_level()
 
-    def debug(self, message: object, **when: bool | float | None) -> bool:
-        """Log a detail; `once`, `skip_first` and `throttle_duration_sec` limit how often."""
+    def debug(self, message: object, **when: object) -> bool:
+        """Log a detail.
+
+        `once`, `skip_first` and `throttle_duration_sec`, with `throttle_time_source_type` by a
+        clock, limit how often a place in the code does so, each place for itself.
+        """
         return self._log(LoggingSeverity.DEBUG, message, **when)
 
-    def info(self, message: object, **when: bool | float | None) -> bool:
+    def info(self, message: object, **when: object) -> bool:
         """Log what happens."""
         return self._log(LoggingSeverity.INFO, message, **when)
 
-    def warning(self, message: object, **when: bool | float | None) -> bool:
+    def warning(self, message: object, **when: object) -> bool:
         """Log what may be wrong."""
         return self._log(LoggingSeverity.WARN, message, **when)
 
-    def warn(self, message: object, **when: bool | float | None) -> bool:
+    def warn(self, message: object, **when: object) -> bool:
         """Log what may be wrong."""
         return self._log(LoggingSeverity.WARN, message, **when)
 
-    def error(self, message: object, **when: bool | float | None) -> bool:
+    def error(self, message: object, **when: object) -> bool:
         """Log what is wrong."""
         return self._log(LoggingSeverity.ERROR, message, **when)
 
-    def fatal(self, message: object, **when: bool | float | None) -> bool:
+    def fatal(self, message: object, **when: object) -> bool:
         """Log what ends the node."""
         return self._log(LoggingSeverity.FATAL, message, **when)
 
-    def log(
-        self, message: object, severity: LoggingSeverity | int, **when: bool | float | None
-    ) -> bool:
+    def log(self, message: object, severity: LoggingSeverity | int, **when: object) -> bool:
         """Log a message, and return whether it was logged."""
         return self._log(LoggingSeverity(severity), message, **when)
 
@@ -141,37 +151,118 @@ class Logger:
         self,
         severity: LoggingSeverity,
         message: object,
-        *,
-        once: bool | float | None = False,
-        skip_first: bool | float | None = False,
-        throttle_duration_sec: float | None = None,
+        **when: object,
     ) -> bool:
         if not self.is_enabled_for(severity):
             return False
+        if strictness.is_begun() and not isinstance(message, str):
+            raise TypeError(
+                f"a log takes a text, and {message!r:.60} is {type(message).__name__}: "
+                'write str(...) or f"{...}"'
+            )
+        name = str(when.pop("name", self.name))
         frame = sys._getframe(2)  # pyright: ignore[reportPrivateUsage]
-        place = (frame.f_code.co_filename, frame.f_lineno)
-        if (once or skip_first or throttle_duration_sec) and not self._is_due(
-            place, bool(once), bool(skip_first), throttle_duration_sec or 0.0
+        if (when or strictness.is_begun()) and not self._is_due(
+            frame, _Asked(severity, name, _When(**cast("dict[str, Any]", when)))
         ):
             return False
-        _write(_entry(severity, self.name, str(message), frame))
+        _write(_entry(severity, name, str(message), frame))
         return True
 
-    def _is_due(self, place: _Place, once: bool, skip_first: bool, throttle_s: float) -> bool:  # noqa: FBT001
-        """Whether a place in the code that does not always log may log now."""
-        now_s = time.monotonic()
+    def _is_due(self, frame: FrameType, asked: _Asked) -> bool:
+        """Whether a place in the code that does not always log may log now.
+
+        Raises:
+            ValueError: It asked for something else before.
+        """
+        place = (frame.f_code.co_filename, frame.f_lineno, frame.f_lasti)
         with self._lock:
-            last_s = self._logged_s.get(place)
-            if last_s is None:
-                # A first one that is skipped does not count for throttling, as in rclpy.
-                self._logged_s[place] = -throttle_s if skip_first else now_s
-                return not skip_first
-            if once and last_s > 0:
-                return False
-            if now_s - last_s < throttle_s:
-                return False
-            self._logged_s[place] = now_s
-            return True
+            seen = self._seen.get(place)
+            if seen is None:
+                seen = self._seen[place] = _Seen(asked)
+            elif seen.asked != asked:
+                raise ValueError(seen.asked.why_not(asked))
+            return seen.is_due()
+
+
+@dataclass(frozen=True, slots=True)
+class _When:
+    """How often a place in the code logs."""
+
+    once: bool | None = False
+    skip_first: bool | None = False
+    throttle_duration_sec: float | None = 0.0
+    throttle_time_source_type: Clock | None = None
+
+    def __post_init__(self) -> None:
+        clock: Any = self.throttle_time_source_type
+        if clock is None:
+            return
+        if not self.throttle_duration_sec:
+            raise TypeError("throttle_time_source_type needs throttle_duration_sec beside it")
+        from studio.ros.node.clock import Clock  # noqa: PLC0415 - it logs itself, by its context
+
+        if not isinstance(clock, Clock):
+            raise ValueError(  # noqa: TRY004 - as rclpy
+                f"throttle_time_source_type takes a clock, and {clock!r:.60} is none"
+            )
+
+    @property
+    def filters(self) -> tuple[bool, bool, bool]:
+        """Which of the limits count."""
+        return (bool(self.once), bool(self.skip_first), bool(self.throttle_duration_sec))
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What a place in the code asks for, the same each time."""
+
+    severity: LoggingSeverity
+    name: str
+    when: _When
+
+    def why_not(self, other: _Asked) -> str:
+        """Return what differs, in the words of rclpy."""
+        if self.severity != other.severity:
+            return "Logger severity cannot be changed between calls."
+        if self.name != other.name:
+            return "Logger name cannot be changed between calls."
+        if self.when.filters != other.when.filters:
+            return "Requested logging filters cannot be changed between calls."
+        return "Logging filter parameters cannot be changed between calls."
+
+
+@dataclass(slots=True)
+class _Seen:
+    """A place in the code that logged, or was kept from it."""
+
+    asked: _Asked
+    logged_ns: int | None = None
+    was_skipped: bool = False
+    was_logged: bool = False
+
+    def is_due(self) -> bool:
+        """Ask the limits in rclpy's order; what one lets pass counts for it, whatever follows."""
+        when = self.asked.when
+        if when.throttle_duration_sec and not self._is_over(when.throttle_duration_sec):
+            return False
+        if when.skip_first and not self.was_skipped:
+            self.was_skipped = True
+            return False
+        if when.once and self.was_logged:
+            return False
+        self.was_logged = True
+        return True
+
+    def _is_over(self, duration_s: float) -> bool:
+        clock = self.asked.when.throttle_time_source_type
+        now_ns = time.monotonic_ns() if clock is None else clock.now().nanoseconds
+        # A clock that is given begins at 0, as simulated time does.
+        last_ns = self.logged_ns if clock is None else self.logged_ns or 0
+        if last_ns is not None and now_ns < last_ns + duration_s * NANOSECONDS:
+            return False
+        self.logged_ns = now_ns
+        return True
 
 
 def get_logger(name: str = "") -> Logger:
@@ -207,12 +298,6 @@ def listen_to(name: str, listener: Callable[[Entry], None]) -> Callable[[], None
     return stop
 
 
-def line_of(entry: Entry) -> str:
-    """Write an entry as the terminal shows it."""
-    seconds, rest_ns = divmod(entry.time_ns, NANOSECONDS)
-    return f"[{entry.severity.name}] [{seconds}.{rest_ns:09d}] [{entry.name}]: {entry.text}"
-
-
 def _entry(severity: LoggingSeverity, name: str, text: str, frame: FrameType) -> Entry:
     code = frame.f_code
     return Entry(
@@ -221,10 +306,7 @@ def _entry(severity: LoggingSeverity, name: str, text: str, frame: FrameType) ->
 
 
 def _write(entry: Entry) -> None:
-    line = line_of(entry)
-    colour = _COLOURS.get(entry.severity) if sys.stderr.isatty() else None
-    sys.stderr.write(f"{colour}{line}{_PLAIN}\n" if colour else f"{line}\n")
-    sys.stderr.flush()
+    write_line(entry)
     for listener in _families.listeners_of(entry.name):
         listener(entry)
 

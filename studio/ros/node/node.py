@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from studio.ros import strictness
 from studio.ros.duration import NANOSECONDS
 from studio.ros.node.base import NodeBase
 from studio.ros.node.clock import CLOCK_QOS, CLOCK_TOPIC, TimeSource
@@ -13,6 +14,7 @@ from studio.ros.node.event_handler import CountEvent, events_of
 from studio.ros.node.logger import LOG_TYPE, ROSOUT, LoggerServices, RosoutPublisher
 from studio.ros.node.publisher import Publisher
 from studio.ros.node.qos_overriding_options import override_qos
+from studio.ros.node.samples import wants_info
 from studio.ros.node.service import Service
 from studio.ros.node.service_client import SERVICE_TIMEOUT_S, Client
 from studio.ros.node.subscription import Subscription
@@ -27,7 +29,8 @@ from studio.ros.qos import (
     qos_profile_services_default,
 )
 from studio.ros.tokens import EndpointKind
-from studio.ros.types.library import check_same_type
+from studio.ros.types.classes import MessageValue
+from studio.ros.types.library import ServiceType, check_is_type, check_same_type
 from studio.ros.types.type_descriptions import (
     DESCRIPTION_SERVICE,
     DESCRIPTION_SERVICE_PARAMETER,
@@ -45,7 +48,6 @@ if TYPE_CHECKING:
     from studio.ros.node.subscription import MessageCallback
     from studio.ros.node.work import CallbackGroup, Work
     from studio.ros.parameters.parameter import Parameter
-    from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ServiceKind
 
 
@@ -103,6 +105,36 @@ class Node(NodeBase, NodeParameters):
         self._follow_sim_time(list(self.get_parameters([USE_SIM_TIME])))
         self.add_post_set_parameters_callback(self._follow_sim_time)
 
+    @property
+    def publishers(self) -> list[Publisher]:
+        """Its publishers, that of /rosout among them."""
+        return list(self._all_publishers)
+
+    @property
+    def subscriptions(self) -> list[Subscription]:
+        """Its subscriptions."""
+        return [one for one in self.all_work if isinstance(one, Subscription)]
+
+    @property
+    def services(self) -> list[Service]:
+        """Its servers, those of parameters among them."""
+        return [one for one in self.all_work if isinstance(one, Service)]
+
+    @property
+    def clients(self) -> list[Client]:
+        """Its clients."""
+        return [one for one in self.all_work if isinstance(one, Client)]
+
+    @property
+    def timers(self) -> list[Timer]:
+        """Its timers."""
+        return [one for one in self.all_work if isinstance(one, Timer)]
+
+    @property
+    def guards(self) -> list[GuardCondition]:
+        """Its guard conditions."""
+        return [one for one in self.all_work if isinstance(one, GuardCondition)]
+
     def create_publisher(  # noqa: PLR0913  # as in rclpy
         self,
         msg_type: type[MessageValue],
@@ -123,9 +155,10 @@ class Node(NodeBase, NodeParameters):
             DestroyedError: The node was destroyed.
         """
         kind = EndpointKind.PUBLISHER
+        check_is_type(msg_type, MessageValue, "message")
         type_name = check_same_type(self._wire.types, msg_type)
         qos = self._overridden(kind, topic, qos_profile, qos_overriding_options)
-        endpoint = self.endpoint(kind, type_name, topic, qos)
+        endpoint = NodeBase.endpoint(self, kind, type_name, topic, qos)
         publisher = publisher_class(endpoint, msg_type)
         self._keep_publisher(publisher)
         group = callback_group or self._default_group
@@ -150,12 +183,16 @@ class Node(NodeBase, NodeParameters):
             RosNameError: The topic cannot be named so.
             OtherTypeError: The class is of another distribution than the wire.
             QosOverrideError: A parameter overrides the QoS with what it does not take.
+            MessageCallbackError: The callback does not take a message.
             DestroyedError: The node was destroyed.
         """
         kind = EndpointKind.SUBSCRIPTION
+        if callback is None and strictness.is_begun():  # it is no way to wait for messages there
+            wants_info(topic, callback)
+        check_is_type(msg_type, MessageValue, "message")
         type_name = check_same_type(self._wire.types, msg_type)
         qos = self._overridden(kind, topic, qos_profile, qos_overriding_options)
-        endpoint = self.endpoint(kind, type_name, topic, qos)
+        endpoint = NodeBase.endpoint(self, kind, type_name, topic, qos)
         group = callback_group or self._default_group
         subscription = Subscription(endpoint, msg_type, callback, group, raw=raw)
         events = events_of(event_callbacks, endpoint, group)
@@ -181,8 +218,12 @@ class Node(NodeBase, NodeParameters):
             RosNameError: The service cannot be named so.
             DestroyedError: The node was destroyed.
         """
-        endpoint = self.endpoint(EndpointKind.SERVICE, srv_type.name, srv_name, qos_profile)
+        check_is_type(srv_type, ServiceType, "service")
+        endpoint = NodeBase.endpoint(
+            self, EndpointKind.SERVICE, srv_type.name, srv_name, qos_profile
+        )
         service = Service(endpoint, srv_type, callback, callback_group or self._default_group)
+        service.given_name = srv_name if strictness.is_begun() else ""
         self.add_work(service)
         return service
 
@@ -201,9 +242,13 @@ class Node(NodeBase, NodeParameters):
             RosNameError: The service cannot be named so.
             DestroyedError: The node was destroyed.
         """
-        endpoint = self.endpoint(EndpointKind.CLIENT, srv_type.name, srv_name, qos_profile)
+        check_is_type(srv_type, ServiceType, "service")
+        endpoint = NodeBase.endpoint(
+            self, EndpointKind.CLIENT, srv_type.name, srv_name, qos_profile
+        )
         group = callback_group or self._default_group
         client = Client(endpoint, srv_type, group, self, timeout_s)
+        client.given_name = srv_name if strictness.is_begun() else ""
         self.add_work(client)
         return client
 

@@ -8,9 +8,9 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from studio.errors import MessageCallbackError
 
+if TYPE_CHECKING:
     from studio.ros.attachment import Attachment
 
 BLINK_NS = 20_000_000
@@ -162,12 +162,24 @@ def message_info(sample: RawSample) -> MessageInfo:
     )
 
 
-def wants_info(callback: Callable[..., object]) -> bool:
-    """Whether a callback takes the message and what came with it: it must have two arguments."""
+def wants_info(topic: str, callback: object) -> bool:
+    """Whether a callback takes the message and what came with it, or the message only.
+
+    Raises:
+        MessageCallbackError: It takes neither.
+    """
+    if not callable(callback):
+        raise MessageCallbackError(topic, f"{callback!r:.60}", is_callable=False)
     try:
-        inspect.signature(callback).bind(object())
-    except TypeError:
-        return True
-    except ValueError:  # of built-in functions nothing is known
+        signature = inspect.signature(callback)
+    except ValueError:  # of some built-in functions nothing is known
         return False
-    return False
+    for count in (1, 2):
+        try:
+            signature.bind(*(object(),) * count)
+        except TypeError:
+            continue
+        return count == 2
+    name = getattr(callback, "__name__", "it")
+    arguments = ", ".join(signature.parameters)
+    raise MessageCallbackError(topic, f"{name}({arguments})", is_callable=True)

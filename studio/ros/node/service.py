@@ -72,6 +72,7 @@ class Service(Work):
         self._response = definition_of(srv_type.Response)
         self._depth = endpoint.token.qos.depth or DEPTH_DEFAULT
         self._waiting: deque[_Request] = deque()
+        self.given_name = ""
         self._pending: dict[tuple[bytes, int], _Request] = {}
         self._askers: Counter[bytes] = Counter()
         self._lock = threading.Lock()
@@ -80,12 +81,31 @@ class Service(Work):
         )
         endpoint.show()
 
+    def configure_introspection(
+        self, clock: object, service_event_qos_profile: object, introspection_state: int
+    ) -> None:
+        """Refuse but to be off: events of calls are not published here.
+
+        Raises:
+            NotImplementedError: The state is METADATA or CONTENTS.
+        """
+        del clock, service_event_qos_profile
+        if not introspection_state:
+            return
+        raise NotImplementedError(
+            f"The studio publishes no events of the service of {self.service_name}: leave out "
+            "configure_introspection, or run it where ROS is installed."
+        )
+
     @property
-    def srv_name(self) -> str:
+    def service_name(self) -> str:
         """The full name of the service."""
         return self.endpoint.token.name
 
-    service_name = srv_name
+    @property
+    def srv_name(self) -> str:
+        """The name as it was given in a user's program, as rclpy has it; else the full one."""
+        return self.given_name or self.endpoint.token.name
 
     @property
     def qos_profile(self) -> QoSProfile:
@@ -174,7 +194,9 @@ class Service(Work):
     def _count_refused(self, reason: str) -> None:
         """Count a request that was not taken, and log the first."""
         if not self.refused:
-            get_logger("studio.ros").warning(f"A request to {self.srv_name} was dropped. {reason}")
+            get_logger("studio.ros").warning(
+                f"A request to {self.service_name} was dropped. {reason}"
+            )
         self.refused += 1
         self.reason = reason
 

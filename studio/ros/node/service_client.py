@@ -19,6 +19,7 @@ from studio.errors import (
     NotServedError,
     WireError,
 )
+from studio.ros import strictness
 from studio.ros.attachment import packed, unpack
 from studio.ros.cdr import check_kind, codec_of
 from studio.ros.node.task import Future
@@ -88,8 +89,9 @@ class Client(Work):
         self._codecs = codec_of(srv_type.Request), codec_of(srv_type.Response)
         self._request = definition_of(srv_type.Request)
         self._sequence = 0
-        self._warned_of_several = False
+        self._warned_of_several = self._warned_of_silence = False
         self._check_at_s = 0.0
+        self.given_name = ""
         self._lock = threading.Lock()
         self._calls: dict[int, _Call] = {}
         self._done: deque[tuple[_Call, bytes | WireError]] = deque()
@@ -98,12 +100,31 @@ class Client(Work):
         )
         endpoint.show()
 
+    def configure_introspection(
+        self, clock: object, service_event_qos_profile: object, introspection_state: int
+    ) -> None:
+        """Refuse but to be off: events of calls are not published here.
+
+        Raises:
+            NotImplementedError: The state is METADATA or CONTENTS.
+        """
+        del clock, service_event_qos_profile
+        if not introspection_state:
+            return
+        raise NotImplementedError(
+            f"The studio publishes no events of the client of {self.service_name}: leave out "
+            "configure_introspection, or run it where ROS is installed."
+        )
+
     @property
-    def srv_name(self) -> str:
+    def service_name(self) -> str:
         """The full name of the service."""
         return self.endpoint.token.name
 
-    service_name = srv_name
+    @property
+    def srv_name(self) -> str:
+        """The name as it was given in a user's program, as rclpy has it; else the full one."""
+        return self.given_name or self.endpoint.token.name
 
     @property
     def qos_profile(self) -> QoSProfile:
@@ -117,7 +138,7 @@ class Client(Work):
 
     def service_is_ready(self) -> bool:
         """Whether a node serves it."""
-        return self._node.graph.has_server(self.srv_name, self.srv_type.name)
+        return self.endpoint.graph().has_server(self.service_name, self.srv_type.name)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Wait until a node serves it, or that long; whether one does.
@@ -126,7 +147,7 @@ class Client(Work):
             ExternalShutdownException: The process was asked to end; rclpy has an error of its own.
         """
         end_s = None if timeout_sec is None else time.monotonic() + timeout_sec
-        graph = self._node.graph
+        graph = self.endpoint.graph()
         while not self.service_is_ready():
             left_s = _CHECK_EVERY_S if end_s is None else end_s - time.monotonic()
             if not self._node.context.ok():
@@ -146,7 +167,7 @@ class Client(Work):
         future = self.call_async(request)
         if not future.wait(timeout_sec):
             future.cancel()
-            raise NoAnswerError("service", self.srv_name, timeout_sec or 0.0)
+            raise NoAnswerError("service", self.service_name, timeout_sec or 0.0)
         return future.result()
 
     def call_async(self, request: MessageValue, *, raw: bool = False) -> Future[Any]:
@@ -162,7 +183,7 @@ class Client(Work):
         future: Future[Any] = Future(executor=self._node.executor)
         with self._lock:
             if self._querier is None:
-                raise DestroyedError(f"client of {self.srv_name}")
+                raise DestroyedError(f"client of {self.service_name}")
             self._sequence += 1
             number = self._sequence
             attachment = packed(number, time.time_ns(), self.endpoint.gid)
@@ -227,16 +248,16 @@ class Client(Work):
         sample, refusal = reply.ok, reply.err
         if refusal is not None:
             payload = refusal.payload.to_bytes()
-            call.failure = _failure(self.srv_name, payload, self._timeout_s)
+            call.failure = _failure(self.service_name, payload, self._timeout_s)
         elif sample is not None and (reason := self._why_foreign(number, sample)):
-            call.failure = ForeignAnswerError(self.srv_name, reason)
+            call.failure = ForeignAnswerError(self.service_name, reason)
         elif sample is not None and not call.answered:
             call.answered = True
             self._done.append((call, sample.payload.to_bytes()))
         elif not self._warned_of_several:
             self._warned_of_several = True
             self._node.get_logger().warning(
-                f"The service {self.srv_name} is served by more than one node: each did what "
+                f"The service {self.service_name} is served by more than one node: each did what "
                 "was asked, and the first answer was taken."
             )
 
@@ -254,8 +275,19 @@ class Client(Work):
     def _ended(self, number: int, call: _Call) -> None:
         known = self._forget(number)
         if known and not call.answered:
-            failure = call.failure or NotServedError("service", self.srv_name)
+            if strictness.is_begun() and call.failure is None:
+                self._tell_of_silence()
+                return
+            failure = call.failure or NotServedError("service", self.service_name)
             self._done.append((call, failure))
+
+    def _tell_of_silence(self) -> None:
+        """Say that nobody answers: in a user's program the future stays as it is, as in rclpy."""
+        if not self._warned_of_silence:
+            self._warned_of_silence = True
+            self._node.get_logger().debug(
+                f"Nobody serves {self.service_name}: what was asked of it is not answered."
+            )
 
     def _end_lost(self, calls: list[tuple[int, _Call]]) -> None:
         """End calls whose server has been gone for a while, and that Zenoh did not end.

@@ -72,6 +72,15 @@ class SignalHandlers:
             self._before[_NUDGE] = signal.signal(_NUDGE, _do_nothing)
         self._watch = self._watch or _Watch.begin(self._on_signal)
 
+    @property
+    def options(self) -> SignalHandlerOptions:
+        """The signals that end contexts now."""
+        found = SignalHandlerOptions.NO
+        for option, number in _NUMBERS.items():
+            if number in self._before:
+                found |= option
+        return found
+
     def uninstall(self) -> None:
         """Put back what was before; nothing in threads beside the main one."""
         if threading.current_thread() is not threading.main_thread():

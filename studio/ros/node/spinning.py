@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import atexit
+import os
 import sys
 import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Self
 
-from studio.errors import ExternalShutdownException, NoAnswerError, NotServedError
+from studio.errors import ExternalShutdownException, NoAnswerError, NotServedError, RclError
+from studio.ros import strictness
 from studio.ros.node.arguments import parse_arguments
 from studio.ros.node.context import Context, default_context
 from studio.ros.node.executors import Executor, SingleThreadedExecutor
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
 _lock = threading.Lock()
 _executors: dict[Context, Executor] = {}
 ANSWER_TIMEOUT_S = 5.0
+ROUTER_VARIABLE = "STUDIO_ROUTER"
+"""Whether to start a router, for programs that say nothing of it: `auto`, `off`, an endpoint."""
 
 
 class InitContextManager:
@@ -37,6 +41,10 @@ class InitContextManager:
         self.context = context
 
     def __enter__(self) -> Self:
+        strictness.would_fail(
+            "with rclpy.init() needs an rclpy that is newer than Jazzy's",
+            "call rclpy.init() before and rclpy.shutdown() after",
+        )
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -62,7 +70,8 @@ def init(
         signal_handler_options: Which signals end the context; by default all end the default
             context, and none ends another.
         settings: Which router and domain; by default those of the environment.
-        router: `auto` starts a router where none answers, `off` starts none.
+        router: `auto` does as STUDIO_ROUTER says, and without it starts a router where none
+            answers; `off` starts none.
 
     Raises:
         AlreadyJoinedError: It is open.
@@ -79,7 +88,7 @@ def init(
         get_logger(name).set_level(level)
     handlers.install(joined, options)
     atexit.register(joined.shutdown)
-    joined.init(given, router)
+    joined.init(given, os.environ.get(ROUTER_VARIABLE, router) if router == "auto" else router)
     return InitContextManager(joined)
 
 
@@ -89,16 +98,35 @@ def ok(*, context: Context | None = None) -> bool:
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Destroy all nodes and leave the wire; again is harmless.
+
+    Raises:
+        RclError: In a user's program, where a signal ended the context before: as rclpy does.
+        RuntimeError: In a user's program, where it is not joined: as rclpy does.
+    """
+    ended = context or default_context()
+    del uninstall_handlers
+    is_told = strictness.is_begun()
+    if is_told and not ended.is_joined:
+        raise RuntimeError("Context must be initialized before it can be shutdown")
+    was_ended = not ended.ok()
+    try_shutdown(context=ended)
+    if is_told and was_ended:
+        raise RclError(
+            "failed to shutdown: rcl_shutdown already called on the given context: Ctrl-C or "
+            "SIGTERM did it, so call rclpy.try_shutdown() here"
+        )
+
+
+def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
     """Destroy all nodes and leave the wire; again is harmless."""
+    del uninstall_handlers
     ended = context or default_context()
     with _lock:
         executor = _executors.pop(ended, None)
     if executor is not None:
         executor.shutdown()
     ended.shutdown()
-
-
-try_shutdown = shutdown
 
 
 def get_global_executor(context: Context | None = None) -> Executor:
@@ -187,7 +215,9 @@ def spinning(*nodes: Node, executor: Executor | None = None) -> Generator[Execut
 def _spun_by(node: Node, executor: Executor | None) -> Generator[Executor]:
     """Add a node to an executor; at the end, the one that it had before gets it back."""
     before = node.executor
-    chosen = executor or before or get_global_executor(node.context)
+    # A user's program takes the global one, as rclpy does: that of the node may be spinning.
+    own = None if strictness.is_begun() else before
+    chosen = executor or own or get_global_executor(node.context)
     lent = chosen.add_node(node)
     try:
         yield chosen

@@ -85,7 +85,7 @@ class Subscription(Work):
         self.msg_type = msg_type
         self.callback = callback
         self.raw = raw
-        self._wants_info = callback is not None and wants_info(callback)
+        self._wants_info = callback is not None and wants_info(endpoint.token.name, callback)
         self._codec = codec_of(msg_type)
         self._losses, self._gaps = Losses(), Gaps()
         depth, ring = _sizes(endpoint.token.qos)
@@ -139,6 +139,13 @@ class Subscription(Work):
         """Take the oldest sample, and return what calls back with it."""
         sample = self._inbox.take()
         return None if sample is None else partial(self._call_back, sample)
+
+    def take_message(self) -> MessageValue | None:
+        """Take the oldest message of a subscription without a callback; None: there is none."""
+        while (sample := self._inbox.take()) is not None:
+            if (message := self._decoded(sample)) is not None:
+                return message
+        return None
 
     def destroy(self) -> None:
         """Take it back; again is harmless."""

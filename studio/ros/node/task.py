@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import inspect
 import logging
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar, cast
 
+from studio.ros import strictness
 from studio.ros.condition import Condition
 
 if TYPE_CHECKING:
@@ -117,6 +119,10 @@ class Future(Generic[ResultT]):
 
     def __await__(self) -> Generator[Any, None, ResultT]:
         if not self._done and _in_asyncio():
+            strictness.would_fail(
+                "asyncio cannot await a future of rclpy",
+                "await it in a coroutine that an executor runs, such as a callback",
+            )
             yield from self._wait_in_loop()
         while not self._done:
             yield self
@@ -222,6 +228,11 @@ class Task(Future[Any]):
         except BaseException as error:
             self.set_exception(error)
             raise
+
+    def __call__(self) -> None:
+        """Carry out what can be; what is raised is kept, and given by `exception`."""
+        with contextlib.suppress(Exception):
+            self.step()
 
     def _go_on(self) -> None:
         coroutine = self._coroutine

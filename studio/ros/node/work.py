@@ -9,16 +9,46 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+_AGAIN_S = 0.01
+
 
 class CallbackGroup:
-    """Decides which pieces of work may run beside each other."""
+    """Decides which pieces of work may run beside each other.
+
+    A user's own group overrides `can_execute`, `beginning_execution` and `ending_execution`, as
+    with rclpy: what may not run yet is asked for again a moment later. Those below know when.
+    """
+
+    def __init__(self) -> None:
+        self._begun: deque[Work] = deque()
+
+    def can_execute(self, entity: Work) -> bool:
+        """Whether a piece of work may run now."""
+        del entity
+        return True
+
+    def beginning_execution(self, entity: Work) -> bool:
+        """Note that a piece of work is about to run; whether it may."""
+        del entity
+        return True
+
+    def ending_execution(self, entity: Work) -> None:
+        """Note that a piece of work has run."""
 
     def begin(self, work: Work) -> bool:
         """Whether a piece of work may run now; if so, `end` follows, else it waits here."""
-        raise NotImplementedError
+        if self.can_execute(work) and self.beginning_execution(work):
+            self._begun.append(work)
+            return True
+        again = threading.Timer(_AGAIN_S, work.announce)
+        again.daemon = True
+        again.start()
+        return False
 
     def end(self) -> Work | None:
         """Note that a piece has run, and return the work that may be tried next."""
+        if self._begun:
+            self.ending_execution(self._begun.popleft())
         return None
 
     def forget(self, work: Work) -> None:
@@ -38,6 +68,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
     """Lets one run at a time."""
 
     def __init__(self) -> None:
+        super().__init__()
         self._lock = threading.Lock()
         self._running = threading.Lock()
         self._waiting: deque[Work] = deque()

@@ -42,17 +42,25 @@ def read_parameters(
     Raises:
         ParameterFileError: The file is not valid, or a value fits no parameter.
     """
-    try:
-        tree = read_yaml(text, "it")
-    except ValueError as error:
-        raise ParameterFileError(where, str(error)) from None
-    if not isinstance(tree, dict):
-        raise ParameterFileError(where, f"names of nodes are expected, not {shown(tree)}")
     found: dict[str, Parameter] = {}
-    for path, values in _sections(cast("dict[object, object]", tree), "", where):
+    for path, values in _sections(_tree_of(text, where), "", where):
         if ("*" not in path or wildcards) and _matches(_parts(path), _parts(node)):
-            for name, value in _flat(values, "", where, 0):
-                found[name] = _made(name, value, where)
+            found |= _section(values, where)
+    return list(found.values())
+
+
+def read_all_parameters(text: str, where: str, *, wildcards: bool) -> list[Parameter]:
+    """Read what a file has for nodes of any name; names with `*` only with `wildcards`, and first.
+
+    Raises:
+        ParameterFileError: The file is not valid, or a value fits no parameter.
+    """
+    sections = list(_sections(_tree_of(text, where), "", where))
+    found: dict[str, Parameter] = {}
+    for wanted in (True, False) if wildcards else (False,):
+        for path, values in sections:
+            if ("*" in path) is wanted:
+                found |= _section(values, where)
     return list(found.values())
 
 
@@ -73,13 +81,32 @@ def read_overrides(
     """
     found: dict[str, Parameter] = {}
     for file in files:
-        found |= {one.name: one for one in read_parameters(_text_of(file), node, file)}
+        found |= {one.name: one for one in read_parameters(text_of(file), node, file)}
     for name, text in values:
         found[name] = Parameter(name, value=_value(name, text))
     return list(found.values())
 
 
-def _text_of(file: str) -> str:
+def _tree_of(text: str, where: str) -> dict[object, object]:
+    try:
+        tree = read_yaml(text, "it")
+    except ValueError as error:
+        raise ParameterFileError(where, str(error)) from None
+    if not isinstance(tree, dict):
+        raise ParameterFileError(where, f"names of nodes are expected, not {shown(tree)}")
+    return cast("dict[object, object]", tree)
+
+
+def _section(values: object, where: str) -> dict[str, Parameter]:
+    return {name: _made(name, value, where) for name, value in _flat(values, "", where, 0)}
+
+
+def text_of(file: str) -> str:
+    """Return the text of a file of parameters.
+
+    Raises:
+        ParameterFileError: It cannot be read.
+    """
     try:
         return Path(file).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Protocol
 
-from studio.errors import ParameterError
+from studio.errors import NotCallableError, ParameterError
 from studio.ros.parameters.parameter import Parameter, ParameterMessages, ParameterType
 from studio.ros.parameters.store import ParameterStore
 from studio.ros.qos import qos_profile_parameter_events, qos_profile_parameters
@@ -370,11 +370,21 @@ class NodeParameters:
         self._callbacks.pre_set.insert(0, callback)
 
     def add_on_set_parameters_callback(self, callback: OnSetCallback) -> None:
-        """Ask a callback before parameters are set; it returns a SetParametersResult."""
+        """Ask a callback before parameters are set; it returns a SetParametersResult.
+
+        Raises:
+            NotCallableError: It is no function.
+        """
+        _check_callable(callback)
         self._callbacks.on_set.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: PostSetCallback) -> None:
-        """Call a callback after parameters were set."""
+        """Call a callback after parameters were set.
+
+        Raises:
+            NotCallableError: It is no function.
+        """
+        _check_callable(callback)
         self._callbacks.post_set.insert(0, callback)
 
     def remove_pre_set_parameters_callback(self, callback: PreSetCallback) -> None:
@@ -440,3 +450,8 @@ class ParameterHost(Protocol):
     def get_logger(self) -> Any:  # noqa: ANN401
         """Return its logger."""
         ...
+
+
+def _check_callable(callback: object) -> None:
+    if not callable(callback):
+        raise NotCallableError(f"{callback!r:.60}")

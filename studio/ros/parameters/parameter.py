@@ -40,6 +40,11 @@ class ParameterType(IntEnum):
     DOUBLE_ARRAY = 8
     STRING_ARRAY = 9
 
+    def __str__(self) -> str:
+        return f"Type.{self.name}"
+
+    __format__ = object.__format__
+
     @classmethod
     def from_parameter_value(cls, value: object) -> ParameterType:
         """Find the type of a value; an empty list is one of bytes, as in rclpy.
@@ -225,7 +230,8 @@ def value_of(name: str, message: MessageValue) -> tuple[ParameterType, Value]:
         return kind, None
     value = plain(getattr(message, _FIELDS[kind]))
     if kind is ParameterType.BYTE_ARRAY:
-        return kind, [bytes([one]) for one in cast("list[int]", value)]
+        parts = cast("list[int | bytes]", value)
+        return kind, [one if isinstance(one, bytes) else bytes([one]) for one in parts]
     return kind, cast("Value", value)
 
 

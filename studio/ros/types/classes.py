@@ -5,6 +5,7 @@ Fields of numbers hold numpy arrays, other array fields hold lists.
 
 from __future__ import annotations
 
+import array
 import keyword
 import math
 from collections.abc import Callable, Iterable
@@ -55,6 +56,7 @@ class MessageValue(metaclass=MessageKind):
     __hash__ = None  # pyright: ignore[reportAssignmentType]  # values change
     _definition: ClassVar[Message]
     _attributes: ClassVar[tuple[str, ...]]
+    _stores: ClassVar[tuple[str, ...]]
     _parts: ClassVar[dict[str, type[MessageValue]]]
 
     def __init__(self, *args: Any, **fields: Any) -> None:  # noqa: ANN401
@@ -84,6 +86,11 @@ def definition_of(value: MessageValue | type[MessageValue]) -> Message:
 def attributes_of(value: MessageValue | type[MessageValue]) -> tuple[str, ...]:
     """Name the attributes of a value in the order of its fields; keywords end in `_`."""
     return value._attributes  # pyright: ignore[reportPrivateUsage]
+
+
+def stores_of(value: MessageValue | type[MessageValue]) -> tuple[str, ...]:
+    """Name where the values of fields lie as codecs take them, in the order of the fields."""
+    return value._stores  # pyright: ignore[reportPrivateUsage]
 
 
 def class_of_field(value: MessageValue | type[MessageValue], field: Field) -> type[MessageValue]:
@@ -123,8 +130,8 @@ def maker_of(kind: type[MessageValue]) -> Callable[..., MessageValue]:
     known: dict[str, object] = {"_kind": kind, "_new": object.__new__}
     lines = [" _self = _new(_kind)"]
     names = attributes_of(kind)
-    for number, (name, field) in enumerate(zip(names, message.fields, strict=True)):
-        slot = name if field.type.shape is Shape.SINGLE else slot_name(name)
+    rows = zip(names, stores_of(kind), message.fields, strict=True)
+    for number, (name, slot, field) in enumerate(rows):
         if field.type.shape is Shape.BOUNDED:
             known[f"_keep_{number}"] = keeper(f"{message.name} {field.name}", field.type)
             lines.append(f" _self.{slot} = _keep_{number}({name})")
@@ -133,7 +140,7 @@ def maker_of(kind: type[MessageValue]) -> Callable[..., MessageValue]:
     # A message without fields carries one byte.
     arguments = ", ".join(names) or DUMMY_FIELD
     code = "\n".join([f"def make({arguments}):", *lines, " return _self"])
-    return _defined(code, known)["make"]
+    return defined(code, known)["make"]
 
 
 def make_class(
@@ -148,6 +155,10 @@ def make_class(
         "__module__": message.name.rpartition("/")[0].replace("/", "."),
         "_definition": message,
         "_attributes": attributes,
+        "_stores": tuple(
+            name if field.type.shape is Shape.SINGLE else slot_name(name)
+            for name, field in zip(attributes, message.fields, strict=True)
+        ),
         "_parts": parts,
     }
     slots: list[str] = []
@@ -203,10 +214,10 @@ def _make_init(
     # A message without fields carries one byte, which decoding hands over.
     arguments = arguments or [f"{DUMMY_FIELD}=0"]
     code = f"def __init__(_self, {', '.join(arguments)}):\n" + ("\n".join(lines) or " pass")
-    return _defined(code, known)["__init__"]
+    return defined(code, known)["__init__"]
 
 
-def _defined(code: str, known: dict[str, object]) -> dict[str, Any]:
+def defined(code: str, known: dict[str, object]) -> dict[str, Any]:
     """Run generated code, and return what it defines.
 
     It is compiled before: an interrupt that leaves an `exec` of text ends the process at its exit,
@@ -245,8 +256,8 @@ def _same(one: object, other: object) -> bool:
 
 
 def _shown(value: object) -> str:
-    if isinstance(value, np.ndarray):
-        return repr(value.tolist())
+    if isinstance(value, np.ndarray | array.array):
+        return repr(cast("Any", value).tolist())
     return repr(cast("Any", value).item() if isinstance(value, np.generic) else value)
 
 
@@ -257,9 +268,9 @@ def check_message(message: MessageValue, where: str = "") -> None:
         MessageValueError: A field holds what its type does not take; its path is named.
     """
     definition = definition_of(message)
-    for field in definition.fields:
+    for field, store in zip(definition.fields, stores_of(message), strict=True):
         path = f"{where}.{field.name}" if where else f"{definition.name} {field.name}"
-        value = getattr(message, attribute_name(field.name))
+        value = getattr(message, store)
         if field.type.shape is Shape.SINGLE:
             _check_value(message, field, value, path)
             continue

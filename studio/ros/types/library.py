@@ -8,10 +8,17 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, Protocol
 
-from studio.errors import InterfaceTextError, OtherTypeError, RosNameError, UnknownTypeError
+from studio.errors import (
+    InterfaceClassError,
+    InterfaceTextError,
+    OtherTypeError,
+    RosNameError,
+    UnknownTypeError,
+)
 from studio.interfaces import carried_texts
+from studio.ros import strictness
 from studio.ros.names import split_type_name
-from studio.ros.types.classes import MessageValue, definition_of, make_class, parts_of
+from studio.ros.types.classes import MessageValue, definition_of, make_class, parts_of, shown
 from studio.ros.types.definitions import (
     Action,
     Interface,
@@ -28,6 +35,7 @@ from studio.ros.types.definitions import (
 )
 from studio.ros.types.interface_text import parse_interface
 from studio.ros.types.rosbags import MessageStore
+from studio.ros.types.rosidl_classes import make_rosidl_class
 from studio.ros.types.type_hash import type_hash
 
 if TYPE_CHECKING:
@@ -289,7 +297,8 @@ class TypeLibrary:
             if made is None:
                 definition = self.find(name)
                 check_sizes(definition, self.find)
-                made = self._classes[name] = make_class(definition, self.message)
+                make = make_rosidl_class if strictness.is_begun() else make_class
+                made = self._classes[name] = make(definition, self.message)
             return made
 
     def service(self, name: str) -> ServiceType:
@@ -357,6 +366,17 @@ class TypeLibrary:
                 check_sizes(message, self.find)
             except UnknownTypeError:
                 continue
+
+
+def check_is_type(kind: object, wanted: type, word: str) -> None:
+    """Refuse what is no type of ROS: a module, a value, a class of something else.
+
+    Raises:
+        InterfaceClassError: It is none.
+    """
+    if isinstance(kind, wanted) or (isinstance(kind, type) and issubclass(kind, wanted)):
+        return
+    raise InterfaceClassError(shown(kind), word)
 
 
 def check_same_type(types: TypeLibrary, kind: type[MessageValue]) -> str:

@@ -8,17 +8,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
 from studio.errors import (
-    ForeignEndpointError,
     NoRouterError,
     NotAdmittedError,
-    RouterNotStartedError,
     WireError,
     WireSettingsError,
 )
 from studio.ros.condition import Condition
 from studio.ros.types.library import TypeLibrary
-from studio.ros.wire.endpoints import Endpoint, ProbeResult, parse_endpoint, probe
-from studio.ros.wire.router import EmbeddedRouter, RouterChoice, router_choice, start_router
+from studio.ros.wire.endpoints import ProbeResult
+from studio.ros.wire.own_router import answer_at, place_for_router, router_of_our_own
+from studio.ros.wire.own_tokens import OwnTokens
+from studio.ros.wire.router import EmbeddedRouter, RouterChoice, router_choice
 from studio.ros.wire.settings import LEASE_MS
 from studio.ros.wire.zenoh import (
     Config,
@@ -59,6 +59,7 @@ class WireSession:
         types: Of the distribution and of the user, shared by all nodes.
         router: The router of our own that this session was opened with, None when it joined
             one that was there.
+        own_tokens: What this session shows of its own nodes.
     """
 
     def __init__(
@@ -73,6 +74,7 @@ class WireSession:
         self.types = types
         self.router = router
         self.zid = str(session.info.zid())
+        self.own_tokens = OwnTokens(session)
         self._ids = itertools.count()
 
     @property
@@ -187,7 +189,7 @@ def open_wire(
         try:
             return _open_once(settings, choice, types)
         except NoRouterError:
-            if _place_for_router(settings, choice) is None:
+            if place_for_router(settings, choice) is None:
                 raise
     return _open_once(settings, choice, types)
 
@@ -195,8 +197,8 @@ def open_wire(
 def _open_once(
     settings: WireSettings, choice: RouterChoice, types: TypeLibrary | None
 ) -> WireSession:
-    found = _answer_at(settings)
-    router = _router_of_our_own(settings, choice) if found is ProbeResult.NOBODY else None
+    found = answer_at(settings)
+    router = router_of_our_own(settings, choice) if found is ProbeResult.NOBODY else None
     try:
         return open_session(settings, types, router)
     except WireError as error:
@@ -204,43 +206,9 @@ def _open_once(
             router.close()
         # A router that ended just now answered, too: it is there no more when asked again.
         refuses = isinstance(error, NoRouterError) and found in _ROUTERS
-        if refuses and _answer_at(settings) in _ROUTERS:
+        if refuses and answer_at(settings) in _ROUTERS:
             raise NotAdmittedError(settings.connect[0]) from None
         raise
-
-
-def _router_of_our_own(settings: WireSettings, choice: RouterChoice) -> EmbeddedRouter | None:
-    """Start a router if none answers; None if none is wanted."""
-    place = _place_for_router(settings, choice)
-    if place is None:
-        return None
-    try:
-        return start_router(place, settings.overrides, settings.router_config_file)
-    except RouterNotStartedError as error:
-        if error.held:
-            return None  # another process was quicker: it is joined
-        raise
-
-
-def _answer_at(settings: WireSettings) -> ProbeResult:
-    """Probe the only endpoint; of several, Zenoh takes any that answers."""
-    if len(settings.connect) != 1:
-        return ProbeResult.UNKNOWN
-    found = probe(parse_endpoint(settings.connect[0]))
-    if found is ProbeResult.OTHER:
-        raise ForeignEndpointError(settings.connect[0])
-    return found
-
-
-def _place_for_router(settings: WireSettings, choice: RouterChoice) -> Endpoint | None:
-    if not choice.starts:
-        return None
-    if choice.endpoint is not None:
-        return choice.endpoint
-    places = [parse_endpoint(text) for text in settings.connect]
-    if len(places) == 1 and places[0].is_loopback and places[0].is_stream:
-        return places[0]
-    return None
 
 
 class RouterWatch:

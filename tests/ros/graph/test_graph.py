@@ -231,3 +231,39 @@ def test_a_closed_graph_keeps_what_it_knew_and_may_be_closed_again(
     graph.close()
     assert [one.name for one in graph.nodes()] == ["talker"]
     assert held
+
+
+def test_what_the_session_shows_itself_is_there_at_once_and_once(endpoint: str):
+    with open_test_session(endpoint) as wire:
+        node = node_of(wire)
+        before = wire.own_tokens.show(str(node))
+        with Graph(wire) as graph:
+            assert [one.path for one in graph.nodes()] == ["/talker"]
+            end = endpoint_of(wire, node, "/chatter")
+            shown = wire.own_tokens.show(str(end))
+            assert graph.count(EndpointKind.PUBLISHER, "/chatter") == 1
+            assert graph.settle()
+            assert graph.count(EndpointKind.PUBLISHER, "/chatter") == 1
+            assert graph.token_count == 2
+            shown.undeclare()
+            assert graph.count(EndpointKind.PUBLISHER, "/chatter") == 0
+            assert graph.settle()
+            before.undeclare()
+            assert graph.nodes() == []
+            assert graph.token_count == 0
+
+
+def test_what_is_shown_and_taken_back_again_and_again_does_not_come_back(endpoint: str):
+    with open_test_session(endpoint) as wire, Graph(wire) as graph:
+        node = node_of(wire)
+        shown = wire.own_tokens.show(str(node))
+        for _ in range(50):
+            wire.own_tokens.show(str(endpoint_of(wire, node, "/chatter"))).undeclare()
+            assert graph.count(EndpointKind.PUBLISHER, "/chatter") == 0
+        version = graph.version
+        last = wire.own_tokens.show(str(endpoint_of(wire, node, "/last")))
+        assert graph.wait_for(lambda: graph.version > version + 1, PATIENCE_S)
+        assert graph.settle()
+        assert graph.topics() == [("/last", [STRING])]
+        last.undeclare()
+        shown.undeclare()

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import pytest
 
-from studio.ros.node.logger import Entry, LoggingSeverity, get_logger, line_of, listen_to
+from studio.ros.node.clock import Clock, ClockType
+from studio.ros.node.log_lines import line_of
+from studio.ros.node.logger import Entry, LoggingSeverity, get_logger, listen_to
 
 
 def test_a_line_is_written_as_rclpy_does(capsys: pytest.CaptureFixture[str]):
@@ -78,6 +81,72 @@ def test_two_places_in_the_code_are_throttled_each_for_itself():
     logger = get_logger("places")
     assert logger.info("x", once=True)
     assert logger.info("x", once=True)
+    assert [(logger.info("x", once=True), logger.info("y", once=True)) for _ in range(2)] == [
+        (True, True),
+        (False, False),
+    ]
+
+
+def test_a_first_one_that_is_skipped_counts_for_throttling():
+    logger = get_logger("skip_throttle")
+    assert not any(
+        logger.info("x", skip_first=True, throttle_duration_sec=3_600.0) for _ in range(3)
+    )
+
+
+def test_throttling_goes_by_the_clock_that_is_given():
+    clock = Clock(clock_type=ClockType.ROS_TIME)
+    said: list[bool] = []
+    for now_ms in (500, 1_000, 1_500, 2_000):
+        clock.set_ros_time(now_ms * 1_000_000)
+        said.append(
+            get_logger("by_clock").info(
+                "x", throttle_duration_sec=1.0, throttle_time_source_type=clock
+            )
+        )
+    assert said == [False, True, False, True]
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        ({"once": True}, {"skip_first": True}),
+        ({"throttle_duration_sec": 1.0}, {"throttle_duration_sec": 2.0}),
+        ({"once": True, "name": "a"}, {"once": True, "name": "b"}),
+    ],
+)
+def test_a_place_that_asks_for_something_else_is_refused(asked: tuple[dict[str, Any], ...]):
+    logger = get_logger(f"changing {asked}")
+
+    def say() -> None:
+        for one in asked:
+            logger.info("x", **one)
+
+    with pytest.raises(ValueError, match="cannot be changed between calls"):
+        say()
+
+
+def test_a_place_that_changes_the_severity_is_refused():
+    logger = get_logger("changing severity")
+
+    def say() -> None:
+        for severity in (LoggingSeverity.INFO, LoggingSeverity.WARN):
+            logger.log("x", severity, once=True)
+
+    with pytest.raises(ValueError, match="severity cannot be changed"):
+        say()
+
+
+def test_limits_that_are_none_are_refused():
+    logger = get_logger("refused")
+    with pytest.raises(TypeError, match="nonsense"):
+        logger.info("x", nonsense=True)
+    with pytest.raises(TypeError, match="needs throttle_duration_sec"):
+        logger.info("x", throttle_time_source_type=Clock())
+    with pytest.raises(ValueError, match="takes a clock"):
+        logger.info("x", throttle_duration_sec=1.0, throttle_time_source_type="steady")
+    with pytest.raises(ValueError, match="needs a name"):
+        logger.get_child("")
 
 
 def test_listeners_are_told_what_a_logger_and_its_children_say():

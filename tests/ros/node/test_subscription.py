@@ -1,11 +1,11 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from studio.errors import DestroyedError, MessageValueError
+from studio.errors import DestroyedError, MessageCallbackError, MessageValueError
 from studio.ros.attachment import Attachment
 from studio.ros.messages import message
 from studio.ros.node.spinning import spinning
@@ -299,3 +299,44 @@ def test_humble_has_no_hash_in_its_keys():
         listener.create_subscription(String, "old", lambda said: heard.append(said.data), LATCHED)
         spin_until(lambda: heard == ["humble"], listener)
         assert publisher.endpoint.key.endswith("/TypeHashNotSupported")
+
+
+def test_messages_are_taken_one_by_one_without_a_callback(nodes: tuple[Node, Node]):
+    talker, listener = nodes
+    publisher = talker.create_publisher(String, "taken", LATCHED)
+    publisher.publish(String(data="one"))
+    publisher.publish(String(data="two"))
+    subscription = listener.create_subscription(String, "taken", None, LATCHED)
+    taken: list[str] = []
+
+    def take() -> bool:
+        message = subscription.take_message()
+        if message is not None:
+            taken.append(message.data)
+        return len(taken) == 2
+
+    wait_until("both messages to be taken", take)
+    assert taken == ["one", "two"]
+    assert subscription.take_message() is None
+
+
+def takes_nothing(): ...
+
+
+def takes_three(a: int, b: int, c: int): ...
+
+
+@pytest.mark.parametrize(
+    ("callback", "said"),
+    [
+        (3, "and 3 does not: give the function itself, self.callback and not self.callback()."),
+        (takes_nothing, r"and takes_nothing\(\) does not: write def callback\(self, msg\)."),
+        (takes_three, r"and takes_three\(a, b, c\) does not"),
+    ],
+)
+def test_a_callback_that_takes_no_message_is_refused_at_once(
+    nodes: tuple[Node, Node], callback: object, said: str
+):
+    given: Any = callback
+    with pytest.raises(MessageCallbackError, match=f"The callback for /refused must .*{said}"):
+        nodes[0].create_subscription(String, "refused", given, 10)

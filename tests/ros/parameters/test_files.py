@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import ParameterFileError
-from studio.ros.parameters.files import read_parameters, write_parameters
+from studio.ros.parameters.files import read_all_parameters, read_parameters, write_parameters
 from studio.ros.parameters.parameter import Parameter
 
 
@@ -97,3 +97,22 @@ def test_a_file_that_is_wrong_says_where(text: str, reason: str):
     with pytest.raises(ParameterFileError, match=reason) as raised:
         read_parameters(text, "/n", "params.yaml")
     assert str(raised.value).startswith("params.yaml: ")
+
+
+ALL = """\
+/one: {ros__parameters: {count: 3}}
+/ns: {two: {ros__parameters: {words: [a, b]}}}
+/**: {ros__parameters: {count: 9, all: true}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("wildcards", "values"),
+    [
+        (False, {"count": 3, "words": ["a", "b"]}),
+        (True, {"count": 3, "all": True, "words": ["a", "b"]}),
+    ],
+)
+def test_a_file_is_read_for_nodes_of_any_name(*, wildcards: bool, values: dict[str, object]):
+    found = read_all_parameters(ALL, "all.yaml", wildcards=wildcards)
+    assert {one.name: one.value for one in found} == values

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from studio.errors import (
+    NotCallableError,
     ParameterAlreadyDeclaredError,
     ParameterNotDeclaredError,
     ParameterUninitializedError,
@@ -35,6 +36,13 @@ def node(context: Context) -> Generator[Node]:
     made = Node("parameter_node", context=context)
     yield made
     made.destroy_node()
+
+
+def test_a_callback_that_is_no_function_is_refused(node: Node):
+    nothing: Any = None
+    for add in (node.add_on_set_parameters_callback, node.add_post_set_parameters_callback):
+        with pytest.raises(NotCallableError, match="must be callable, and None is not"):
+            add(nothing)
 
 
 def test_a_node_declares_what_every_node_has(node: Node):

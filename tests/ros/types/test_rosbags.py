@@ -1,5 +1,9 @@
 from __future__ import annotations
 
+import importlib
+
+import pytest
+
 from studio.ros.types.definitions import Constant, Field, FieldType, Shape
 from studio.ros.types.rosbags import MessageStore
 
@@ -27,3 +31,13 @@ def test_empty_messages_have_no_fields_and_unknown_ones_are_none():
 
 def test_distributions_have_stores_of_their_own():
     assert set(MessageStore("kilted").names()) > set(MessageStore("jazzy").names())
+
+
+@pytest.mark.parametrize("distro", ["humble", "jazzy", "kilted"])
+def test_tables_are_those_of_rosbags(distro: str):
+    table = importlib.import_module(f"rosbags.typesys.stores.ros2_{distro}").FIELDDEFS
+    store = MessageStore(distro)
+    assert store.names() == list(table)
+    point = store.find("geometry_msgs/msg/Point")
+    assert point is not None
+    assert [field.name for field in point.fields] == [name for name, _ in table[point.name][1]]

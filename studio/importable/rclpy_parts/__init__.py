@@ -1,0 +1,1 @@
+"""What rclpy has beside nodes and their parts, which are in `studio.ros`."""

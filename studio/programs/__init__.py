@@ -1,0 +1,1 @@
+"""What PACKAGE EXECUTABLE starts: found, checked and said in one place; nothing is run here."""
