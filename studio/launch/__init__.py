@@ -1,0 +1,1 @@
+"""Launch files: what they would start (a plan), and starting it as one group."""
