@@ -12,7 +12,12 @@ StudioError
         UnsafeArchiveError
         ExportError
         NotMadeError
+        NotRunnableError
         UploadError
+    ProgramError
+        ProgramNotFoundError
+        CompiledProgramError
+        EntryPointError
     DescriptionError
         ExpansionError
             RefusedError
@@ -26,6 +31,10 @@ StudioError
         VariantsFileError
         PosesFileError
     LessonError
+    LaunchError
+        LaunchFileError
+        LaunchNotFoundError
+        SubstitutionFailure
     RobotError
         MeshError
     SceneError
@@ -37,12 +46,17 @@ StudioError
         NotAdmittedError
         RouterNotStartedError
         RosNameError
+            TopicNameError
+            NodeNameError
+            NamespaceError
         TokenError
         AttachmentError
         InterfaceError
             InterfaceTextError
             UnknownTypeError
+            InterfaceClassError
         MessageValueError
+            OtherMessageError
         CdrError
         ParameterError
             ParameterNotDeclaredError
@@ -73,6 +87,10 @@ StudioError
             QosOverrideError
             UnsupportedEventTypeError
             ExternalShutdownException
+            NodeNameNonExistentError
+            RclError
+            ExecutorTimeoutError
+            WouldFailError
     WorkerError
         WorkerTimeoutError
         WorkerDiedError
@@ -195,6 +213,14 @@ class NotMadeError(PackageError):
         self.path, self.reason = path, reason
 
 
+class NotRunnableError(PackageError):
+    """A file may not be run, planned, or edited as a program."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"{path} is not run: {reason}.")
+        self.path, self.reason = path, reason
+
+
 class UploadError(PackageError):
     """Files that were sent to the studio cannot be taken; nothing of them is kept."""
 
@@ -209,6 +235,42 @@ class ExportError(PackageError):
     def __init__(self, what: str, reason: str) -> None:
         super().__init__(f"{what} was not exported: {reason}.")
         self.what, self.reason = what, reason
+
+
+class ProgramError(StudioError):
+    """What was to be started cannot be."""
+
+
+class ProgramNotFoundError(ProgramError):
+    """No package, or no executable, of that name."""
+
+    def __init__(self, package: str, executable: str, reason: str) -> None:
+        super().__init__(reason)
+        self.package, self.executable, self.reason = package, executable, reason
+
+
+class CompiledProgramError(ProgramError):
+    """An executable is compiled from a source that is not Python, and was not built."""
+
+    def __init__(self, package: str, executable: str, source: str) -> None:
+        super().__init__(
+            f"{package} {executable} is compiled from {source}, and no build of it was found: "
+            f"the studio runs Python only, build it with colcon build --packages-select {package} "
+            "where ROS is installed, and source install/setup.bash."
+        )
+        self.package, self.executable, self.source = package, executable, source
+
+
+class EntryPointError(ProgramError):
+    """The files of a package do not start what they should; `problem` has the place and mend."""
+
+    def __init__(self, problem: Problem) -> None:
+        fix = problem.fix
+        mend = f" [{fix.label}: studio pkg check --fix does it]" if fix else ""
+        place = problem.place
+        where = f"{place.file}:{place.line}: " if place else ""
+        super().__init__(f"{where}{problem.sentence}{mend}")
+        self.problem = problem
 
 
 class DescriptionError(StudioError):
@@ -304,6 +366,31 @@ class PosesFileError(DescriptionError):
 
 class LessonError(StudioError):
     """A lesson, or a check in it, is not written as lessons are."""
+
+
+class LaunchError(StudioError):
+    """A launch file cannot be found, read, planned or run."""
+
+
+class LaunchFileError(LaunchError):
+    """A launch file has a fault; `line` is 1-based, 0 where it is not known."""
+
+    def __init__(self, path: str, line: int, reason: str) -> None:
+        place = f"{path}:{line}" if line else path
+        super().__init__(f"{place}: {reason}")
+        self.path, self.line, self.reason = path, line, reason
+
+
+class TooManyActionsError(LaunchError):
+    """A launch file does more than is done for one."""
+
+
+class LaunchNotFoundError(LaunchError):
+    """No launch file has that name; the sentence says what there is instead."""
+
+
+class SubstitutionFailure(LaunchError):  # noqa: N818 - ROS's name
+    """A substitution has no value; ROS's name, for launch files catch it."""
 
 
 class RobotError(StudioError):
@@ -499,6 +586,18 @@ class RosNameError(WireError):
         self.name, self.reason = name, reason
 
 
+class TopicNameError(RosNameError, ValueError):
+    """No topic, service or action may be named so."""
+
+
+class NodeNameError(RosNameError):
+    """No node may be named so."""
+
+
+class NamespaceError(RosNameError):
+    """No namespace may be named so."""
+
+
 class TokenError(WireError):
     """A liveliness token, or the QoS in it, is none of rmw_zenoh's."""
 
@@ -540,12 +639,32 @@ class UnknownTypeError(InterfaceError):
         self.name, self.reason = name, reason
 
 
-class MessageValueError(WireError):
+class InterfaceClassError(InterfaceError, AttributeError):
+    """A class of messages or a service is needed, and something else was given."""
+
+    def __init__(self, given: str, word: str) -> None:
+        super().__init__(
+            f"{given} is no {word} of ROS 2: import one, such as "
+            + (
+                "from std_msgs.msg import String"
+                if word == "message"
+                else "from std_srvs.srv import Trigger"
+            )
+            + ", from the package that defines it."
+        )
+        self.given, self.word = given, word
+
+
+class MessageValueError(WireError, AssertionError):
     """A value does not fit the field of a message."""
 
     def __init__(self, field: str, reason: str) -> None:
         super().__init__(f"{field}: {reason}.")
         self.field, self.reason = field, reason
+
+
+class OtherMessageError(MessageValueError, TypeError):
+    """A message of one type is needed, and another, or no message, was given."""
 
 
 class CdrError(WireError):
@@ -734,7 +853,7 @@ class NotJoinedError(NodeError):
         )
 
 
-class AlreadyJoinedError(NodeError):
+class AlreadyJoinedError(NodeError, RuntimeError):
     """`init` was called twice."""
 
     def __init__(self) -> None:
@@ -791,6 +910,61 @@ class ExternalShutdownException(NodeError):  # noqa: N818  # the name that rclpy
 
     def __init__(self) -> None:
         super().__init__("The node was told to end.")
+
+
+class NodeNameNonExistentError(NodeError):
+    """No node of that name is in the graph."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(f"No node {path} is there: ros2 node list names those that are.")
+        self.path = path
+
+
+class RclError(NodeError, RuntimeError):
+    """What rcl refuses, in its words, for a program that knows them."""
+
+
+class MessageCallbackError(NodeError, RuntimeError):
+    """What a subscription was to call does not take a message."""
+
+    def __init__(self, topic: str, given: str, *, is_callable: bool) -> None:
+        mend = (
+            "write def callback(self, msg)"
+            if is_callable
+            else "give the function itself, self.callback and not self.callback()"
+        )
+        super().__init__(
+            f"The callback for {topic} must take a message, or a message and its MessageInfo, and "
+            f"{given} does not: {mend}."
+        )
+        self.topic, self.given = topic, given
+
+
+class NotCallableError(NodeError, TypeError):
+    """What was to be called back is no function."""
+
+    def __init__(self, given: str) -> None:
+        super().__init__(
+            f"A callback must be callable, and {given} is not: give the function itself, "
+            "self.callback and not self.callback()."
+        )
+        self.given = given
+
+
+class ExecutorTimeoutError(NodeError):
+    """No work was ready in time."""
+
+    def __init__(self) -> None:
+        super().__init__("No work of the nodes was ready in time: wait for it again.")
+
+
+class WouldFailError(NodeError):
+    """A user's program does what works here and would fail in ROS 2."""
+
+    def __init__(self, place: str, reason: str, mend: str) -> None:
+        where = f"{place}: " if place else ""
+        super().__init__(f"would fail in ROS 2: {where}{reason}: {mend}.")
+        self.place, self.reason, self.mend = place, reason, mend
 
 
 class CallRefusedError(CallError):

@@ -82,6 +82,8 @@ class Settings:
     """Each a lesson, or with a lesson in each folder of it."""
     display_folders: tuple[Path, ...] = ()
     """Each Python file in one is a display of the owner's own, which is run."""
+    run_folders: tuple[Path, ...] = ()
+    """Whose launch files and nodes the owner may run, and whose programs edit, out of the page."""
     trusted: bool = False
     open_browser: bool = True
     wire: WireChoice = WireChoice()

@@ -26,6 +26,10 @@ const LayoutsDialog = later(async () => (await import("./layouts-dialog.js")).La
 const NodesDialog = later(async () => (await import("./nodes-dialog.js")).NodesDialog);
 const OpenDialog = later(async () => (await import("./open-dialog.js")).OpenDialog);
 const PackageDialog = later(async () => (await import("./open-dialog.js")).PackageDialog);
+const NewPackageDialog = later(async () => (await import("./package-dialogs.js")).NewPackageDialog);
+const AddToPackageDialog = later(
+  async () => (await import("./package-dialogs.js")).AddToPackageDialog,
+);
 const OpenConfigDialog = later(async () => (await import("./rviz-dialogs.js")).OpenConfigDialog);
 const OpenedConfigDialog = later(
   async () => (await import("./rviz-dialogs.js")).OpenedConfigDialog,
@@ -83,6 +87,10 @@ function ShownDialog() {
       return html`<${SaveConfigDialog} onClose=${close} />`;
     case "rviz_opened":
       return html`<${OpenedConfigDialog} opened=${shown.opened} onClose=${close} />`;
+    case "new_package":
+      return html`<${NewPackageDialog} onClose=${close} />`;
+    case "add_to_package":
+      return html`<${AddToPackageDialog} what=${shown.what} folder=${shown.folder} name=${shown.name} onClose=${close} />`;
     case "layouts":
       return html`<${LayoutsDialog} onClose=${close} />`;
     case "keys":

@@ -154,6 +154,8 @@ export const OF_DIALOG = {
   remark: "class",
   ros: "ros",
   add_display: "live",
+  new_package: "packages",
+  add_to_package: "packages",
   rviz_open: "rviz",
   rviz_save: "rviz",
   rviz_opened: "rviz",

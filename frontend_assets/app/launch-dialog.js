@@ -10,8 +10,8 @@ import { isChanged } from "../lib/sites.js";
 import { Dialog, EmptyState, Icon, IconButton, ProgressBar, Switch } from "../lib/ui.js";
 import {
   allSites,
+  documentProblems,
   documentState,
-  problems,
   showingLastGood,
   sitesRevision,
 } from "../model/document.js";
@@ -155,7 +155,7 @@ async function apply(values, edited, error) {
   const given = Object.fromEntries(values);
   if (values.size > 0 && !(await ask({ type: "set_arguments", values: given }))) return false;
   const failed = showingLastGood.value || documentState.value?.phase === "failed";
-  const worst = problems.value.find(({ severity }) => severity === "error");
+  const worst = documentProblems.value.find(({ severity }) => severity === "error");
   // What it still needs stands above the rows, and its field has the focus.
   const isKnown = worst?.fix?.action === "give_arguments";
   error.value = failed && worst && !isKnown ? worst.sentence : "";

@@ -8,9 +8,11 @@
 /** @import { Dock } from "../lib/dock.js" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { effect, signal, untracked } from "vendor/preact.js";
+import { computed, effect, signal, untracked } from "vendor/preact.js";
 import { readArrangement } from "../lib/arrangement.js";
 import { recall, remember, remembered } from "../lib/remembered.js";
+import { mayManage } from "../model/connection.js";
+import { documentState } from "../model/document.js";
 import { layoutControl, size } from "../model/view.js";
 
 const PHONE_BELOW_PX = 700;
@@ -28,8 +30,8 @@ function sizeOf(width, height) {
 }
 
 /** @typedef {"left" | "middle" | "below" | "right" | "upper" | "lower" | "tabs"} Part of a layout */
-/** @typedef {Partial<Record<"wide" | "medium" | "live" | "phone", string>>} Places of a panel by layout: its part, and its number among the tabs there, as `below 4`; without a number it is the last */
-/** @typedef {Record<string, {places?: Places}>} PlacedPanels by their ids */
+/** @typedef {Partial<Record<"wide" | "medium" | "live" | "workspace" | "phone", string>>} Places of a panel by layout: its part, and its number among the tabs there, as `below 4`; without a number it is the last */
+/** @typedef {Record<string, {places?: Places, runs?: boolean}>} PlacedPanels by their ids; `runs`: beside a robot only where something may be run */
 
 /** @param {PlacedPanels} panels @param {keyof Places} layout @param {Part} wanted @returns {string[]} ids of those that have their place there, in order */
 export function placedPanels(panels, layout, wanted) {
@@ -76,8 +78,42 @@ function modelLayout(kind, width, height, panels) {
   ];
 }
 
+/**
+ * A folder of packages without a robot has a layout of its own: packages, their texts, what runs.
+ *
+ * @param {"wide" | "medium"} kind @param {number} width px @param {number} height px @param {PlacedPanels} panels
+ * @returns {Split[]} a row, left to right
+ */
+function workspaceLayout(kind, width, height, panels) {
+  const tabsOf = (/** @type {Part} */ part) => placedPanels(panels, "workspace", part);
+  const low = Math.round(height * LIVE_LOW_SHARE);
+  const middle = [
+    { tabs: tabsOf("middle"), size: height - low },
+    { tabs: tabsOf("below"), size: low },
+  ];
+  if (kind === "medium") {
+    const side = Math.round(Math.min(400, width * 0.42));
+    return [
+      { tabs: [...tabsOf("left"), ...tabsOf("right")], size: side },
+      { split: middle, size: width - side },
+    ];
+  }
+  const left = Math.round(Math.min(370, width * 0.24));
+  const right = Math.round(Math.min(470, width * 0.3));
+  return [
+    { tabs: tabsOf("left"), size: left },
+    { split: middle, size: width - left - right },
+    { tabs: tabsOf("right"), size: right },
+  ];
+}
+
+/** The document is a folder of packages without a robot. */
+const isBare = computed(() => documentState.value?.is_bare ?? false);
+/** What lies beside the robot may be run by whoever looks. */
+const mayRunHere = computed(() => mayManage.value && (documentState.value?.may_run ?? false));
+
 /** @param {"wide" | "medium" | "phone"} kind */
-const storeName = (kind) => `layout.${VERSION}.${kind}`;
+const storeName = (kind) => `layout.${VERSION}.${kind}${isBare.peek() ? ".workspace" : ""}`;
 
 /**
  * Keep the dock arranged as the size of the window asks.
@@ -90,6 +126,8 @@ const storeName = (kind) => `layout.${VERSION}.${kind}`;
 export function followSize(dock, element, panels) {
   const arrange = () => {
     const kind = size.value;
+    isBare.value;
+    mayRunHere.value;
     // The words of a panel come with it: they must not arrange all anew.
     untracked(() => {
       dock.setSingle(kind === "phone");
@@ -115,15 +153,23 @@ export function followSize(dock, element, panels) {
 function arrangementFor(kind, element, panels) {
   const given = { parts: givenLayout(kind, element.clientWidth, element.clientHeight, panels) };
   if (kind === "phone") return given;
-  const chosen = recall(storeName(kind)) ?? ownArrangement(layoutInUse.value);
+  const own = isBare.value ? null : ownArrangement(layoutInUse.value);
+  const chosen = recall(storeName(kind)) ?? own;
   return readArrangement(chosen, (id) => Object.hasOwn(panels, id))?.arrangement ?? given;
+}
+
+/** @param {PlacedPanels} panels @returns {PlacedPanels} those that are of use where nothing may be run */
+export function withoutRunning(panels) {
+  return Object.fromEntries(Object.entries(panels).filter(([, { runs }]) => !runs));
 }
 
 /** @param {"wide" | "medium" | "phone"} kind @param {number} width px @param {number} height px @param {PlacedPanels} panels */
 function givenLayout(kind, width, height, panels) {
+  if (kind !== "phone" && isBare.value) return workspaceLayout(kind, width, height, panels);
+  const placed = kind === "phone" || mayRunHere.value ? panels : withoutRunning(panels);
   if (kind !== "phone" && layoutInUse.value === LIVE)
-    return liveLayout(kind, width, height, panels);
-  return modelLayout(kind, width, height, panels);
+    return liveLayout(kind, width, height, placed);
+  return modelLayout(kind, width, height, placed);
 }
 
 /** @param {Dock} dock @param {() => void} arrange @returns {import("../model/view.js").LayoutControl} */

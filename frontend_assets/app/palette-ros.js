@@ -5,6 +5,7 @@
 /** @import { Choice } from "./palette-choices.js" */
 
 import { commandById, commandLabel } from "../lib/commands.js";
+import { commandsOf, mendedLine, toldLines } from "../lib/course-lines.js";
 import { language, t } from "../lib/i18n.js";
 import { readLine, ros2LinesFor } from "../lib/ros2-lines.js";
 import { mayManage } from "../model/connection.js";
@@ -19,13 +20,29 @@ import {
   stopDemo,
 } from "../model/lessons.js";
 import { goalForm, publishForm, serviceForm } from "../model/message-forms.js";
+import { actions, askActions, askServices, services } from "../model/operations.js";
 import { chooseNode } from "../model/parameters.js";
+import { askWorkspaces } from "../model/programs.js";
 import { ros } from "../model/ros.js";
 import { chosenTopic } from "../model/topics.js";
+import { notify } from "../model/view.js";
+import { programChoices } from "./palette-programs.js";
 import { panelTitle } from "./panels.js";
+
+/** Services that courses call by name before anybody asked the graph for them. @type {Record<string, string>} */
+const WELL_KNOWN = {
+  "/spawn": "turtlesim/srv/Spawn",
+  "/kill": "turtlesim/srv/Kill",
+  "/clear": "std_srvs/srv/Empty",
+  "/reset": "std_srvs/srv/Empty",
+  "/turtle1/cmd_vel": "geometry_msgs/msg/Twist",
+};
 
 /** Have the list of lessons, what runs of them, and their texts. */
 export async function askForLessons() {
+  // A call that lacks its type is mended with what the graph knows.
+  if (ros.peek().state === "connected") void Promise.all([askServices(), askActions()]);
+  void askWorkspaces();
   await askLessons();
   await fetchLessons(language.peek(), lessons.peek() ?? []);
 }
@@ -82,8 +99,27 @@ export function demoChoices() {
   });
 }
 
-/** @param {string} text that was typed @returns {Choice[]} none where it is no line of ROS 2 */
+/**
+ * What a typed or pasted line of a shell is here: done in a panel, explained, or mended first.
+ *
+ * @param {string} text that was typed
+ * @returns {Choice[]} none where it is no line that courses of ROS 2 print
+ */
 export function ros2Choices(text) {
+  const real = programChoices(text);
+  if (real.length > 0) return real;
+  const commands = commandsOf(text);
+  const whole = commands.length > 1 ? commands : [text];
+  return [
+    ...mendedChoices(text),
+    ...toldChoices(text),
+    ...whole.flatMap((command) => lineChoices(command)),
+  ];
+}
+
+/** @param {string} text of one command @returns {Choice[]} */
+function lineChoices(text) {
+  if (toldLines(text).length > 0) return [];
   return ros2LinesFor(text).map(({ line, rest }) => ({
     rank: "ros2",
     key: line.line,
@@ -95,6 +131,51 @@ export function ros2Choices(text) {
     }),
     run: () => follow(line, rest, text),
   }));
+}
+
+/** @param {string} text @returns {Choice[]} the line that was meant by a misspelt one */
+function mendedChoices(text) {
+  const mended = mendedLine(text, typeInGraph);
+  const [meant] = mended ? ros2LinesFor(mended) : [];
+  if (!mended || !meant) return [];
+  const { line, rest } = meant;
+  return [
+    {
+      rank: "ros2",
+      key: `mended ${line.line}`,
+      icon: "wand",
+      label: mended,
+      hint: t("palette.hint.mended"),
+      does: t("palette.does.mended", { panel: placeName(line) }),
+      run: () => follow(line, rest, mended),
+    },
+  ];
+}
+
+/** @param {string} kind @param {string} name @returns {string} the type of a topic or service that the studio has seen; empty: not known */
+export function typeInGraph(kind, name) {
+  const known = kind === "service" ? services.value : kind === "action" ? actions.value : null;
+  return known?.find((one) => one.name === name)?.types[0] ?? WELL_KNOWN[name] ?? "";
+}
+
+/** @param {string} text @returns {Choice[]} */
+function toldChoices(text) {
+  return toldLines(text).map(({ command, key, values, panel }) => {
+    const sentence = t(`line.${key}`, values);
+    const place = commandById(`panel.${panel}`);
+    return {
+      rank: "ros2",
+      key: `told ${key}`,
+      icon: "help",
+      label: command,
+      hint: place && panel ? panelTitle(panel) : t("palette.hint.explained"),
+      does: sentence,
+      run: () => {
+        place?.run();
+        notify(sentence, { long: true });
+      },
+    };
+  });
 }
 
 /** @param {Ros2Line} line @returns {string} where it is done: a panel, or a window */
@@ -116,6 +197,11 @@ function follow({ panel, about, form }, rest, text) {
   if (about === "demo") {
     const known = lessons.value?.find(({ name: demo }) => rest.includes(demo));
     if (known) chosenLesson.value = known.name;
+    else if (rest.length > 1) {
+      const program = rest.slice(0, 2).join(" ");
+      notify(t("line.run", { program }), { long: true });
+      return;
+    }
   }
   (commandById(`panel.${panel}`) ?? commandById(panel))?.run();
 }

@@ -4,6 +4,7 @@
 /** @import { Choice } from "./palette-choices.js" */
 
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
+import { oneLine } from "../lib/course-lines.js";
 import { t } from "../lib/i18n.js";
 import { marksOf, ranked } from "../lib/ranking.js";
 import { recall, remember } from "../lib/remembered.js";
@@ -23,6 +24,8 @@ const RECENT_MOST = 5;
 /** Of each kind, where several kinds are shown and where only one is. */
 const EACH_MOST = 7;
 const ONE_MOST = 60;
+/** Characters. */
+const PASTED_MAX = 4000;
 
 /** @param {{onClose: () => void}} props */
 export function Palette({ onClose }) {
@@ -73,10 +76,18 @@ export function Palette({ onClose }) {
     typed.value = event.currentTarget.value;
     at.value = 0;
   };
+  /** @param {any} event lines of a terminal: the box itself would take them for one word */
+  const onPaste = (event) => {
+    const pasted = event.clipboardData?.getData("text/plain") ?? "";
+    if (!pasted.trim().includes("\n")) return;
+    event.preventDefault();
+    typed.value = oneLine(pasted).slice(0, PASTED_MAX);
+    at.value = 0;
+  };
   return html`<${Dialog} title=${t("command.palette")} closeLabel=${t("close")} class="palette" onClose=${onClose}>
     <input type="text" class="palette-input" role="combobox" aria-expanded="true" aria-controls="palette-list" data-first
       aria-activedescendant=${choices[active] ? `palette-${active}` : null} aria-label=${t("palette.hint")} placeholder=${t("palette.hint")}
-      value=${typed.value} spellcheck=${false} autocomplete="off" onKeyDown=${onKeyDown} onInput=${onInput} />
+      value=${typed.value} spellcheck=${false} autocomplete="off" onKeyDown=${onKeyDown} onInput=${onInput} onPaste=${onPaste} />
     <div class="palette-list" id="palette-list" role="listbox" aria-label=${t("command.palette")} ref=${list}>
       ${sections.map((section) => {
         const from = choices.indexOf(/** @type {Choice} */ (section.choices[0]));

@@ -29,6 +29,7 @@ export const PANEL_GROUPS = /** @type {const} */ (["robot", "files", "watch", "a
  * @property {string | Shapes} icon name of one that several use, or the shapes of its own, which is then named by its id
  * @property {number} [order] in menus and in the help; without it comes last
  * @property {Places} [places] in the first layouts
+ * @property {boolean} [runs] in the first layouts of a robot it stands only where something may be run
  * @property {keyof typeof BADGES} [badge] what is counted on its tab
  * @property {boolean} [keepsFrame] its element is never moved: a frame in it would load anew
  * @property {boolean} [heavy] takes long, so it is loaded once the rest of the page stands

@@ -21,18 +21,23 @@ const verbsOf = (panel, command, verbs, about) =>
 export const ROS2_LINES = [
   ...verbsOf("topics", "topic", "list echo hz bw delay info type find", "topic"),
   { line: "ros2 topic pub", panel: "publish", form: "topic" },
-  ...verbsOf("services", "service", "list type find"),
+  ...verbsOf("services", "service", "list type find info"),
   { line: "ros2 service call", panel: "services", form: "service" },
-  ...verbsOf("actions", "action", "list info"),
+  ...verbsOf("actions", "action", "list info type"),
   { line: "ros2 action send_goal", panel: "actions", form: "action" },
   ...verbsOf("parameters", "param", "list get set describe dump load delete", "node"),
   ...verbsOf("graph", "node", "list info"),
   ...verbsOf("interfaces", "interface", "list show package packages proto", "interface"),
   ...verbsOf("lifecycle", "lifecycle", "nodes get set list"),
   { line: "ros2 run", panel: "lessons", about: "demo" },
+  { line: "ros2 run rviz2 rviz2", panel: "scene" },
+  { line: "ros2 run rqt_graph rqt_graph", panel: "graph" },
+  { line: "ros2 run turtlesim turtlesim_node", panel: "turtlesim" },
+  { line: "ros2 run turtlesim turtle_teleop_key", panel: "teleop" },
+  { line: "ros2 run joint_state_publisher_gui joint_state_publisher_gui", panel: "joints" },
   { line: "ros2 run tf2_tools view_frames", panel: "frames" },
   { line: "ros2 run tf2_ros tf2_echo", panel: "frames" },
-  { line: "ros2 launch", panel: "arguments" },
+  { line: "ros2 launch", panel: "launch" },
   { line: "ros2 doctor", panel: "doctor" },
   { line: "rqt_graph", panel: "graph" },
   { line: "rqt_plot", panel: "plot" },
@@ -41,6 +46,24 @@ export const ROS2_LINES = [
   { line: "rviz2", panel: "scene" },
 ];
 
+/** The commands of `ros2` and their verbs; those without verbs take arguments at once. @type {Record<string, readonly string[]>} */
+export const COMMAND_VERBS = {
+  topic: ["list", "echo", "hz", "bw", "delay", "info", "type", "find", "pub"],
+  service: ["list", "type", "find", "info", "call"],
+  action: ["list", "info", "type", "send_goal"],
+  param: ["list", "get", "set", "describe", "dump", "load", "delete"],
+  node: ["list", "info"],
+  interface: ["list", "show", "package", "packages", "proto"],
+  lifecycle: ["nodes", "get", "set", "list"],
+  pkg: ["create", "executables", "list", "prefix", "xml"],
+  bag: ["record", "play", "info", "convert", "reindex", "list"],
+  daemon: ["start", "stop", "status"],
+  run: [],
+  launch: [],
+  doctor: [],
+  wtf: [],
+};
+
 /**
  * The lines that somebody who typed this may mean.
  *
@@ -48,8 +71,10 @@ export const ROS2_LINES = [
  * @returns {readonly {line: Ros2Line, rest: readonly string[]}[]} `rest`: the words behind the line; longest line first
  */
 export function ros2LinesFor(text) {
-  const typed = (shellWords(text.trim().replace(/^[$>]\s+/, "")) ?? text.trim().split(/\s+/)).map(
-    (word, at) => (at === 0 && word === "studio" ? "ros2" : word),
+  const typed = withoutHelp(
+    (shellWords(unprompted(text)) ?? text.trim().split(/\s+/)).map((word, at) =>
+      at === 0 && word === "studio" ? "ros2" : word,
+    ),
   );
   const whole = ROS2_LINES.flatMap((line) => {
     const words = line.line.split(" ");
@@ -64,6 +89,14 @@ export function ros2LinesFor(text) {
     line,
     rest: [],
   }));
+}
+
+/** @param {string} text @returns {string} without the sign of a prompt, or of a comment, before it */
+const unprompted = (text) => text.trim().replace(/^([$>#]\s+)+/, "");
+
+/** @param {string[]} words @returns {string[]} `ros2 topic -h` asks for the verbs: what begins so is offered */
+function withoutHelp(words) {
+  return /^(-h|--help)$/.test(words.at(-1) ?? "") ? words.slice(0, -1) : words;
 }
 
 /**
@@ -91,7 +124,7 @@ const RATE_HZ = 1;
 
 /** @param {string} text @returns {PastedLine | null} null: it is no such line */
 export function readLine(text) {
-  const words = shellWords(text.trim().replace(/^[$>]\s+/, ""));
+  const words = shellWords(unprompted(text));
   if (!words || !/^(ros2|studio)$/.test(words[0] ?? "")) return null;
   const kind = words[1] ?? "";
   const known = Object.hasOwn(KINDS, kind) ? KINDS[kind] : undefined;

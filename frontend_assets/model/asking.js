@@ -140,6 +140,8 @@ const changes = {
   lessons: signal(0),
   lesson_list: signal(0),
   ticks: signal(0),
+  workspaces: signal(0),
+  runs: signal(0),
 };
 
 subscribe("changed", ({ subject }) => {
@@ -171,6 +173,8 @@ const FOLLOW = {
   lessons: followChanges("lessons"),
   lesson_list: followChanges("lesson_list"),
   ticks: followChanges("ticks"),
+  workspaces: followChanges("workspaces"),
+  runs: followChanges("runs"),
 };
 
 /** @param {() => Promise<boolean | void>} ask gives whether there is more @returns {() => Promise<void>} asks; while that goes on, once more afterwards */

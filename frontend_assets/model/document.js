@@ -20,8 +20,12 @@ export const documents = signal([]);
 export const documentState = signal(null);
 /** @type {Signal<RobotState | null>} */
 export const robot = signal(null);
-/** @type {Signal<readonly Problem[]>} */
-export const problems = signal([]);
+/** Of the robot and its texts. @type {Signal<readonly Problem[]>} */
+export const documentProblems = signal([]);
+/** Of the packages around it, as far as somebody looked. @type {import("vendor/preact.js").Signal<readonly Problem[]>} */
+export const packageProblems = signal([]);
+/** Both. */
+export const problems = computed(() => [...documentProblems.value, ...packageProblems.value]);
 export const showingLastGood = signal(false);
 /** @type {Signal<History>} */
 export const history = signal({
@@ -180,7 +184,7 @@ subscribe("joints", (event) => {
 });
 subscribe("sites", takeSites);
 subscribe("problems", (event) => {
-  problems.value = event.problems;
+  documentProblems.value = event.problems;
   showingLastGood.value = event.showing_last_good;
 });
 subscribe("history", (event) => {

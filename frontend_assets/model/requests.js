@@ -9,10 +9,11 @@ import { allSettled, latestSender } from "../lib/latest.js";
 import { documentId, mayEdit, mayManage, role } from "./connection.js";
 import {
   animating,
+  documentProblems,
   documentState,
   gone,
   history,
-  problems,
+  packageProblems,
   showBeforeSaving,
   unsaved,
 } from "./document.js";
@@ -196,16 +197,24 @@ async function applyFix({ code, sentence, fix }) {
   return ask({ type: "apply_fix", code, sentence, label: fix?.label ?? "" });
 }
 
+/** Mends what is wrong in packages; who knows them puts it here. @type {{mend: (problem: import("../types/wire.d.ts").Problem) => Promise<unknown>}} */
+export const packageMender = { mend: async () => {} };
+
 const MENDED_BY_EDITS = ["edit", "undo", "resolve_collisions"];
 
 /** @param {import("../types/wire.d.ts").Problem} problem @returns {boolean} this person may have it mended */
-export const canMend = ({ fix }) =>
-  fix !== null && (MENDED_BY_EDITS.includes(fix.action) ? mayEdit.value : mayManage.value);
+export const canMend = (problem) =>
+  problem.fix !== null &&
+  (packageProblems.value.includes(problem) ? mayManage.value : mayMend(problem.fix));
+
+/** @param {NonNullable<import("../types/wire.d.ts").Problem["fix"]>} fix of the document's own */
+const mayMend = (fix) => (MENDED_BY_EDITS.includes(fix.action) ? mayEdit.value : mayManage.value);
 
 /** @param {import("../types/wire.d.ts").Problem} problem */
 export function mend(problem) {
   const { fix } = problem;
   if (!fix) return undefined;
+  if (packageProblems.value.includes(problem)) return packageMender.mend(problem);
   if (fix.action === "edit") return applyFix(problem);
   if (fix.action === "undo") return undo();
   if (fix.action === "choose_package") dialog.value = { kind: "choose_package", name: fix.target };
@@ -215,10 +224,10 @@ export function mend(problem) {
   return undefined;
 }
 
-/** @returns {import("../types/wire.d.ts").Problem | undefined} what hinders most */
+/** @returns {import("../types/wire.d.ts").Problem | undefined} what hinders the robot most */
 export function worstProblem() {
   const order = ["error", "warning", "info"];
-  return [...problems.value].sort(
+  return [...documentProblems.value].sort(
     (a, b) => order.indexOf(a.severity) - order.indexOf(b.severity),
   )[0];
 }

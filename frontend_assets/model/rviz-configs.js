@@ -103,9 +103,9 @@ export const configItems = () =>
     };
   });
 
-/** @param {string} path @returns {Promise<boolean>} */
-export async function openConfigFile(path) {
-  return takeOpened(await ask({ type: "open_rviz_file", path }));
+/** @param {string} path @param {{briefly?: boolean}} [options] `briefly`: a notice says so, and no window stands over what a person does @returns {Promise<boolean>} */
+export async function openConfigFile(path, { briefly = false } = {}) {
+  return takeOpened(await ask({ type: "open_rviz_file", path }), briefly);
 }
 
 /** @param {File} file that this browser has @returns {Promise<boolean>} */
@@ -119,14 +119,21 @@ export async function openConfigOf(file) {
   );
 }
 
-/** @param {import("./wire.js").Answer | null} answer @returns {boolean} */
-function takeOpened(answer) {
+/** @param {import("./wire.js").Answer | null} answer @param {boolean} [briefly] @returns {boolean} */
+function takeOpened(answer, briefly = false) {
   if (answer?.type !== "rviz_config_opened") return false;
   const { view, page } = answer;
   movedByHand.value = false;
   if (view) useView(view);
   if (page) pagePart.take(page);
-  dialog.value = { kind: "rviz_opened", opened: answer };
+  const show = () => {
+    dialog.value = { kind: "rviz_opened", opened: answer };
+  };
+  if (briefly)
+    notify(t("rviz.opened.title", { name: answer.name }), {
+      action: { label: t("rviz.opened.more"), run: show },
+    });
+  else show();
   return true;
 }
 

@@ -51,7 +51,7 @@ export const size = signal("wide");
 export const fullView = signal(new URLSearchParams(globalThis.location?.search).has("fullscreen"));
 
 /** @typedef {"recent" | "browse" | "examples" | "new" | "paste" | "ros"} OpenTab */
-/** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "class"} | {kind: "class_name"} | {kind: "nodes"} | {kind: "remark", document: string} | {kind: "layouts"} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "rviz_open"} | {kind: "rviz_save"} | {kind: "rviz_opened", opened: import("../types/wire.d.ts").RvizConfigOpened} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
+/** @typedef {{kind: "open", tab?: OpenTab} | {kind: "save_as"} | {kind: "choose_package", name: string} | {kind: "launch", path: string} | {kind: "merge", file: string} | {kind: "share", link: import("../types/wire.d.ts").Link} | {kind: "save"} | {kind: "keys"} | {kind: "class"} | {kind: "class_name"} | {kind: "nodes"} | {kind: "remark", document: string} | {kind: "layouts"} | {kind: "new_package"} | {kind: "add_to_package", what: import("../types/wire.d.ts").AddToPackage["what"], folder: string, name: string} | {kind: "graphics"} | {kind: "ros"} | {kind: "add_display"} | {kind: "palette"} | {kind: "rviz_open"} | {kind: "rviz_save"} | {kind: "rviz_opened", opened: import("../types/wire.d.ts").RvizConfigOpened} | {kind: "confirm", title: string, text: string, details?: readonly string[], action: string, danger?: boolean, run: () => void}} Shown */
 /** The one window over the page. @type {Signal<Shown | null>} */
 export const dialog = signal(null);
 /** No window waits for an answer; the palette is gone before what it found begins. */
@@ -63,15 +63,20 @@ export const isFree = () => dialog.value === null || dialog.value.kind === "pale
 export const notices = signal([]);
 let noticeCount = 0;
 
-/** @param {string} text @param {{bad?: boolean, action?: NoticeAction}} [options] shown for some seconds; what wants a decision longer */
-export function notify(text, { bad = false, action } = {}) {
+/**
+ * Show a sentence for some seconds; what wants a decision, or is long to read, for longer.
+ *
+ * @param {string} text
+ * @param {{bad?: boolean, long?: boolean, action?: NoticeAction}} [options]
+ */
+export function notify(text, { bad = false, long = false, action } = {}) {
   noticeCount += 1;
   const id = noticeCount;
   notices.value = [
     ...notices.value.filter((one) => one.text !== text).slice(-2),
     { id, text, bad, action: action ?? null },
   ];
-  setTimeout(() => dismiss(id), bad || action ? 9000 : 3500);
+  setTimeout(() => dismiss(id), bad || long || action ? 9000 : 3500);
 }
 
 /** @param {number} id of a notice */

@@ -6,6 +6,7 @@
 /** @import { FormMessage, FormValue, MessageForm, Types } from "../model/message-forms.js" */
 
 import { html, useEffect, useId, useRef, useSignal } from "vendor/preact.js";
+import { mendedLine } from "../lib/course-lines.js";
 import { t } from "../lib/i18n.js";
 import { shownNumber } from "../lib/numbers.js";
 import { readLine } from "../lib/ros2-lines.js";
@@ -26,6 +27,7 @@ import {
   WORDS,
 } from "../model/message-forms.js";
 import { matchingOffers } from "../model/operations.js";
+import { notify } from "../model/view.js";
 import { ConnectFirst, isUnconnected, NothingThere, Refusal, RouterAway } from "./parts.js";
 
 /** @type {Record<string, string>} */
@@ -62,9 +64,11 @@ export function OperationPanel({ id, icon, kind, follow, onLine, children }) {
     };
   }, [looking]);
   const take = (/** @type {string} */ text) => {
-    const line = readLine(text);
+    const mended = mendedLine(text);
+    const line = readLine(mended ?? text);
     if (line?.kind !== kind) return false;
     onLine(line);
+    if (mended) notify(t("line.mended", { line: mended }), { long: true });
     return true;
   };
   const onPaste = (/** @type {ClipboardEvent} */ event) => {

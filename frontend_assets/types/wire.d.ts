@@ -31,6 +31,19 @@ export interface AddInterfaces {
   texts: Record<string, string>;
 }
 
+/** Add a message, service, action, node or launch file to a package. */
+export interface AddToPackage {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "add_to_package";
+  package: string;
+  what: "message" | "service" | "action" | "node" | "launch_file";
+  name: string;
+  text?: string;
+  template?: "publisher" | "subscriber" | "service_server" | "service_client" | "action_server" | "action_client" | "parameters" | "timer" | "empty";
+}
+
 /** Add a tool at the end. */
 export interface AddTool {
   request?: number;
@@ -212,6 +225,14 @@ export interface CancelGoal {
   operation: number;
 }
 
+/** End the planning that the same person asked for. */
+export interface CancelPlan {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "cancel_plan";
+}
+
 /** Trigger a transition of a managed node; done when it was made, else refused. */
 export interface ChangeState {
   request?: number;
@@ -225,7 +246,7 @@ export interface ChangeState {
 /** The subject changed, once or several times since the last such event. */
 export interface Changed {
   type: "changed";
-  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "lesson_list" | "ticks";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "lesson_list" | "ticks" | "workspaces" | "runs";
 }
 
 /** Answer to `get_changes`. */
@@ -448,6 +469,25 @@ export interface CopyView {
   shown: boolean;
 }
 
+/** Make a package, in the words of `ros2 pkg create`. */
+export interface CreatePackage {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "create_package";
+  folder: string;
+  name: string;
+  build_type?: "ament_python" | "ament_cmake";
+  dependencies?: string[];
+  node_name?: string;
+  library_name?: string;
+  license?: string;
+  description?: string;
+  maintainer_name?: string;
+  maintainer_email?: string;
+  contents?: "nodes" | "interfaces" | "description";
+}
+
 /** Delete a lesson that was written in the page. */
 export interface DeleteLesson {
   request?: number;
@@ -515,6 +555,34 @@ export interface Demos {
   request: number;
   demos: DemoView[];
   elsewhere: string[];
+}
+
+/** One package of the workspace needs another one. */
+export interface DependencyEdgeView {
+  package: string;
+  needs: string;
+  kinds: string[];
+}
+
+/** Who needs whom. */
+export interface DependencyGraphView {
+  nodes: DependencyNodeView[];
+  edges: DependencyEdgeView[];
+  cycles: string[][];
+}
+
+/** A package in the graph. */
+export interface DependencyNodeView {
+  name: string;
+  presence: "workspace" | "installed" | "ros" | "system" | "unknown";
+}
+
+/** One package that is depended on, with every tag that says so. */
+export interface DependencyView {
+  name: string;
+  kinds: string[];
+  presence: "workspace" | "installed" | "ros" | "system" | "unknown";
+  line: number;
 }
 
 /** Ask where items are now, and for all that is known of a few of them. */
@@ -691,6 +759,8 @@ export interface DocumentState {
   packages: Record<string, string>;
   read_only: string[];
   phase: "opening" | "ready" | "failed";
+  is_bare: boolean;
+  may_run: boolean;
 }
 
 /** All open documents. */
@@ -800,6 +870,16 @@ export interface EndClass {
   type: "end_class";
 }
 
+/** End one process of a launch; it is not started again by itself. */
+export interface EndProcess {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "end_process";
+  run: number;
+  process: number;
+}
+
 /** A name and its type. */
 export interface EndView {
   name: string;
@@ -839,6 +919,17 @@ export interface Examples {
   type: "examples";
   request: number;
   examples: ExampleEntry[];
+}
+
+/** What `ros2 run` starts by a name; `file` null: no file of the package has its code. */
+export interface ExecutableView {
+  name: string;
+  place: string;
+  language: string;
+  file: string | null;
+  declared_in: string;
+  line: number;
+  fault: string;
 }
 
 /** One thing known of an item. */
@@ -914,13 +1005,14 @@ export interface Finding {
  *
  * Actions: `choose_package` (target: package name), `undo` (target: empty), `open_file` (target:
  * path), `resolve_collisions` (target: path of the file), `give_arguments` (target: empty), `edit`
- * (all of `edits`, as one undo step that bears the label).
+ * (all of `edits` and `new_files`, as one undo step that bears the label).
  */
 export interface Fix {
   label: string;
   action: string;
   target: string;
   edits: Replacement[];
+  new_files: NewFile[];
 }
 
 /** Whether there is such a frame, as RViz's global status has it. */
@@ -972,7 +1064,7 @@ export interface FollowChanges {
   document?: string;
   id?: string;
   type: "follow_changes";
-  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "lesson_list" | "ticks";
+  subject: "graph" | "log" | "diagnostics" | "goal_statuses" | "lessons" | "lesson_list" | "ticks" | "workspaces" | "runs";
   following?: boolean;
 }
 
@@ -1011,6 +1103,15 @@ export interface ForgetRecent {
   id?: string;
   type: "forget_recent";
   path: string;
+}
+
+/** Take a run that has ended out of the list. */
+export interface ForgetRun {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "forget_run";
+  run: number;
 }
 
 /** Take a file out of those opened lately; answered with the list. */
@@ -1357,6 +1458,24 @@ export interface GetRenaming {
   name: string;
 }
 
+/** Ask for the lines of a run after one that is known; 0: for all that are kept. */
+export interface GetRunOutput {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_run_output";
+  run: number;
+  after?: number;
+}
+
+/** Ask for all runs; `changed` of the subject `runs` says when to ask again. */
+export interface GetRuns {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_runs";
+}
+
 /** Ask for the text of an `.rviz` file with all that is shown. */
 export interface GetRvizText {
   request?: number;
@@ -1468,6 +1587,14 @@ export interface GetViewKinds {
   document?: string;
   id?: string;
   type: "get_view_kinds";
+}
+
+/** Ask what the opened folders hold; `changed` of the subject `workspaces` says when anew. */
+export interface GetWorkspaces {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_workspaces";
 }
 
 /** Give control to a person who is there. */
@@ -1640,6 +1767,16 @@ export interface InterfaceFaultView {
   reason: string;
 }
 
+/** A message, service or action that the package defines. */
+export interface InterfaceFileView {
+  name: string;
+  kind: string;
+  file: string;
+  is_generated: boolean;
+  fault: string;
+  line: number;
+}
+
 /** Answer to `add_interfaces`. */
 export interface InterfacesAdded {
   type: "interfaces_added";
@@ -1729,6 +1866,20 @@ export interface JointView {
   multiplier: number;
   file: string;
   line: number;
+}
+
+/** A launch file of the package. */
+export interface LaunchFileView {
+  file: string;
+  format: string;
+  is_installed: boolean;
+}
+
+/** Answer to `plan_launch`. */
+export interface LaunchPlan {
+  type: "launch_plan";
+  request: number;
+  plan: PlanView;
 }
 
 /** Show others what the presenter looks at, or no longer. */
@@ -2102,6 +2253,17 @@ export interface MendAll {
   type: "mend_all";
 }
 
+/** Make the edit of a finding's fix; the three fields name the finding as in `workspaces`. */
+export interface MendPackage {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "mend_package";
+  code: string;
+  sentence: string;
+  label: string;
+}
+
 /** An entry of the menu of a marker; its parent is 0 in the menu itself. */
 export interface MenuItemView {
   id: number;
@@ -2152,6 +2314,12 @@ export interface MyGraph {
   more: number;
 }
 
+/** A file that an edit makes, with its whole text; nothing bears that name yet. */
+export interface NewFile {
+  file: string;
+  text: string;
+}
+
 /** Make a package `folder/name` out of a template, and open its robot. */
 export interface NewRobot {
   request?: number;
@@ -2194,6 +2362,15 @@ export interface NodeAnswer {
   service_clients: EndView[];
   action_servers: EndView[];
   action_clients: EndView[];
+}
+
+/** What a launch file names and does not run here. */
+export interface NotStartedView {
+  id: number;
+  name: string;
+  package: string;
+  executable: string;
+  reason: string;
 }
 
 /** A service or an action. */
@@ -2386,12 +2563,55 @@ export interface OutlineValue {
   doc: string;
 }
 
+/** A line that a process printed, or that the launch itself has to say. */
+export interface OutputLine {
+  number: number;
+  process: number;
+  stream: "stdout" | "stderr" | "info" | "warn" | "error";
+  text: string;
+}
+
 /** A topic of a student's domain. */
 export interface OwnTopic {
   name: string;
   types: string[];
   publishers: number;
   subscriptions: number;
+}
+
+/** Answer to `create_package`, `add_to_package` and `mend_package`. */
+export interface PackageEdited {
+  type: "package_edited";
+  request: number;
+  edit: number;
+  label: string;
+  opened: string;
+  files: string[];
+  by_hand: string[];
+}
+
+/** A package as its source shows it. */
+export interface PackageView {
+  name: string;
+  folder: string;
+  path: string;
+  build_type: string;
+  version: string;
+  description: string;
+  licenses: string[];
+  maintainers: string[];
+  dependencies: DependencyView[];
+  executables: ExecutableView[];
+  interfaces: InterfaceFileView[];
+  launch_files: LaunchFileView[];
+  robots: RobotFileView[];
+  rviz_configs: string[];
+  parameter_files: ParameterFileView[];
+  readme: string | null;
+  is_nested: boolean;
+  fault: string;
+  is_complete: boolean;
+  may_run: boolean;
 }
 
 /** A parameter of a macro. */
@@ -2408,6 +2628,12 @@ export interface ParameterDump {
   request: number;
   node: string;
   text: string;
+}
+
+/** A YAML file with parameters of nodes. */
+export interface ParameterFileView {
+  file: string;
+  nodes: string[];
 }
 
 /** Answer to `get_parameter_nodes`: full names, in order. */
@@ -2529,6 +2755,177 @@ export interface Places {
   folders: string[];
 }
 
+/** Ask what a launch file would start; a later one of the same person ends this one. */
+export interface PlanLaunch {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "plan_launch";
+  file: string;
+  arguments?: Record<string, string>;
+}
+
+/** All that a launch file would do with the given arguments. */
+export interface PlanView {
+  file: string;
+  package: string;
+  arguments: PlannedArgument[];
+  nodes: PlannedNode[];
+  processes: PlannedProcess[];
+  includes: PlannedInclude[];
+  happenings: PlannedHappening[];
+  settings: PlannedSetting[];
+  log: PlannedLog[];
+  robots: PlannedRobot[];
+  unsupported: PlannedGap[];
+  failures: PlannedFailure[];
+  unknown: string[];
+  ended: string;
+}
+
+/** An argument that a launch file declares; `value` null: it needs one and has none. */
+export interface PlannedArgument {
+  name: string;
+  default: string | null;
+  choices: string[];
+  description: string;
+  value: string | null;
+  given: boolean;
+  where: PlannedWhere;
+  include: number | null;
+  condition: PlannedCondition | null;
+}
+
+/** What a thing depends on; `holds` null where a value that it needs is not known. */
+export interface PlannedCondition {
+  text: string;
+  holds: boolean | null;
+}
+
+/** What went wrong. */
+export interface PlannedFailure {
+  sentence: string;
+  where: PlannedWhere;
+}
+
+/** A name that the studio does not know, or does not do. */
+export interface PlannedGap {
+  name: string;
+  sentence: string;
+  where: PlannedWhere;
+}
+
+/** What is done later. */
+export interface PlannedHappening {
+  kind: string;
+  when: string;
+  does: string[];
+  condition: PlannedCondition | null;
+  include: number | null;
+  where: PlannedWhere;
+}
+
+/** A launch file within another; `parent` is null right in the file that was asked for. */
+export interface PlannedInclude {
+  id: number;
+  file: string;
+  arguments: Record<string, string>;
+  parent: number | null;
+  condition: PlannedCondition | null;
+  when: string;
+  where: PlannedWhere;
+  failed: string;
+}
+
+/** A line that the launch file logs. */
+export interface PlannedLog {
+  text: string;
+  condition: PlannedCondition | null;
+  when: string;
+  where: PlannedWhere;
+}
+
+/** A node that would run. */
+export interface PlannedNode {
+  id: number;
+  kind: string;
+  package: string;
+  executable: string;
+  name: string;
+  namespace: string;
+  full_name: string;
+  parameters: PlannedParameter[];
+  files: string[];
+  remaps: PlannedRemap[];
+  arguments: string[];
+  output: string;
+  respawn: boolean;
+  respawn_delay_s: number;
+  container: string;
+  condition: PlannedCondition | null;
+  when: string;
+  include: number | null;
+  where: PlannedWhere;
+  start: PlannedStart;
+}
+
+/** A parameter that a node is given; `robot` is the place of its robot in those of the plan. */
+export interface PlannedParameter {
+  name: string;
+  value: boolean | number | string | (boolean | number | string | null)[] | null;
+  file: string;
+  robot: number | null;
+}
+
+/** A command that would run. */
+export interface PlannedProcess {
+  id: number;
+  command: string[];
+  name: string;
+  shell: boolean;
+  respawn: boolean;
+  condition: PlannedCondition | null;
+  when: string;
+  include: number | null;
+  where: PlannedWhere;
+  start: PlannedStart;
+}
+
+/** A name that a node uses, and the one that it gets. */
+export interface PlannedRemap {
+  source: string;
+  target: string;
+}
+
+/** A robot description that a node is given, and the arguments that xacro would get. */
+export interface PlannedRobot {
+  file: string;
+  kind: string;
+  mappings: Record<string, string>;
+  node: number | null;
+  where: PlannedWhere;
+}
+
+/** A variable of the environment that is set; `value` null: unset. */
+export interface PlannedSetting {
+  name: string;
+  value: string | null;
+  condition: PlannedCondition | null;
+  where: PlannedWhere;
+}
+
+/** How the studio would start a thing, or, for `none`, half a sentence why it does not. */
+export interface PlannedStart {
+  kind: string;
+  text: string;
+}
+
+/** A line of a launch file, 1-based; 0 where it is not known. */
+export interface PlannedWhere {
+  file: string;
+  line: number;
+}
+
 /** One named pose as the page lists it. */
 export interface PoseView {
   key: string;
@@ -2585,6 +2982,17 @@ export interface Problems {
   type: "problems";
   problems: Problem[];
   showing_last_good: boolean;
+}
+
+/** One process of a run. */
+export interface ProcessView {
+  id: number;
+  name: string;
+  node: string;
+  state: "running" | "waiting" | "ended";
+  code: number;
+  starts: number;
+  command: string;
 }
 
 /** Long work of the document; `total` 0 when not known; done == total ends it. */
@@ -2957,6 +3365,16 @@ export interface ResolveCollisions {
   state?: string;
 }
 
+/** End one process of a launch and start it again, or start it again once it has ended. */
+export interface RestartProcess {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "restart_process";
+  run: number;
+  process: number;
+}
+
 /** Put displays back that were removed, where they stood and as they were set. */
 export interface RestoreDisplays {
   request?: number;
@@ -2981,6 +3399,14 @@ export interface ReturnControl {
   type: "return_control";
 }
 
+/** A file that is, or might be taken for, a robot description. */
+export interface RobotFileView {
+  file: string;
+  title: string;
+  openable: boolean;
+  reason: string;
+}
+
 /** The robot's tree. `revision` counts structural changes; joint frames carry it. */
 export interface RobotState {
   type: "robot";
@@ -2989,6 +3415,60 @@ export interface RobotState {
   root: string;
   links: LinkView[];
   joints: JointView[];
+}
+
+/** Start what runs of a package again whenever a file of that package was saved; or no more. */
+export interface RunAgainOnSave {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "run_again_on_save";
+  run: number;
+  on: boolean;
+}
+
+/** Answer to `get_run_output`; when `last` is more than its last line, there is more to ask. */
+export interface RunOutput {
+  type: "run_output";
+  request: number;
+  run: number;
+  lines: OutputLine[];
+  last: number;
+  dropped: number;
+}
+
+/** Answer to `start_launch` and `start_node`. */
+export interface RunStarted {
+  type: "run_started";
+  request: number;
+  run: number;
+}
+
+/** A launch file or node that was started out of the page. */
+export interface RunView {
+  run: number;
+  kind: "launch" | "node";
+  file: string;
+  package: string;
+  executable: string;
+  arguments: string[];
+  line: string;
+  state: "starting" | "running" | "stopping" | "ended";
+  for_s: number;
+  code: number;
+  trouble: string;
+  again_on_save: boolean;
+  again: number;
+  processes: ProcessView[];
+  not_started: NotStartedView[];
+  shown: ShownView[];
+}
+
+/** Answer to `get_runs`, the newest first. */
+export interface Runs {
+  type: "runs";
+  request: number;
+  runs: RunView[];
 }
 
 /** Answer: the file is shown. */
@@ -3402,6 +3882,13 @@ export interface ShowView {
   field?: number;
 }
 
+/** What the page is to show of a launch: `rviz2` with the file of its `-d`. */
+export interface ShownView {
+  id: number;
+  what: string;
+  config: string;
+}
+
 /** A state to compare: the present robot, the one on disk, or a variant. */
 export interface Side {
   kind: "present" | "saved" | "variant";
@@ -3454,12 +3941,42 @@ export interface StartDemo {
   demo: string;
 }
 
+/** Run a launch file. */
+export interface StartLaunch {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "start_launch";
+  file: string;
+  arguments?: Record<string, string>;
+}
+
+/** Run an executable of a package; `arguments` as behind `ros2 run PACKAGE EXECUTABLE`. */
+export interface StartNode {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "start_node";
+  package: string;
+  executable: string;
+  arguments?: string[];
+}
+
 /** Let students' own nodes join, each in a ROS domain of its own; makes new credentials. */
 export interface StartNodes {
   request?: number;
   document?: string;
   id?: string;
   type: "start_nodes";
+}
+
+/** Start a run again with the same arguments; one that goes on is ended first. */
+export interface StartRunAgain {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "start_run_again";
+  run: number;
 }
 
 /** A block of checks of a lesson, in the order of its text. */
@@ -3506,6 +4023,15 @@ export interface StopRobot {
   document?: string;
   id?: string;
   type: "stop_robot";
+}
+
+/** End a run, as Ctrl-C does; answered when it has ended. */
+export interface StopRun {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "stop_run";
+  run: number;
 }
 
 /** Somebody has stopped the robot. */
@@ -3777,6 +4303,15 @@ export interface Undo {
   type: "undo";
 }
 
+/** Take the newest edit of packages back, if nobody has changed its files since. */
+export interface UndoPackageEdit {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "undo_package_edit";
+  edit: number;
+}
+
 /** Show what was shown before an `.rviz` file was opened; until something else is changed. */
 export interface UndoRvizConfig {
   request?: number;
@@ -3986,6 +4521,24 @@ export interface WireState {
   trouble: string;
 }
 
+/** All packages below a folder. */
+export interface WorkspaceView {
+  root: string;
+  packages: PackageView[];
+  graph: DependencyGraphView;
+  left_out: string[];
+  problems: Problem[];
+}
+
+/** Answer to `get_workspaces`. */
+export interface Workspaces {
+  type: "workspaces";
+  request: number;
+  run_folders: string[];
+  workspaces: WorkspaceView[];
+  is_reading: boolean;
+}
+
 /** Who you are in the class, and what you have asked for. */
 export interface You {
   type: "you";
@@ -4008,6 +4561,7 @@ export interface ZeroJoints {
 export type Command =
   | AddDisplay
   | AddInterfaces
+  | AddToPackage
   | AddTool
   | AnimateJoints
   | ApplyFix
@@ -4019,6 +4573,7 @@ export type Command =
   | CallService
   | CancelCall
   | CancelGoal
+  | CancelPlan
   | ChangeState
   | ChoosePackage
   | CloseDocument
@@ -4027,6 +4582,7 @@ export type Command =
   | CompareVariants
   | Complete
   | ConnectWire
+  | CreatePackage
   | DeleteLesson
   | DeletePose
   | DeleteVariant
@@ -4041,6 +4597,7 @@ export type Command =
   | EditSite
   | EditText
   | EndClass
+  | EndProcess
   | ExamineSystem
   | ExamineWire
   | FindTexts
@@ -4051,6 +4608,7 @@ export type Command =
   | FollowOperations
   | FollowParameters
   | ForgetRecent
+  | ForgetRun
   | ForgetRvizFile
   | ForgetWork
   | GatherAll
@@ -4085,6 +4643,8 @@ export type Command =
   | GetParameters
   | GetReferences
   | GetRenaming
+  | GetRunOutput
+  | GetRuns
   | GetRvizText
   | GetRvizView
   | GetSceneTime
@@ -4098,6 +4658,7 @@ export type Command =
   | GetUrdf
   | GetUrdfChanges
   | GetViewKinds
+  | GetWorkspaces
   | GiveControl
   | HandIn
   | InteractWithMarker
@@ -4113,6 +4674,7 @@ export type Command =
   | LookUp
   | LowerHand
   | MendAll
+  | MendPackage
   | MoveView
   | NewRobot
   | NewUntitled
@@ -4128,6 +4690,7 @@ export type Command =
   | PauseClass
   | PauseScene
   | PickItems
+  | PlanLaunch
   | PressKey
   | Publish
   | PublishJoints
@@ -4152,8 +4715,10 @@ export type Command =
   | ResetScene
   | ResetSite
   | ResolveCollisions
+  | RestartProcess
   | RestoreDisplays
   | ReturnControl
+  | RunAgainOnSave
   | Save
   | SaveAs
   | SaveCopy
@@ -4184,14 +4749,19 @@ export type Command =
   | ShowView
   | StartClass
   | StartDemo
+  | StartLaunch
+  | StartNode
   | StartNodes
+  | StartRunAgain
   | StopDemo
   | StopNodes
   | StopPublishing
   | StopRobot
+  | StopRun
   | SwitchDisplays
   | TakeControl
   | Undo
+  | UndoPackageEdit
   | UndoRvizConfig
   | UndoTo
   | UpdateVariant
@@ -4245,6 +4815,7 @@ export type Event =
   | ItemsDescribed
   | ItemsPicked
   | JointPositions
+  | LaunchPlan
   | Leading
   | LeftWork
   | LessonRead
@@ -4266,6 +4837,7 @@ export type Event =
   | Opened
   | Origin
   | OutlineAnswer
+  | PackageEdited
   | ParameterDump
   | ParameterNodes
   | Parameters
@@ -4282,6 +4854,9 @@ export type Event =
   | RenamingAnswer
   | Restored
   | RobotState
+  | RunOutput
+  | RunStarted
+  | Runs
   | RvizConfigOpened
   | RvizConfigState
   | RvizFileSaved
@@ -4318,4 +4893,5 @@ export type Event =
   | WireReport
   | WireRobots
   | WireState
+  | Workspaces
   | You;

@@ -6,6 +6,7 @@ export * from "@codemirror/language";
 export * from "@codemirror/autocomplete";
 export * from "@codemirror/search";
 export * from "@codemirror/lint";
+export * from "@codemirror/lang-python";
 export * from "@codemirror/lang-xml";
 export * from "@codemirror/lang-yaml";
 export * from "@lezer/highlight";

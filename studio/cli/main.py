@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import studio
 from studio.cli.commands import add_command, summaries
+from studio.cli.mending import MendingParser, instead_of, without_ros2
 from studio.cli.terminal import harmless, take_any_letters
 from studio.errors import StudioError
 
@@ -39,7 +40,10 @@ examples:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; return its exit code: 0 where it has none, 2 after a sentence on stderr."""
-    arguments = sys.argv[1:] if argv is None else list(argv)
+    arguments = without_ros2(sys.argv[1:] if argv is None else argv)
+    if sentence := instead_of(arguments):
+        print(f"studio: {sentence}", file=sys.stderr)
+        return 2
     options = argparse.Namespace()
     take_any_letters()
     try:
@@ -72,8 +76,9 @@ def _read(arguments: list[str]) -> argparse.Namespace:
     parser, command = _parsers(asked)
     mappings: list[str] = []
     if command is not None and command.get_default("takes_mappings"):
-        mappings = [argument for argument in arguments if ":=" in argument]
-        arguments = [argument for argument in arguments if ":=" not in argument]
+        end = arguments.index("--") if "--" in arguments else len(arguments)
+        mappings = [argument for argument in arguments[:end] if ":=" in argument]
+        arguments = [one for one in arguments[:end] if ":=" not in one] + arguments[end:]
     options, rest = parser.parse_known_args(shield_values(arguments))
     if rest[:1] == ["--"] or (len(rest) == 1 and not rest[0].startswith("-")):
         rest = _take_late(options, rest)
@@ -110,7 +115,7 @@ def _parsers(
     asked: str | None,
 ) -> tuple[argparse.ArgumentParser, argparse.ArgumentParser | None]:
     """Make the parser of all commands; only that of the command that was asked for is filled in."""
-    parser = argparse.ArgumentParser(
+    parser = MendingParser(
         prog="studio",
         description="See and tweak robot descriptions in the browser.",
         epilog=_EXAMPLES,

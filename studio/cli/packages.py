@@ -1,20 +1,17 @@
-"""The packages that a command sees (of its folder, opened last, of ROS), and what they start."""
+"""The packages that a command sees: of its folder, opened last, of ROS."""
 
 from __future__ import annotations
 
-import importlib.util
 import os
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import studio
 from studio.files import is_file
 from studio.packages.discovery import discover
-from studio.packages.environment import RosEnvironment, is_workspace_install
-from studio.packages.executables import executables_of
+from studio.packages.environment import RosEnvironment
 from studio.packages.folder_memory import FolderMemory
-from studio.packages.index import Indexed, PackageIndex, Rank
+from studio.packages.index import Indexed, PackageIndex
 from studio.packages.manifest import FILE_NAME
 from studio.packages.recent import last_opened
 from studio.packages.roots import ServedRoots, is_too_wide, package_folder_of, served_roots_for
@@ -100,68 +97,3 @@ def _packages_in(folder: Path) -> tuple[Path, ...]:
 def _last(data: Path) -> tuple[Path, ...]:
     last = last_opened(data)
     return _workspace_of(Path(last.path).parent) if last is not None else ()
-
-
-def executables_of_all(index: PackageIndex) -> dict[str, dict[str, str]]:
-    """Return by package and name the file or module of all that can be started."""
-    found = demo_executables()
-    for name in index.names:
-        own = executables_of(index.best(name, Path.cwd()), name)
-        if workspace_folder(index, name) is not None:
-            found.pop(name, None)
-        if own:
-            found[name] = {**own, **found.get(name, {})}
-    return found
-
-
-def workspace_folder(index: PackageIndex, name: str) -> Path | None:
-    """Return the folder of a package that the user's workspace holds: it comes before a demo's.
-
-    None where the name is unknown, or known only of a ROS that was installed as a whole.
-    """
-    if name not in index:
-        return None
-    folder = index.best(name, Path.cwd())
-    ranks = [one.rank for one in index.packages if one.folder == folder]
-    is_source = any(rank is not Rank.INSTALLED for rank in ranks)
-    return folder if is_source or is_workspace_install(folder) else None
-
-
-def demo_packages() -> set[str]:
-    """Name the packages whose nodes the studio itself has."""
-    return set(demo_executables())
-
-
-def demo_executables() -> dict[str, dict[str, str]]:
-    """Return the modules of the studio's own nodes by package and executable."""
-    from studio.course.demos import executables
-
-    found: dict[str, dict[str, str]] = {}
-    for (package, name), module in executables().items():
-        found.setdefault(package, {})[name] = module
-    return found
-
-
-def demo_folder(package: str) -> Path:
-    """Return the folder that holds the code of a package of demos, which is one of the studio's."""
-    module = next(iter(demo_executables()[package].values()))
-    found = importlib.util.find_spec(module.rpartition(".")[0])
-    return Path(next(iter((found and found.submodule_search_locations) or [""])))
-
-
-def demo_manifest(package: str) -> str:
-    """Write the package.xml that a package of demos would have; empty for any other."""
-    names = ", ".join(sorted(demo_executables().get(package, {})))
-    if not names:
-        return ""
-    return (
-        '<?xml version="1.0"?>\n'
-        "<!-- Written by the studio: these nodes come with it, in no package of their own. -->\n"
-        '<package format="3">\n'
-        f"  <name>{package}</name>\n"
-        f"  <version>{studio.__version__}</version>\n"
-        f"  <description>Demo nodes of the studio: {names}.</description>\n"
-        '  <maintainer email="none@invalid">the studio</maintainer>\n'
-        "  <license>Apache-2.0</license>\n"
-        "</package>\n"
-    )

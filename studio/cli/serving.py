@@ -57,6 +57,15 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
         metavar="FOLDER",
         help="run each .py file in this folder as a display of your own; may be given again",
     )
+    parser.add_argument(
+        "--allow-run",
+        action="append",
+        type=Path,
+        default=[],
+        metavar="FOLDER",
+        help="let yourself, and nobody else, run launch files and nodes of this folder out of the "
+        "page, and edit its Python files; may be given again",
+    )
     add_read_options(parser)
 
 
@@ -152,15 +161,16 @@ def server_settings(options: argparse.Namespace) -> Settings:
         data_folder=data_folder(options.data_dir),
         package_paths=package_paths(options),
         lesson_folders=tuple(one.expanduser().absolute() for one in options.lessons),
-        display_folders=_display_folders(options.displays),
+        display_folders=_folders("--displays", options.displays),
+        run_folders=_run_folders(options.allow_run),
         trusted=options.trust,
         open_browser=not options.no_browser,
         wire=WireChoice(options.router, tuple(options.connect), options.domain),
     )
 
 
-def _display_folders(given: Sequence[Path]) -> tuple[Path, ...]:
-    """Return the folders of `--displays`.
+def _folders(option: str, given: Sequence[Path]) -> tuple[Path, ...]:
+    """Return the folders that an option names.
 
     Raises:
         SettingsError: One is no folder.
@@ -168,7 +178,25 @@ def _display_folders(given: Sequence[Path]) -> tuple[Path, ...]:
     folders = tuple(one.expanduser().absolute() for one in given)
     for folder in folders:
         if not folder.is_dir():
-            raise SettingsError(f"--displays takes a folder, and {folder} is none.")
+            raise SettingsError(f"{option} takes a folder, and {folder} is none.")
+    return folders
+
+
+def _run_folders(given: Sequence[Path]) -> tuple[Path, ...]:
+    """Return the folders of `--allow-run`.
+
+    Raises:
+        SettingsError: One is no folder, or holds far more than a workspace.
+    """
+    from studio.packages.roots import is_too_wide
+
+    folders = tuple(one.resolve() for one in _folders("--allow-run", given))
+    for folder in folders:
+        if is_too_wide(folder):
+            raise SettingsError(
+                f"--allow-run {folder} would let everything there be run: name the folder of a "
+                "workspace inside it."
+            )
     return folders
 
 

@@ -93,10 +93,13 @@ def profile_of(options: argparse.Namespace) -> WireProfile:
 def ended_by_signals() -> Generator[None]:
     """Let signals end the verb; Ctrl-C too where a script started it in the background."""
 
-    def end(_number: int, _frame: object) -> None:
-        raise SystemExit(128 + signal.SIGTERM)
+    def end(number: int, _frame: object) -> None:
+        raise SystemExit(128 + number)
 
     handlers = {signal.SIGTERM: end, signal.SIGINT: signal.default_int_handler}
+    hangup = getattr(signal, "SIGHUP", None)  # the terminal has closed; nohup ignores it
+    if hangup is not None and signal.getsignal(hangup) is not signal.SIG_IGN:
+        handlers[hangup] = end
     before = {number: signal.signal(number, handler) for number, handler in handlers.items()}
     try:
         yield

@@ -10,6 +10,7 @@ from studio.description.editing.undo import Change
 from studio.errors import EditError
 from studio.problems import Fix, Place, Problem, Severity
 from studio.protocol.commands import Commands, OnCopies, Scope
+from studio.protocol.roles import Role
 from studio.protocol.saving import (
     Collisions,
     CollisionView,
@@ -54,7 +55,7 @@ class DiskSync:
     async def changed(self, files: set[str]) -> None:
         """Read again those of these files that are the document's, and run with what is new."""
         last = self._runs.last
-        ours = files & {*last.files, *self._sources.conflicts}
+        ours = files & {*last.files, *self._sources.files, *self._sources.conflicts}
         edits = self.refresh(sorted(ours))
         self._edits.disk_changed()
         if edits:
@@ -73,9 +74,14 @@ class DiskSync:
                 self._audience.send(DiskMerged(file=file, kept=change.kept))
         return tuple(edit for change in found.values() for edit in change.edits)
 
-    async def reload(self) -> None:
-        """Take the disk's text of every file; undo brings unsaved edits back."""
+    async def reload(self, role: Role = Role.PRESENTER) -> None:
+        """Take the disk's text of every file; undo brings unsaved edits back.
+
+        Raises:
+            NotAllowedError: One with unsaved edits is a program, which is a presenter's alone.
+        """
         sources = self._sources
+        self._workspace.check_role(sources.unsaved_files, role)
         edits = [edit for file in sources.files if (edit := sources.reload(file))]
         self._findings.replace("disk", ())
         await self._edits.follow_disk(edits)
@@ -89,13 +95,15 @@ class DiskSync:
             await self._edits.follow(Change("", arguments=sources.arguments))
         await self.reload()
 
-    async def resolve(self, command: ResolveCollisions) -> None:
+    async def resolve(self, command: ResolveCollisions, role: Role = Role.PRESENTER) -> None:
         """Choose whose text stands where edits collide with a change on disk.
 
         Raises:
             EditError: They do not collide, or elsewhere than in the command.
+            NotAllowedError: It is a program, which is a presenter's alone.
         """
         file = self._name(command.file)
+        self._workspace.check_role([file], role)
         if command.state and command.state != _state(self._sources.collisions(file)):
             raise EditError(f"{command.file} was changed meanwhile: compare it again.")
         edits = self._sources.resolve(file, command.keep, command.each)
@@ -133,10 +141,10 @@ class DiskSync:
 COMMANDS: Final = Commands[DiskSync](Scope.DOCUMENT)
 COMMANDS.controller(GetCollisions, lambda disk, c, _: disk.collisions(c))
 COMMANDS.controller(
-    ResolveCollisions, lambda disk, c, _: disk.resolve(c), on_copies=OnCopies.REFUSED
+    ResolveCollisions, lambda disk, c, who: disk.resolve(c, who.role), on_copies=OnCopies.REFUSED
 )
 COMMANDS.controller(
-    Reload, lambda disk, _, __: disk.reload(), on_copies=OnCopies.REFUSED, reviews=True
+    Reload, lambda disk, _, who: disk.reload(who.role), on_copies=OnCopies.REFUSED, reviews=True
 )
 
 

@@ -96,6 +96,7 @@ class Document:
         self._build_parts()
         self._build_watchers()
         self._watch = FileWatch(self._files_changed, troubled=self.disk.report_watch)
+        self.texts.on_first = self._watch_files
         self._was_unsaved = False
         self._state_before = self._run_state()
         self._packages_before: dict[str, str] | None = None
@@ -105,7 +106,9 @@ class Document:
     def _build_state(self, location: Location, arguments: Mapping[str, str]) -> None:
         """Make what many parts share."""
         services = self._services
-        self.workspace = Workspace(location, arguments, trusted=services.settings.trusted)
+        self.workspace = Workspace(
+            location, arguments, trusted=services.settings.trusted, runs=services.run_folders
+        )
         self.entry, self.path = self.workspace.entry, self.workspace.path
         self.sources, self.audience = self.workspace.sources, Audience()
         self.scene = DocumentScene(asyncio.get_running_loop())
@@ -116,7 +119,7 @@ class Document:
         self.findings = Findings(self.audience, self.last_run)
         self.sites = SiteTable(self.sources, self.audience)
         self.robot_view = RobotView(self.model, self.audience)
-        self.edits = Edits(self.sources, self.runs, self.sites, self.audience, self)
+        self.edits = Edits(self.workspace, self.runs, self.sites, self.audience, self)
 
     def _build_parts(self) -> None:
         """Make the parts that act when they are asked."""
@@ -367,7 +370,9 @@ class Document:
         await self.disk.changed(files)
 
     def _watch_files(self) -> None:
-        self._watch.watch((*self.last_run.files, *self._meshes.files))
+        self._watch.watch(
+            (*self.last_run.files, *self._meshes.files, *self.workspace.sources.files)
+        )
         self.variants.trigger()  # with a mesh come sizes
         self.robot_checks.trigger()
 
@@ -407,8 +412,10 @@ class Document:
             fallback_reason=expansion.fallback_reason if expansion else "",
             files=files,
             packages=self.packages_used(),
-            read_only=tuple(file for file in files if not workspace.served.may_write(file)),
+            read_only=tuple(file for file in files if not workspace.may_write(file)),
             phase=self.last_run.phase,
+            is_bare=workspace.location.is_bare,
+            may_run=workspace.may_run,
         )
 
     def _displays_event(self) -> Displays:

@@ -11,6 +11,7 @@ from studio.errors import CommandError
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.documents import SetArgument, SetArguments
 from studio.protocol.edits import Built, EditSite, History, Redo, ResetSite, Undo
+from studio.protocol.roles import Role
 from studio.protocol.saving import UndoTo
 
 if TYPE_CHECKING:
@@ -20,11 +21,18 @@ if TYPE_CHECKING:
     from studio.description.values import Edit
     from studio.documents.runs import Runs
     from studio.documents.sites import SiteTable
+    from studio.documents.workspace import Workspace
     from studio.protocol.listeners import Audience
 
 TEXT_LIMIT_BYTES: Final = 4 << 20
 """More than any robot description needs, and no trouble for an editor in a browser."""
 READ_ONLY: Final = "it lies where the studio may only read."
+PROGRAM: Final = (
+    "it is a program, and who edits it could have it run: start the studio with --allow-run "
+    "{folder}."
+)
+_NOT_READ: Final = (".py", ".msg", ".srv", ".action", ".cfg", ".toml", ".txt", ".md", ".rst")
+"""Endings of texts that xacro reads nothing from, unless it was seen to."""
 _SHOWN_WITHIN_S: Final = 0.05
 """An edit is shown before it is written down, but for a run that takes longer."""
 
@@ -49,7 +57,7 @@ class Edits:
     """Makes edits of values and arguments, and undoes steps; each returns when the result shows.
 
     Args:
-        sources: The texts and arguments.
+        workspace: The texts and arguments.
         runs: Runs them.
         sites: The sites in the texts.
         audience: Is sent the duration of each run.
@@ -58,13 +66,14 @@ class Edits:
 
     def __init__(
         self,
-        sources: Sources,
+        workspace: Workspace,
         runs: Runs,
         sites: SiteTable,
         audience: Audience,
         observer: EditObserver,
     ) -> None:
-        self._sources, self._runs, self._sites, self._audience = sources, runs, sites, audience
+        self._workspace, self._sources = workspace, workspace.sources
+        self._runs, self._sites, self._audience = runs, sites, audience
         self._observer = observer
 
     async def edit_site(self, site: str, text: str, gesture: str) -> None:
@@ -85,24 +94,35 @@ class Edits:
         if edit := self._sources.reset_site(site):
             await self.timed(self._runs.edit((edit,)))
 
-    async def undo(self) -> None:
-        """Take the last step back."""
+    async def undo(self, role: Role = Role.PRESENTER) -> None:
+        """Take the last step back.
+
+        Raises:
+            NotAllowedError: It edited a program, which is a presenter's alone.
+        """
+        self._check_steps(len(self._sources.undo_labels) - 1, role)
         await self.follow(self._sources.undo())
 
-    async def redo(self) -> None:
-        """Do the step last taken back again."""
+    async def redo(self, role: Role = Role.PRESENTER) -> None:
+        """Do the step last taken back again; errors as `undo`."""
+        self._check_steps(len(self._sources.undo_labels) + 1, role)
         await self.follow(self._sources.redo())
 
-    async def undo_to(self, command: UndoTo) -> None:
+    async def undo_to(self, command: UndoTo, role: Role = Role.PRESENTER) -> None:
         """Undo or redo until that many steps are done.
 
         Raises:
             CommandError: The list is another one by now.
+            NotAllowedError: A step between edited a program, which is a presenter's alone.
         """
         count = len(self._sources.undo_labels) + len(self._sources.redo_labels)
         if command.of != count or command.position > count:
             raise CommandError("The undo list changed meanwhile: choose the step again.")
+        self._check_steps(command.position, role)
         await self.follow(self._sources.undo_to(command.position))
+
+    def _check_steps(self, position: int, role: Role) -> None:
+        self._workspace.check_role(self._sources.files_of_steps(position), role)
 
     async def pass_arguments(self, values: Mapping[str, str | None]) -> None:
         """Pass or take back arguments as one step; with arguments that break it, none is made.
@@ -157,7 +177,10 @@ class Edits:
 
     async def _run(self, edits: Sequence[Edit], *, in_gesture: bool = False) -> None:
         files = {edit.file for edit in edits}
-        if files <= set(self._runs.last.files):
+        unread = files - set(self._runs.last.files)
+        if files == unread and all(one.endswith(_NOT_READ) for one in files):
+            return  # no robot is made of such a file
+        if not unread:
             await self._runs.edit(edits, in_gesture=in_gesture)
         else:  # the worker holds no text of what the last run did not read
             await self._runs.reload(files)
@@ -177,9 +200,9 @@ COMMANDS.controller(
 COMMANDS.controller(ResetSite, lambda edits, c, _: edits.reset_site(c.site))
 COMMANDS.controller(SetArgument, lambda edits, c, _: edits.pass_arguments({c.name: c.value}))
 COMMANDS.controller(SetArguments, lambda edits, c, _: edits.pass_arguments(c.values))
-COMMANDS.controller(Undo, lambda edits, _, __: edits.undo())
-COMMANDS.controller(Redo, lambda edits, _, __: edits.redo())
-COMMANDS.controller(UndoTo, lambda edits, c, _: edits.undo_to(c))
+COMMANDS.controller(Undo, lambda edits, _, who: edits.undo(who.role))
+COMMANDS.controller(Redo, lambda edits, _, who: edits.redo(who.role))
+COMMANDS.controller(UndoTo, lambda edits, c, who: edits.undo_to(c, who.role))
 
 
 def history_event(sources: Sources) -> History:

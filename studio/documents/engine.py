@@ -34,6 +34,8 @@ from studio.live.displays.document_tools import Pointed
 from studio.live.doctor.seen import SeenDisplay, SeenDocument
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
+from studio.live.programs.program_room import COMMANDS as PROGRAM_COMMANDS
+from studio.live.programs.program_room import Programs
 from studio.packages.listing import list_folder
 from studio.packages.roots import ServedRoots
 from studio.packages.workspace import Location, open_location
@@ -103,6 +105,14 @@ class Engine:
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire)
+        self.programs = Programs(
+            settings,
+            self._services.run_folders,
+            wire,
+            lambda: self.served.writable,
+            self.ros.changes,
+        )
+        self.ros.end_programs = self.programs.let_go
         self.ros.doctor.document_of = self._seen_document
         self.ros.doctor.own_link = self._own_link
         self.classroom = classroom or Classroom()
@@ -120,6 +130,7 @@ class Engine:
             self.classroom,
             self._system_of,
             self.ros.changes.changed,
+            self.programs.workspaces.folders_now,
         )
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
@@ -140,6 +151,7 @@ class Engine:
         """Close all documents and end all workers."""
         await self._rejoining.close()
         await self.lessons.close()
+        await self.programs.close()
         await self.classroom.close()
         await asyncio.gather(self.left_work.close(), self.ros.close())
         await self.copies.close()
@@ -276,7 +288,13 @@ class Engine:
         Raises:
             StudioError: Nothing there can be opened.
         """
-        return self._open(await self._locate(path, progress), arguments)
+        location = await self._locate(path, progress)
+        return self._open(self._with_entry(location), arguments)
+
+    def _with_entry(self, location: Location) -> Location:
+        """Return a workspace without a robot as one that can be opened."""
+        may_run = self._services.run_folders.allows(location.root)
+        return location.with_bare_entry(may_run=may_run)
 
     def find_open(self, path: Path) -> Document | None:
         """Return the document whose entry file this is."""
@@ -290,7 +308,7 @@ class Engine:
         Raises:
             StudioError: Nothing there can be opened.
         """
-        location = await self._locate(path, within=within)
+        location = self._with_entry(await self._locate(path, within=within))
         known = location.entry and not arguments and self.find_open(location.entry)
         return known.id if known else self._open(location, dict(arguments))
 
@@ -310,7 +328,8 @@ class Engine:
             if not self.library.may_reopen(command.path):
                 raise
             return await self.open_at(Path(command.path), command.arguments, None)
-        return self._open(await self._locate(path, within=self.served), command.arguments)
+        location = await self._locate(path, within=self.served)
+        return self._open(self._with_entry(location), command.arguments)
 
     async def launch_form(self, command: GetArguments) -> Arguments:
         """Return the form of an open document, or of a file below the served folders."""
@@ -357,7 +376,7 @@ class Engine:
 
     def _free_id(self, location: Location) -> str:
         """Return a readable id that stays the same when the same file is opened after a restart."""
-        stem = location.entry.name.split(".")[0] if location.entry else ""
+        stem = location.title.split(".")[0]
         base = re.sub(r"[^a-z0-9]+", "-", stem.lower()).strip("-") or "robot"
         names = [base, *(f"{base}-{number}" for number in range(2, _DOCUMENT_LIMIT + 2))]
         return next(name for name in names if name not in self.documents)
@@ -485,5 +504,6 @@ COMMANDS.include(LESSON_COMMANDS, lambda engine, _: engine.lessons)
 COMMANDS.include(CLASS_COMMANDS, lambda engine, _: engine.classroom)
 COMMANDS.include(LIBRARY_COMMANDS, lambda engine, _: engine.library)
 COMMANDS.include(ROBOT_COMMANDS, lambda engine, _: engine.wire_robots)
+COMMANDS.include(PROGRAM_COMMANDS, lambda engine, _: engine.programs)
 COMMANDS.include(ROS_COMMANDS, lambda engine, _: engine.ros)
 COMMANDS.include(DOCUMENT_COMMANDS, lambda engine, c: engine.document(c.document))

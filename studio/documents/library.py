@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
 from studio.errors import CommandError, NotMadeError, UnreadableFileError
-from studio.files import is_file, is_folder
+from studio.files import is_folder, is_there
 from studio.packages.examples import COPIES_FOLDER as EXAMPLES
 from studio.packages.examples import examples, working_copy
 from studio.packages.received_texts import UNTITLED_FOLDER as UNTITLED
@@ -125,7 +125,9 @@ class Library:
         """A document was opened: it is the newest of the recent files."""
         now_s = datetime.now(UTC).timestamp()
         arguments = document.sources.arguments
-        self._recent.note(document.path, document.title, arguments, now_s)
+        location = document.location
+        path = str(location.root) if location.is_bare else document.path
+        self._recent.note(path, document.title, arguments, now_s)
 
     def may_reopen(self, path: str) -> bool:
         """Whether a path may be opened though nothing serves it: it was opened before."""
@@ -154,7 +156,7 @@ class Library:
         known = self._recent.find(path)
         if known is None or not self.may_reopen(path):
             raise CommandError(f"{path} is not among the recent files: open its folder.")
-        if not is_file(Path(path)):
+        if not is_there(Path(path)):
             raise UnreadableFileError(path, "is no longer there: take it out of the list.")
         if (document := self._opener.find_open(Path(path))) is not None:
             return document.id
@@ -200,7 +202,7 @@ class Library:
                 title=one.title,
                 time_s=one.time_s,
                 origin=self._origin_of(Path(one.path)),
-                is_there=is_file(Path(one.path)),
+                is_there=is_there(Path(one.path)),
             )
             for one in self._recent.all()
             if self._may_open(one)

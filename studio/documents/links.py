@@ -22,6 +22,7 @@ from studio.description.values import Edit
 from studio.documents.edits import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError
 from studio.packages.roots import package_folder_of
+from studio.packages.run_folders import is_program
 from studio.protocol.documents import Link
 from studio.protocol.message import ArgumentName, Message
 
@@ -157,6 +158,8 @@ def _edit_file(
     sources: Sources, location: Location, path: str, file: SharedFile, done: list[Edit]
 ) -> list[str]:
     """Edit one file, the last place first so that the others stay where they are."""
+    if is_program(path):
+        return [f"{path} is a program, which no link edits: its edits were left out."]
     if not location.served.may_write(path):
         return [f"{path} may only be read here: its edits were left out."]
     sources.track([path])

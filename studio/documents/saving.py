@@ -10,7 +10,9 @@ from studio.description.editing.line_diff import file_diff
 from studio.description.editing.saving import hindrance, write_copy
 from studio.errors import CommandError, NotSavedError
 from studio.files import sweep
+from studio.packages.run_folders import is_program
 from studio.protocol.commands import Commands, OnCopies, Scope
+from studio.protocol.roles import Role
 from studio.protocol.saving import Changes, FileChanges, GetChanges, Save, SaveCopy, Saved
 from studio.protocol.texts import hunk_views
 
@@ -39,12 +41,17 @@ class Saving:
         self._disk, self._edits, self._drafts = disk, edits, drafts
         self._audience = audience
 
-    async def save(self, files: Collection[str] | None = None) -> None:
-        """Write these changed files, or all.
+    async def save(self, files: Collection[str] | None = None, role: Role = Role.PRESENTER) -> None:
+        """Write these changed files, or all; nobody but a presenter writes programs.
 
         Raises:
             NotSavedError: One may not or cannot be written.
+            NotAllowedError: One is named that is a program, by somebody else.
         """
+        if role is not Role.PRESENTER:
+            unsaved = self._sources.unsaved_files
+            self._workspace.check_role(files or (), role)
+            files = [one for one in files or unsaved if not is_program(one)]
         await self._disk.changed(set(self._sources.unsaved_files))
         with self._drafts.saving(files):
             written = self._sources.save(files)
@@ -61,7 +68,7 @@ class Saving:
                 (
                     file,
                     file_diff(saved, now),
-                    hindrance(file, saved, served.resolve, served.may_write),
+                    hindrance(file, saved, served.resolve, self._workspace.may_write),
                 )
                 for file, saved, now in texts
             )
@@ -111,12 +118,17 @@ class Saving:
             raise NotSavedError(command.path, "there is no such folder; name one that is there")
         if not served.may_write(target):
             raise NotSavedError(command.path, "its folder may only be read; name another")
+        if not self._workspace.may_program(target):
+            raise NotSavedError(command.path, "that would be a program; name another")
         write_copy(target, sources.text(file))
 
 
 COMMANDS: Final = Commands[Saving](Scope.DOCUMENT)
 COMMANDS.controller(GetChanges, lambda saving, c, _: saving.changes(c))
 COMMANDS.controller(
-    Save, lambda saving, c, _: saving.save(c.files), on_copies=OnCopies.REFUSED, reviews=True
+    Save,
+    lambda saving, c, who: saving.save(c.files, who.role),
+    on_copies=OnCopies.REFUSED,
+    reviews=True,
 )
 COMMANDS.presenter(SaveCopy, lambda saving, c, _: saving.save_copy(c))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 from studio.description.client import DescriptionWorker
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.displays.plugins import Plugins
+from studio.packages.run_folders import RunFolders
 from studio.robot.meshes.library import MeshLibrary
 from studio.robot.worker_client import UrdfValidator, mesh_pool
 
@@ -32,6 +33,7 @@ USED_LATER: Final = (
     "studio.documents.lessons.graph_checks",
     *("studio.live.doctor.asking", "studio.live.doctor.examination", "studio.live.doctor.report"),
     "studio.live.doctor.watching",
+    *("studio.live.programs.making", "studio.launch.planning", "studio.programs.finding"),
     *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )
@@ -51,6 +53,7 @@ class Services:
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
         self.wire = RosConnection(settings.wire)
+        self.run_folders = RunFolders(settings.run_folders, settings.data_folder)
         self.plugins = Plugins(settings.display_folders)
         self._spare = DescriptionWorker()
         self._keeps_warm = False

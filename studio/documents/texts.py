@@ -17,7 +17,7 @@ from studio.description.language.questions import (
     References,
     ReferencesQuery,
 )
-from studio.documents.edits import READ_ONLY, TEXT_LIMIT_BYTES
+from studio.documents.edits import PROGRAM, READ_ONLY, TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, ReadOnlyTextError, StaleTextError
 from studio.protocol.commands import Commands, OnCopies, Scope
 from studio.protocol.language import (
@@ -34,7 +34,7 @@ from studio.protocol.roles import Role
 from studio.protocol.texts import EditText, GetText, Text, TextChange, TextsChanged
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from studio.description.values import Edit
     from studio.documents.edits import Edits
@@ -70,6 +70,8 @@ class Texts:
     def __init__(
         self, workspace: Workspace, last_run: LastRun, audience: Audience, edits: Edits
     ) -> None:
+        self.on_first: Callable[[], None] = lambda: None
+        """Called when a file's text is asked for that nobody had so far."""
         self._workspace, self._sources, self._last_run = workspace, workspace.sources, last_run
         self._audience, self._edits = audience, edits
         self._sent: dict[str, _Sent] = {}
@@ -93,7 +95,7 @@ class Texts:
             version=sent.version,
             text=sent.text.text,
             saved=None if saved == sent.text.data else EditorText(saved).text,
-            read_only="" if self._may_write(file) else f"{file} cannot be edited: {READ_ONLY}",
+            read_only=f"{file} cannot be edited: {why}" if (why := self._read_only(file)) else "",
         )
 
     def bytes_of(self, file: str, role: Role) -> tuple[str, bytes]:
@@ -118,10 +120,12 @@ class Texts:
             ReadOnlyTextError: It may not be written.
             EditError: A change is none of this text, or its encoding lacks a letter.
             CommandError: It is no file of this document to anybody but a presenter.
+            NotAllowedError: It is a program, which is a presenter's alone.
         """
         file = self._name(command.file, role)
-        if not self._may_write(file):
-            raise ReadOnlyTextError(file, READ_ONLY)
+        self._workspace.check_role([file], role)
+        if reason := self._read_only(file):
+            raise ReadOnlyTextError(file, reason)
         self.follow()
         sent = self._sent.get(file)
         if sent is None or sent.version != command.version:
@@ -132,7 +136,7 @@ class Texts:
         gesture = command.gesture or f"text {file} {sent.version}"
         for edit in edits:
             name = f"Edit {Path(file).name}"
-            self._sources.edit(edit, name, gesture, is_value=False)
+            self._sources.type_in(edit, name, gesture)
         self._typed[file] = command
         await self._edits.run(edits, in_gesture=bool(command.gesture))
 
@@ -155,6 +159,8 @@ class Texts:
         if b"\0" in data:
             raise CommandError(f"{file} is no text that can be shown: open another file.")
         sent = self._sent[file] = _Sent(1, EditorText(sources.text(file)))
+        if not is_held:
+            self.on_first()
         return sent
 
     def _send_typed(self, file: str, command: EditText) -> None:
@@ -203,8 +209,11 @@ class Texts:
         expansion = self._last_run.expansion
         return expansion.files if expansion else (self._workspace.path,)
 
-    def _may_write(self, file: str) -> bool:
-        return self._workspace.served.may_write(Path(file))
+    def _read_only(self, file: str) -> str:
+        """Return why a file cannot be edited; empty: it can."""
+        if not self._workspace.may_program(file):
+            return PROGRAM.format(folder=self._workspace.location.root)
+        return "" if self._workspace.served.may_write(Path(file)) else READ_ONLY
 
 
 COMMANDS: Final = Commands[Texts](Scope.DOCUMENT)

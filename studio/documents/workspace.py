@@ -6,13 +6,15 @@ import asyncio
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.description.editing.sources import Sources
 from studio.description.values import ReadPolicy
-from studio.errors import CommandError
+from studio.errors import CommandError, NotAllowedError
 from studio.packages.roots import package_folder_of
+from studio.packages.run_folders import RunFolders, is_program
 from studio.packages.uris import resolve_uri
+from studio.protocol.roles import Role
 from studio.settings import XACRO_ENVIRONMENT
 
 if TYPE_CHECKING:
@@ -20,6 +22,10 @@ if TYPE_CHECKING:
 
     from studio.packages.roots import ServedRoots
     from studio.packages.workspace import Location
+
+_TYPED_ALONE: Final = (
+    "it is a program, which the owner changes in Source alone, not by a value, a name or a fix."
+)
 
 
 class Workspace:
@@ -36,20 +42,26 @@ class Workspace:
     """
 
     def __init__(
-        self, location: Location, arguments: Mapping[str, str], *, trusted: bool = False
+        self,
+        location: Location,
+        arguments: Mapping[str, str],
+        *,
+        trusted: bool = False,
+        runs: RunFolders | None = None,
     ) -> None:
         if location.entry is None:
             raise CommandError(f"{location.root} holds no robot description: open a file.")
         self.entry, self.path = location.entry, str(location.entry)
-        self._trusted = trusted
+        self._trusted, self._runs = trusted, runs or RunFolders()
         self.location, self._policy = location, read_policy(location, trusted=trusted)
         self._confined: frozenset[str] | None = None
         self.sources = Sources(
             # Asked again each time: a package that is chosen later is served from then on.
             lambda path: self.served.read(path),  # noqa: PLW0108
             lambda path: self.served.resolve(path),  # noqa: PLW0108
-            lambda path: self.served.may_write(path),  # noqa: PLW0108
+            lambda path: self.may_write(path),  # noqa: PLW0108
             arguments,
+            lambda file: _TYPED_ALONE if is_program(file) else "",
         )
         self._packages_of: tuple[tuple[str, ...], Location] | None = None
         self._packages: dict[str, str] = {}
@@ -85,6 +97,28 @@ class Workspace:
     def served(self) -> ServedRoots:
         """The folders that may be read and written."""
         return self.location.served
+
+    def may_write(self, path: Path | str) -> bool:
+        """Whether a file can be saved; a program only where the owner may run it."""
+        return self.served.may_write(path) and self.may_program(path)
+
+    def may_program(self, path: Path | str) -> bool:
+        """Whether a file is none that is run, or the owner may run it."""
+        return not is_program(path) or self._runs.may_edit(path)
+
+    @property
+    def may_run(self) -> bool:
+        """Whether what lies beside the entry file may be run."""
+        return self._runs.allows(self.path)
+
+    def check_role(self, files: Iterable[str], role: Role) -> None:
+        """Pass if a person of that role may change these files: programs are the owner's alone.
+
+        Raises:
+            NotAllowedError: One is a program.
+        """
+        if role is not Role.PRESENTER and any(map(is_program, files)):
+            raise NotAllowedError(role, "change_programs")
 
     def resolve_uri(self, uri: str) -> Path:
         """Return the file of a URI in this document; reads the disk, thread-safe.

@@ -7,10 +7,19 @@ from typing import Literal, TypeAlias
 from studio.protocol.message import Command, Event
 
 Subject: TypeAlias = Literal[
-    "graph", "log", "diagnostics", "goal_statuses", "lessons", "lesson_list", "ticks"
+    "graph",
+    "log",
+    "diagnostics",
+    "goal_statuses",
+    "lessons",
+    "lesson_list",
+    "ticks",
+    "workspaces",
+    "runs",
 ]
 """The graph of nodes, topics, services and actions; lines of the log; diagnostics; states of goals;
-demos and their output; which lessons there are; who reads them and has done which step."""
+demos and their output; which lessons there are; who reads them and has done which step; packages
+of the opened folders; what was started out of the page, and its output."""
 
 
 class FollowChanges(Command):

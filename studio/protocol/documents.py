@@ -107,6 +107,10 @@ class DocumentState(Event):
     """Files that cannot be saved."""
     phase: Literal["opening", "ready", "failed"]
     """`failed`: never expanded so far; after the first good run it stays `ready`."""
+    is_bare: bool = False
+    """Whether it is a folder of packages without a robot: its entry file is a frame alone."""
+    may_run: bool = False
+    """Whether it lies in a folder of --allow-run, so that its owner runs what lies there."""
 
 
 class Progress(Event):

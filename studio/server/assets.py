@@ -139,8 +139,8 @@ class Tree:
 class Assets:
     """The folder of the page; `current` notices when a developer has changed a file."""
 
-    def __init__(self, folder: Path, more: Mapping[str, bytes] | None = None) -> None:
-        """Read `folder`, and add `more` files that are made in memory, by their paths."""
+    def __init__(self, folder: Path, more: Mapping[str, Callable[[], bytes]] | None = None) -> None:
+        """Read `folder` at the first request; `more` makes files in memory, by their paths."""
         self._folder, self._more = folder, more or {}
         self._stamp: Stamp | None = None
         self._tree = Tree("none", {}, _WITHOUT_INDEX, Modules({}))
@@ -188,9 +188,9 @@ def _stamp(folder: Path) -> Stamp:
     return tuple(found)
 
 
-def _read(folder: Path, stamp: Stamp, more: Mapping[str, bytes]) -> Tree:
+def _read(folder: Path, stamp: Stamp, more: Mapping[str, Callable[[], bytes]]) -> Tree:
     contents = {relative: (folder / relative).read_bytes() for relative, _, _ in stamp}
-    contents |= more
+    contents |= {path: make() for path, make in more.items()}
     digest = hashlib.sha256()
     for relative, content in contents.items():
         digest.update(f"{relative}\0{len(content)}\0".encode() + content)

@@ -27,6 +27,7 @@ from studio.description import checks as text_checks
 from studio.documents.engine import Engine
 from studio.errors import SettingsError, StudioError
 from studio.files import write_whole
+from studio.packages import lint as package_checks
 from studio.problems import whys
 from studio.protocol.roles import Role
 from studio.robot import checks as robot_checks
@@ -315,11 +316,12 @@ class _Visit:
         self._engine = Engine(settings, self._classroom)
         self._window = Window(settings.data_folder)
         self._settings, self._credentials = settings, credentials
+        client = viser_client()
         assets = Assets(
             repository_or_wheel("frontend_assets"),
             {
-                CLIENT_PATH: viser_client(),
-                CHECK_TEXTS: check_texts(whys(robot_checks, text_checks)),
+                CLIENT_PATH: lambda: client,
+                CHECK_TEXTS: lambda: check_texts(whys(robot_checks, text_checks, package_checks)),
             },
         )
         app = make_app(self._engine, assets, credentials, secrets.token_hex(8), place.front)

@@ -9,8 +9,16 @@ import { t } from "../../lib/i18n.js";
 import { LongList } from "../../lib/long-list.js";
 import { baseName, placeText, shortPath } from "../../lib/paths.js";
 import { EmptyState, Icon, IconButton, SearchBox } from "../../lib/ui.js";
+import { useLooking } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
-import { allSites, documentState, problems, sitesRevision } from "../../model/document.js";
+import {
+  allSites,
+  documentState,
+  packageProblems,
+  problems,
+  sitesRevision,
+} from "../../model/document.js";
+import { followWorkspaces } from "../../model/programs.js";
 import { canMend, mend, mendAll } from "../../model/requests.js";
 import { selectPart } from "../../model/selection.js";
 import { showSource } from "../../model/source.js";
@@ -20,9 +28,10 @@ import { PlaceLink } from "../parts.js";
 export function ProblemsPanel() {
   const words = useSignal("");
   const hidden = useSignal(/** @type {ReadonlySet<Severity>} */ (new Set()));
+  const { panel } = useLooking(followWorkspaces);
   const all = problems.value;
   if (all.length === 0) {
-    return html`<section class="panel-body" aria-label=${t("panel.problems")}>
+    return html`<section ref=${panel} class="panel-body" aria-label=${t("panel.problems")}>
       <${EmptyState} icon="check" title=${t("problems.none")} /></section>`;
   }
   const files = byFile(filtered(all, words.value, hidden.value));
@@ -30,7 +39,7 @@ export function ProblemsPanel() {
     words.value = "";
     hidden.value = new Set();
   };
-  return html`<section class="panel-body problems-panel" aria-label=${t("panel.problems")}>
+  return html`<section ref=${panel} class="panel-body problems-panel" aria-label=${t("panel.problems")}>
     <${Bar} all=${all} files=${files} words=${words} hidden=${hidden} />
     ${
       files.length === 0
@@ -46,7 +55,7 @@ export function ProblemsPanel() {
  *   hidden: {value: ReadonlySet<Severity>}}} props
  */
 function Bar({ all, files, words, hidden }) {
-  const count = mendable(all);
+  const count = mendable(all.filter((one) => !packageProblems.value.includes(one)));
   const copy = async () => {
     if (await copyText(asText(files, (one) => t(`severity.${one}`)))) notify(t("copied"));
   };

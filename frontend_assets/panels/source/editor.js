@@ -34,9 +34,11 @@ import {
   lintKeymap,
   MatchDecorator,
   openSearchPanel,
+  python,
   rectangularSelection,
   StateEffect,
   StateField,
+  StreamLanguage,
   search,
   searchKeymap,
   syntaxHighlighting,
@@ -126,6 +128,11 @@ const CLASSES = syntaxHighlighting(
     { tag: [tags.comment, tags.processingInstruction, tags.documentMeta], class: "source-comment" },
     { tag: [tags.character, tags.meta, tags.keyword, tags.labelName], class: "source-special" },
     { tag: tags.invalid, class: "source-invalid" },
+    {
+      tag: [tags.function(tags.definition(tags.variableName)), tags.definition(tags.className)],
+      class: "source-tag",
+    },
+    { tag: [tags.self, tags.null], class: "source-special" },
   ]),
 );
 
@@ -218,15 +225,40 @@ function placesOf(view) {
 /** The extension that draws them. */
 export const LIGHTS = [LIT_LINES, RULER];
 
+/** Texts of lines with comments behind a #: interfaces, CMakeLists.txt, setup.cfg. */
+const HASHED = StreamLanguage.define({
+  name: "hashed",
+  token(stream) {
+    if (stream.match(/^#.*/)) return "comment";
+    if (stream.match(/^"(?:[^"\\]|\\.)*"|^'[^']*'/)) return "string";
+    if (stream.sol() && stream.match(/^---\s*$|^\[[^\]]*\]/)) return "keyword";
+    if (stream.match(/^-?\d+(?:\.\d+)?\b/)) return "number";
+    if (stream.sol() && stream.match(/^\s*[\w/]+(?=[\s[<(=])/)) return "propertyName";
+    if (!stream.match(/^\w+/)) stream.next();
+    return null;
+  },
+});
+
+/** @param {string} file @returns {"xml" | "yaml" | "python" | "hashed"} how its text is coloured */
+export function kindOfText(file) {
+  if (/\.ya?ml$/i.test(file)) return "yaml";
+  if (/\.pyi?$/i.test(file)) return "python";
+  return /\.(msg|srv|action|idl|cfg|toml|ini|txt|md|rst|sh)$/i.test(file) ? "hashed" : "xml";
+}
+
+const LANGUAGES = { yaml, xml, python, hashed: () => HASHED };
+const PYTHON_STEP = "    ";
+
 const LINES = 400;
 
 /**
  * How a text indents, so that new lines do as the old ones.
  *
  * @param {Iterable<string>} lines
- * @returns {string} a tab or some spaces; two where nothing tells
+ * @param {string} [usual] where nothing tells
+ * @returns {string} a tab or some spaces
  */
-export function indentationOf(lines) {
+export function indentationOf(lines, usual = "  ") {
   /** @type {Map<string, number>} */
   const steps = new Map();
   let before = 0;
@@ -238,7 +270,7 @@ export function indentationOf(lines) {
     before = depth;
   }
   const [best] = [...steps].sort((a, b) => b[1] - a[1]);
-  return best?.[0] ?? "  ";
+  return best?.[0] ?? usual;
 }
 
 /** @param {Iterable<string>} lines @returns {Generator<string>} those that say something */
@@ -364,7 +396,7 @@ export function tellCursor(state, { onCursor }) {
  * @returns {EditorState}
  */
 export function stateOf(link, common, { dark, mayEdit, more }) {
-  const isYaml = /\.ya?ml$/i.test(link.file);
+  const kind = kindOfText(link.file);
   const lines = link.doc.iterLines();
   return EditorState.create({
     doc: link.doc,
@@ -373,8 +405,8 @@ export function stateOf(link, common, { dark, mayEdit, more }) {
       changeMarks(link.saved),
       more,
       common,
-      isYaml ? yaml() : xml(),
-      indentUnit.of(indentationOf(lines)),
+      LANGUAGES[kind](),
+      indentUnit.of(indentationOf(lines, kind === "python" ? PYTHON_STEP : undefined)),
       EditorState.tabSize.of(4),
       locked.of(EditorState.readOnly.of(!mayEdit || link.readOnly !== "")),
       darkness.of(EditorView.theme({}, { dark })),

@@ -59,8 +59,9 @@ export function SourcePanel() {
 /** @param {{file: string, reason: string}} props what stands where no text is shown yet */
 function Waiting({ file, reason }) {
   if (file === "") {
-    const entry = documentState.value?.path;
+    const entry = documentState.value?.is_bare ? "" : documentState.value?.path;
     return html`<${EmptyState} icon="source" title=${t("source.none")}>
+      ${!entry && html`<p>${t("source.none.packages")}</p>`}
       ${entry && html`<button type="button" class="button" onClick=${() => openFile(entry)}>${t("source.open_entry")}</button>`}<//>`;
   }
   if (reason) return html`<${EmptyState} icon="alert" title=${reason} />`;
@@ -76,16 +77,23 @@ function Place() {
   </div>`;
 }
 
+/** @param {string} path of the entry file @returns {string[]} the file in front, then all tabs */
+function filesOfLastVisit(path) {
+  const stored = recall(`source.${path}`);
+  const files = Array.isArray(stored) ? stored.filter((one) => typeof one === "string") : [];
+  if (files.length > 0) return files.length > 1 ? files : [...files, path];
+  // A folder without a robot has no text that is meant before another.
+  return documentState.value?.is_bare ? [] : [path, path];
+}
+
 /** The tabs of this document are those of the last visit; at the first, the entry file. */
 function useRememberedFiles() {
   const path = documentState.value?.path ?? "";
   useEffect(() => {
     if (path === "" || openFiles.value.length > 0) return;
-    const stored = recall(`source.${path}`);
-    const files = Array.isArray(stored) ? stored.filter((one) => typeof one === "string") : [];
-    const [shown = path, ...tabs] = files;
-    for (const file of tabs.length > 0 ? tabs : [path]) openFile(file);
-    openFile(shown);
+    const [shown, ...tabs] = filesOfLastVisit(path);
+    for (const file of tabs) openFile(file);
+    if (shown) openFile(shown);
   }, [path]);
   const files = openFiles.value;
   const shown = shownFile.value;

@@ -12,7 +12,7 @@ import { redo, undo } from "../../model/requests.js";
 import { cursorPlace, shownFile } from "../../model/source.js";
 import { theme } from "../../model/view.js";
 import { RefusedError } from "../../model/wire.js";
-import { commonExtensions, fromElsewhere, stateOf, tellCursor } from "./editor.js";
+import { commonExtensions, fromElsewhere, kindOfText, stateOf, tellCursor } from "./editor.js";
 import { languageOf } from "./language.js";
 import { pointing, selecting } from "./selection.js";
 import { linkText } from "./shared-text.js";
@@ -117,7 +117,10 @@ export class SourceTexts {
       const options = {
         dark: theme.value === "dark",
         mayEdit: mayEdit.value,
-        more: [languageOf(link), pointing(link), selecting(link)],
+        // Of a program no question is asked that is about a robot.
+        more: ["xml", "yaml"].includes(kindOfText(file))
+          ? [languageOf(link), pointing(link), selecting(link)]
+          : [],
       };
       one.state = stateOf(link, this.#common, options);
       return "";

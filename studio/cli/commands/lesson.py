@@ -1,4 +1,4 @@
-"""`studio lesson`: check lessons that you wrote."""
+"""`studio lesson`: take the files of a lesson, check lessons that you wrote."""
 
 from __future__ import annotations
 
@@ -15,6 +15,21 @@ if TYPE_CHECKING:
 def add(parser: argparse.ArgumentParser) -> None:
     """Add the verbs of `lesson` to the parser."""
     verbs = Verbs(parser)
+    files = verbs.add(
+        "files",
+        _files,
+        "write the files that a lesson begins with, into a folder of its name",
+        "`studio lesson files` lists the lessons that have files.",
+    )
+    files.add_argument("name", metavar="LESSON", nargs="?")
+    files.add_argument(
+        "folder",
+        metavar="FOLDER",
+        nargs="?",
+        type=Path,
+        default=Path(),
+        help="where the folder is made; here by default",
+    )
     check = verbs.add(
         "check",
         _check,
@@ -22,6 +37,20 @@ def add(parser: argparse.ArgumentParser) -> None:
         "`studio open PATH --lessons FOLDER` shows them in the page.",
     )
     check.add_argument("folder", metavar="FOLDER", type=Path, help="a lesson, or a folder of them")
+
+
+def _files(options: argparse.Namespace) -> int:
+    from studio.course.lessons.files import lessons_with_files, write_files
+    from studio.settings import repository_or_wheel
+
+    course = repository_or_wheel("frontend_assets") / "lessons"
+    if options.name is None:
+        print(*lessons_with_files(course), sep="\n")
+        return 0
+    folder = options.folder.expanduser().absolute() / options.name
+    written = write_files(course, options.name, folder)
+    print(*(path.relative_to(folder.parent) for path in written), sep="\n")
+    return 0
 
 
 def _check(options: argparse.Namespace) -> int:

@@ -1,78 +1,133 @@
-"""`studio run`: start a node by its package and name."""
+"""`studio run`: start a node by its package and name, or a Python file."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
 import os
+import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.interface_types import environment_with
 from studio.cli.joining import domain_number
-from studio.cli.packages import (
-    demo_executables,
-    executables_of_all,
-    opened_packages,
-    workspace_folder,
-)
+from studio.cli.packages import opened_packages
 from studio.cli.terminal import harmless
 from studio.cli.wire import STARTING, ended_by_signals
 from studio.errors import SettingsError
-from studio.packages.executables import executables_of, file_of
+from studio.importable.hints import HINTS_VARIABLE
+from studio.programs.finding import file_program, find_program
+from studio.programs.program import RUNNER
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from studio.programs.program import Program
     from studio.ros.node.arguments import RosArguments, Rule
 
 _ROS_ARGUMENTS = "--ros-args"
-_COMMANDS = {("rviz2", "rviz2"): "open", ("xacro", "xacro"): "xacro"}
-"""Programs of ROS that are commands of the studio."""
+_PYTHON_FILE = ".py"
+_LAUNCH_FILES = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml")
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Add the options of `run` to the parser."""
+    parser.usage = (
+        "studio run [-h] [--demo] [--strict] [--no-hints] PACKAGE EXECUTABLE [ARGUMENT ...]\n"
+        "       studio run [-h] [--strict] [--no-hints] FILE.py [ARGUMENT ...]"
+    )
     parser.description = (
-        "Start a node: one of the studio's own under the name that the course gives it "
-        "(studio pkg executables lists them). Where no router answers, the node brings one. "
-        "A package of your workspace comes before ours of the same name: what it would start is "
-        "said, for nodes of a workspace are not started yet."
+        "Start a node of a package, or a Python file. Your own nodes run as they are, with no ROS "
+        "installed and nothing built: rclpy, tf2_ros and the messages of your workspace are there "
+        "to import (experimental: README, Your own code). Other names start the studio's own nodes "
+        "(studio pkg executables lists them), and what is installed on this machine runs as it is. "
+        "Where no router answers, the node brings one."
     )
     parser.add_argument(
         "--demo",
         action="store_true",
         help="before PACKAGE: start the studio's own node, though the workspace has that package",
     )
+    parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="before PACKAGE: what would fail in ROS 2 is an error here, too, and no warning",
+    )
+    parser.add_argument(
+        "--no-hints",
+        action="store_true",
+        help=f"before PACKAGE: no hints for beginners; {HINTS_VARIABLE}=0 does the same",
+    )
     parser.add_argument("package_name", metavar="PACKAGE")
-    parser.add_argument("executable_name", metavar="EXECUTABLE")
     parser.add_argument(
         "arguments",
-        metavar="ARGUMENT",
+        metavar="EXECUTABLE [ARGUMENT ...]",
         nargs=argparse.REMAINDER,
-        help="the node's own; --ros-args -r from:=to -p name:=value as in ROS; "
+        help="the node's own arguments; --ros-args -r from:=to -p name:=value as in ROS; "
         "--connect, --domain, --router, --interfaces and --package-path as everywhere",
     )
     parser.set_defaults(run=_run, data_dir=None)
 
 
 def _run(options: argparse.Namespace) -> int:
+    words = [argument.removeprefix(" ") for argument in options.arguments]
+    name: str = options.package_name
+    _refuse_launch_file(name, words)
+    if name.endswith(_PYTHON_FILE) and not options.demo:
+        wire, rest = _part_arguments(words)
+        options.package_path = wire.package_path
+        return _start(file_program(Path(name), opened_packages(options)), options, wire, rest)
+    if not words or words[0].startswith("-"):
+        raise SettingsError(
+            f"studio run {harmless(name)}: name an executable of the package, too "
+            f"(studio pkg executables {harmless(name)} lists them)."
+        )
+    wire, rest = _part_arguments(words[1:])
+    options.package_path = wire.package_path
+    program = find_program(opened_packages(options), name, words[0], demo=options.demo)
+    return _start(program, options, wire, rest)
+
+
+def _refuse_launch_file(name: str, words: Sequence[str]) -> None:
+    """Name the command for launch files where one is given in place of a program."""
+    line = [name] if name.endswith(_LAUNCH_FILES) else [name, *words[:1]]
+    if line[-1].endswith(_LAUNCH_FILES):
+        meant = harmless(shlex.join(line))
+        raise SettingsError(f"{harmless(line[-1])}: this is a launch file: studio launch {meant}")
+
+
+def _start(
+    program: Program,
+    options: argparse.Namespace,
+    wire: argparse.Namespace,
+    arguments: list[str],
+) -> int:
+    """Run a program in this process, or as this process."""
     from studio.course.processes import environment_for
     from studio.ros.wire.session import open_wire
     from studio.ros.wire.settings import wire_settings
 
-    arguments = [argument.removeprefix(" ") for argument in options.arguments]
-    command = _COMMANDS.get((options.package_name, options.executable_name))
-    if command is not None:
-        return _run_command(command, options.executable_name, arguments)
-    wire, arguments = _part_arguments(arguments)
-    module = _demo_module(options) if options.demo else _module_of(options, wire.package_path)
+    if program.kind == "command":
+        return _run_command(program.command[4], program.executable, arguments)
     settings = wire_settings(tuple(wire.connect), wire.domain)
+    os.environ.update(program.environment)
+    added = environment_for(settings, environment_with(wire.interfaces))
+    if program.module == RUNNER:
+        from studio.importable.running import run_words
+        from studio.ros.node.spinning import ROUTER_VARIABLE
+
+        os.environ.update(added | {ROUTER_VARIABLE: wire.router})
+        if options.no_hints:
+            os.environ[HINTS_VARIABLE] = "0"
+        return run_words(program.command[4:], arguments, strict=options.strict)
+    if not program.module:
+        os.environ.update(added)
+        os.execv(program.command[0], [*program.command, *arguments])
     # Held for as long as the node runs: with it goes the router, where one was started here.
     with ended_by_signals(), open_wire(settings, wire.router) as held:
         os.environ.update(environment_for(held.settings, environment_with(wire.interfaces)))
-        importlib.import_module(module).main(arguments)
+        importlib.import_module(program.module).main(arguments)
     return 0
 
 
@@ -118,84 +173,3 @@ def _part_arguments(arguments: Sequence[str]) -> tuple[argparse.Namespace, list[
     parser.add_argument("--package-path", action="append", default=[])
     wire, rest = parser.parse_known_args(arguments[:end])
     return wire, [*rest, *arguments[end:]]
-
-
-def _demo_module(options: argparse.Namespace) -> str:
-    """Find the studio's own node, whatever the workspace has.
-
-    Raises:
-        SettingsError: It has none of that name.
-    """
-    package, name = options.package_name, options.executable_name
-    module = demo_executables().get(package, {}).get(name)
-    if module is None:
-        raise SettingsError(f"The studio has no node {package} {name}: studio demos lists them.")
-    return module
-
-
-def _module_of(options: argparse.Namespace, package_path: list[str]) -> str:
-    """Find what is started.
-
-    Raises:
-        SettingsError: The studio has no such node, or the workspace has a package of that name;
-            the sentence names what there is instead.
-    """
-    package, name = options.package_name, options.executable_name
-    own = demo_executables().get(package, {})
-    options.package_path = package_path
-    index = opened_packages(options)
-    folder = workspace_folder(index, package)
-    if folder is not None:
-        raise SettingsError(_workspace_sentence(folder, package, name, is_ours=name in own))
-    if name in own:
-        return own[name]
-    known = executables_of_all(index).get(package, {})
-    if name in known:
-        raise SettingsError(
-            f"{package} {name} is a program of ROS ({known[name]}): the studio starts only nodes "
-            "of its own, run it with ros2 run where ROS is installed."
-        )
-    if known:
-        raise SettingsError(
-            f'{package} has no executable "{name}": it has {", ".join(sorted(known))}.'
-        )
-    if package in index:
-        raise SettingsError(f"{package} ({index.best(package, Path.cwd())}) starts nothing.")
-    raise SettingsError(
-        f'No package "{package}" is known: studio pkg executables lists what can be started.'
-    )
-
-
-def _workspace_sentence(folder: Path, package: str, name: str, *, is_ours: bool) -> str:
-    """Return what the workspace has under a name, and how to start the studio's own."""
-    known = executables_of(folder, package)
-    if name in known:
-        text = (
-            f"Your workspace has {package} {name}: the package is {folder}, and it would start "
-            f"{_program(folder, known[name])}. The studio does not start nodes of a workspace "
-            f"yet, so nothing runs: where ROS is installed, ros2 run {package} {name} starts it."
-        )
-    elif known:
-        text = (
-            f'Your workspace has the package {package} ({folder}), which has no executable "{name}"'
-            f": it has {', '.join(sorted(known))}."
-        )
-    else:
-        text = (
-            f"Your workspace has the package {package} ({folder}), which starts nothing: no "
-            'entry in console_scripts of its setup.py, no install to "lib/${PROJECT_NAME}" in its '
-            "CMakeLists.txt."
-        )
-    demo = f" The studio's demo of that name starts with: studio run --demo {package} {name}"
-    return text + (demo if is_ours else "")
-
-
-def _program(folder: Path, place: str) -> str:
-    """Return what an executable is: its file, and the function in it."""
-    path = file_of(folder, place)
-    module, colon, function = place.partition(":")
-    if not colon:
-        return str(path) if path else f"{folder / place}, which is not there"
-    if path is None:
-        return f"{place}, but no file of the package is the module {module}"
-    return f"{function}() in {path}"

@@ -26,7 +26,7 @@ from studio.description.editing.undo import (
     UndoStack,
 )
 from studio.description.values import Edit
-from studio.errors import EditError, PackageError
+from studio.errors import EditError, PackageError, ReadOnlyTextError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -119,6 +119,7 @@ class Sources:
         resolve: Gives a path's real place below the opened folders, or raises.
         may_write: Whether that place may be written; default: any.
         arguments: The xacro arguments that the document was opened with.
+        only_typed: Says why a file is changed in an editor alone; default: none is.
     """
 
     def __init__(
@@ -127,8 +128,10 @@ class Sources:
         resolve: Callable[[Path], Path],
         may_write: Callable[[Path], bool] = lambda _: True,
         arguments: Mapping[str, str] | None = None,
+        only_typed: Callable[[str], str] = lambda _: "",
     ) -> None:
         self._read, self._resolve, self._may_write = read, resolve, may_write
+        self._only_typed = only_typed
         self._texts: dict[str, HeldText] = {}
         self._steps = UndoStack()
         self._arguments = dict(arguments or {})
@@ -170,6 +173,12 @@ class Sources:
     def conflicts(self) -> frozenset[str]:
         """Files that changed on disk where they have unsaved edits."""
         return frozenset(self._conflicts)
+
+    def files_of_steps(self, count: int) -> frozenset[str]:
+        """Return the files that change until `count` steps are done, as `undo_to` does them."""
+        done, undone = self._steps.done, self._steps.undone
+        between = done[max(0, count) :] or undone[max(0, len(undone) + len(done) - count) :]
+        return frozenset(splice.file for step in between for splice in step.splices)
 
     def since_saved(self) -> tuple[Edit, ...]:
         """Return the edits from the files as saved to the present texts."""
@@ -216,14 +225,22 @@ class Sources:
         shows what its bytes were and are.
 
         Raises:
+            ReadOnlyTextError: The file is changed in an editor alone.
             EditError: The edit lies outside the file.
             PackageError: The file cannot be read.
         """
+        self._refuse_closed((edit,))
         self._push((edit,), Step(name, gesture=gesture, is_value=is_value))
 
     def edit_all(self, edits: Iterable[Edit], name: str, gesture: str = "") -> None:
         """Apply edits, each to what those before it left, as one undo step; errors as `edit`."""
-        self._push(edits, Step(name, gesture=gesture, is_value=False))
+        listed = tuple(edits)
+        self._refuse_closed(listed)
+        self._push(listed, Step(name, gesture=gesture, is_value=False))
+
+    def type_in(self, edit: Edit, name: str, gesture: str = "") -> None:
+        """Apply what was typed into an editor, as `edit`; who calls it has asked who may."""
+        self._push((edit,), Step(name, gesture=gesture, is_value=False))
 
     def edit_site(self, site_id: str, text: str, gesture: str = "") -> Edit:
         """Write a new text at a site, quoted and escaped as its place needs it.
@@ -452,6 +469,11 @@ class Sources:
         if edits:
             self._push(edits, step)
         return edits
+
+    def _refuse_closed(self, edits: Sequence[Edit]) -> None:
+        for file in {one.file for one in edits}:
+            if reason := self._only_typed(file):
+                raise ReadOnlyTextError(file, reason)
 
     def _push(self, edits: Iterable[Edit], step: Step) -> None:
         self._steps.push(replace(step, splices=tuple(self._apply(edits))))

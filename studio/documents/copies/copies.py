@@ -34,6 +34,7 @@ from studio.files import write_whole
 from studio.live.displays.display_file import DisplayFile
 from studio.packages.packing import PackedFile, zip_chunks
 from studio.packages.roots import ServedRoots
+from studio.packages.run_folders import RunFolders
 from studio.protocol.commands import Commands, Limits, OnCopies, Scope
 from studio.protocol.copies import (
     Copies as CopiesEvent,
@@ -97,14 +98,16 @@ class SharedDocuments(Protocol):
 
 
 class CopyServices(Services):
-    """Those of the studio, with evaluators of which there are few, and without trust."""
+    """Those of the studio, with few evaluators, without trust, and with nothing to run."""
 
     def __init__(self, base: Services) -> None:
         # The base is not initialised: what it has is the studio's.
-        self.settings = replace(base.settings, trusted=False)
+        self.settings = replace(base.settings, trusted=False, run_folders=())
         self.quiet_s, self.patience_s = 2.0, base.patience_s
         self.meshes, self.validator, self.wire = base.meshes, base.validator, base.wire
         self.plugins = base.plugins
+        # Nothing in a student's copy is run, or changed as a program.
+        self.run_folders = RunFolders((), base.settings.data_folder)
         self.evaluators = Evaluators()
 
     def description_worker(self, opened: WaitsForOpening | None = None) -> DescriptionWorker:

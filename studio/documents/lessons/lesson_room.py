@@ -15,6 +15,7 @@ from studio.course.lessons.shelf import LESSONS_MAX
 from studio.course.lessons.text import LessonText, read_lesson
 from studio.documents.lessons.graphs import Graphs, Questions
 from studio.documents.lessons.model_checks import model_verdict
+from studio.documents.lessons.package_checks import package_verdict
 from studio.documents.lessons.verdict import HOLDS, Verdict, missing
 from studio.documents.lessons.views import check_views, lesson_view, step_view, tick_of
 from studio.errors import StudioError
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     from studio.course.lessons.checks import Check
     from studio.course.lessons.shelf import Shelf
     from studio.documents.document import Document
+    from studio.documents.lessons.package_checks import InspectedFolder
     from studio.live.connection.link import WireLink
     from studio.protocol.changes import Subject
     from studio.protocol.listeners import Listener
@@ -117,6 +119,7 @@ class LessonRoom:
         classroom: Has the people, and keeps what they have done.
         link_of: Returns the ROS system of a person, and whether it is theirs alone.
         changed: Called with what changed: the list of lessons, or who reads and has done what.
+        packages: Returns the opened folders of packages, as far as they were read.
     """
 
     def __init__(
@@ -126,7 +129,9 @@ class LessonRoom:
         classroom: Classroom,
         link_of: Callable[[str], Awaitable[tuple[WireLink | None, bool]]],
         changed: Callable[[Subject], object],
+        packages: Callable[[], Iterable[InspectedFolder]] = tuple,
     ) -> None:
+        self._packages = packages
         self._shelf, self._engine, self._classroom = shelf, engine, classroom
         self._link_of, self._changed = link_of, changed
         self._readers: dict[Listener, _Reader] = {}
@@ -362,6 +367,8 @@ class LessonRoom:
                 found[one.line] = HOLDS if is_seen else missing("opened.none")
             elif one.concern is Concern.GRAPH:
                 found[one.line] = graph.get(one.line, reader.no_link)
+            elif one.concern is Concern.PACKAGES:
+                found[one.line] = package_verdict(one.values, self._packages())
             elif document is None:
                 found[one.line] = missing("document.none")
             else:

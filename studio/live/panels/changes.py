@@ -22,6 +22,8 @@ _PAUSES_S: Final[dict[Subject, float]] = {
     "lessons": 0.2,
     "lesson_list": 0.5,
     "ticks": 0.5,
+    "workspaces": 0.5,
+    "runs": 0.2,
 }
 
 

@@ -33,7 +33,7 @@ from studio.protocol.calls import FollowOperations
 from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Awaitable, Callable
 
     from studio.live.connection.ros_connection import RosConnection
     from studio.protocol.listeners import Listener
@@ -77,6 +77,8 @@ class RosSystem:
         self.driving = driving.Driving(wire)
         self.lessons = lessons.CourseDemos(wire, partial(self.changes.changed, "lessons"))
         self.doctor = doctor.Doctor(wire, self._unanswered)
+        self.end_programs: Callable[[], Awaitable[None]] = _nothing
+        """Ends what the owner runs, for it has joined the same system."""
         self._stopping: asyncio.Task[None] | None = None
         self._operations = {
             "calls": self.calls.operations,
@@ -170,6 +172,7 @@ class RosSystem:
             self.driving.let_go(),
             self.lessons.let_go(),
             self.lifecycle.let_go(),
+            self.end_programs(),
         )
 
     async def let_go_of_operations(self) -> None:
@@ -195,6 +198,10 @@ class RosSystem:
         )
         parts = (self.calls, self.goals, self.publishing, self.parameters, self.doctor)
         await asyncio.gather(*(one.close() for one in parts))
+
+
+async def _nothing() -> None:
+    return
 
 
 COMMANDS: Final = Commands[RosSystem](Scope.ROS)

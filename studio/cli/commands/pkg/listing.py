@@ -1,4 +1,4 @@
-"""`studio pkg`: list the packages of opened folders and what they start."""
+"""`studio pkg list`, `xml`, `executables`, `prefix`: the packages of opened folders."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.packages import add_package_options, opened_packages
-from studio.cli.verbs import Verbs
 from studio.cli.wire import take_wire_options
 from studio.errors import PackageNotFoundError
 from studio.packages.manifest import FILE_NAME, SIZE_LIMIT_BYTES
@@ -15,12 +14,12 @@ from studio.packages.roots import ServedRoots
 if TYPE_CHECKING:
     import argparse
 
+    from studio.cli.verbs import Verbs
     from studio.packages.index import PackageIndex
 
 
-def add(parser: argparse.ArgumentParser) -> None:
-    """Add the verbs of `pkg` to the parser."""
-    verbs = Verbs(parser)
+def add(verbs: Verbs) -> None:
+    """Add the verbs that print what is known of packages."""
     _add_common(verbs.add("list", _list, "name the packages of opened folders"))
     xml = verbs.add("xml", _xml, "print the package.xml of a package")
     xml.add_argument("package_name", metavar="PACKAGE")
@@ -35,12 +34,6 @@ def add(parser: argparse.ArgumentParser) -> None:
     prefix = verbs.add("prefix", _prefix, "print the folder of a package")
     prefix.add_argument("package_name", metavar="PACKAGE")
     _add_common(prefix)
-    verbs.add_unserved(
-        "create",
-        "make a new package",
-        "pkg create",
-        "write package.xml and its folders by hand, or with ros2 pkg create",
-    )
 
 
 def _add_common(parser: argparse.ArgumentParser) -> None:
@@ -49,9 +42,9 @@ def _add_common(parser: argparse.ArgumentParser) -> None:
 
 
 def _list(options: argparse.Namespace) -> None:
-    from studio.cli.packages import demo_packages
+    from studio.programs.own import own_executables
 
-    print(*sorted(opened_packages(options).names | demo_packages()), sep="\n")
+    print(*sorted(opened_packages(options).names | set(own_executables())), sep="\n")
 
 
 def _xml(options: argparse.Namespace) -> int:
@@ -64,9 +57,9 @@ def _xml(options: argparse.Namespace) -> int:
 
 def _manifest(index: PackageIndex, name: str) -> str:
     """Return the text of a package.xml; one is made for a package of our demos."""
-    from studio.cli.packages import demo_manifest
+    from studio.programs.own import own_manifest
 
-    if name not in index and (written := demo_manifest(name)):
+    if name not in index and (written := own_manifest(name)):
         return written
     folder = _folder(index, name)
     return ServedRoots([folder]).read(folder / FILE_NAME, SIZE_LIMIT_BYTES).decode(errors="replace")
@@ -81,7 +74,7 @@ def _print_tag(text: str, tag: str) -> int:
 
 
 def _executables(options: argparse.Namespace) -> int:
-    from studio.cli.packages import executables_of_all
+    from studio.programs.finding import executables_of_all
 
     index = opened_packages(options)
     found = executables_of_all(index)
@@ -96,11 +89,11 @@ def _executables(options: argparse.Namespace) -> int:
 
 
 def _prefix(options: argparse.Namespace) -> None:
-    from studio.cli.packages import demo_folder, demo_packages
+    from studio.programs.own import own_executables, own_folder
 
     index = opened_packages(options)
-    if options.package_name not in index and options.package_name in demo_packages():
-        print(demo_folder(options.package_name))
+    if options.package_name not in index and options.package_name in own_executables():
+        print(own_folder(options.package_name))
     else:
         print(_folder(index, options.package_name))
 

@@ -1,0 +1,1 @@
+"""What the owner runs out of the page: launch files planned and started, nodes, their packages."""
