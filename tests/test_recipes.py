@@ -34,8 +34,20 @@ CHECKS = sorted(
     for path in (REPOSITORY / "studio/robot/checks").glob("*.py")
     if "\ndef findings(" in path.read_text(encoding="utf-8")
 )
+PACKAGE_CHECKS = sorted(
+    path.stem
+    for path in (REPOSITORY / "studio/packages/lint").glob("*.py")
+    if "\ndef findings(" in path.read_text(encoding="utf-8")
+)
 IMPORT = re.compile(r"^ *from (studio[\w.]*) import (?:\(([^)]*)\)|(.+))$", re.MULTILINE)
-FILES_MAX = {"panel": 9, "display": 4, "command": 2, "CLI verb": 2, "check of robots": 2}
+FILES_MAX = {
+    "panel": 9,
+    "display": 4,
+    "command": 2,
+    "CLI verb": 2,
+    "check of robots": 2,
+    "check of packages": 2,
+}
 NAMES_OF_A_LIST = 3
 """Of panels: one or two words in a file may be other things, or panels that a button opens."""
 DISPLAYS_NAMED = {
@@ -43,6 +55,8 @@ DISPLAYS_NAMED = {
     ("studio/live/displays/robot_models.py", "RobotModelDisplay"): "its meshes are read there",
 }
 COMMANDS_PASSED_ON = {
+    "AddToPackage": {"studio/live/programs/making.py"},
+    "CreatePackage": {"studio/live/programs/making.py"},
     "GetTf": {"studio/live/displays/scene_frames.py"},
     "InteractWithMarker": {"studio/live/displays/marker_servers.py"},
     "GetUrdf": {"studio/server/api.py"},
@@ -218,6 +232,13 @@ def test_a_check_has_the_files_of_its_recipe_and_no_others_name_it(check: str):
     module = f"studio.robot.checks.{check}"
     assert not {one for name in importers() if name.startswith(module) for one in importers()[name]}
     assert list((REPOSITORY / "tests/robot/checks").glob(f"test_{check}*.py"))
+
+
+@pytest.mark.parametrize("check", PACKAGE_CHECKS)
+def test_a_check_of_packages_has_the_files_of_its_recipe_and_no_others_name_it(check: str):
+    module = f"studio.packages.lint.{check}"
+    assert not {one for name in importers() if name == module for one in importers()[name]}
+    assert list((REPOSITORY / "tests/packages/lint").glob(f"test_{check}*.py"))
 
 
 def test_no_other_file_names_the_code_of_a_finding_but_for_a_reason():

@@ -18,7 +18,9 @@ from tests.benchmarks import (
     edit_to_websocket,
     evaluator,
     fan_out,
+    first_message,
     large,
+    launch_start,
     line,
     live_clouds,
     live_scene,
@@ -39,6 +41,8 @@ if TYPE_CHECKING:
 BENCHMARKS: dict[str, Callable[[], None]] = {
     "start": start.run,
     "page": page.run,
+    "node": first_message.run,
+    "launch": launch_start.run,
     "evaluator": evaluator.run,
     "edit": edit_to_websocket.run,
     "pixels": edit_to_pixels.run,

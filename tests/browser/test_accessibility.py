@@ -58,6 +58,8 @@ DIALOGS: Final[dict[str, dict[str, Any]]] = {
     "rviz_save": {"kind": "rviz_save"},
     "rviz_opened": {"kind": "rviz_opened", "opened": OPENED},
     "layouts": {"kind": "layouts"},
+    "new_package": {"kind": "new_package"},
+    "add_to_package": {"kind": "add_to_package", "what": "node", "folder": "/x", "name": "x"},
     "class": {"kind": "class"},
     "class_name": {"kind": "class_name"},
     "nodes": {"kind": "nodes"},

@@ -88,6 +88,19 @@ def test_the_palette_goes_to_a_property_by_some_of_its_letters(tab: StudioPage):
     tab.page.keyboard.press("Escape")
 
 
+def test_the_palette_explains_a_line_of_a_shell_and_mends_one_of_ros2(tab: StudioPage):
+    search(tab, "colcon build --symlink-install")
+    said = tab.page.locator(".palette-does").inner_text()
+    assert "Not needed here" in said
+    tab.page.keyboard.press("Enter")
+    tab.page.get_by_role("status").get_by_text("Not needed here").wait_for()
+    search(tab, "ros2 topic ehco /chatter")
+    assert (
+        tab.page.locator(".palette-item").first.inner_text().startswith("ros2 topic echo /chatter")
+    )
+    tab.page.keyboard.press("Escape")
+
+
 def test_the_palette_goes_to_links_joints_and_lines(tab: StudioPage):
     search(tab, "@mast")
     tab.page.keyboard.press("Enter")

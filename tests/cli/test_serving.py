@@ -55,3 +55,20 @@ def test_folders_of_displays_come_from_the_command_line_alone(tmp_path: Path):
     assert server_settings(parsed()).display_folders == ()
     with pytest.raises(SettingsError, match="gone is none"):
         server_settings(parsed("--displays", str(tmp_path / "gone")))
+
+
+def test_folders_whose_programs_may_be_run_come_from_the_command_line_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    folder, link = tmp_path / "home" / "ws", tmp_path / "link"
+    folder.mkdir(parents=True)
+    link.symlink_to(folder)
+    words = ("--allow-run", str(folder), "--allow-run", str(link))
+    assert server_settings(parsed(*words)).run_folders == (folder, folder)
+    assert server_settings(parsed()).run_folders == ()
+    with pytest.raises(SettingsError, match="--allow-run takes a folder"):
+        server_settings(parsed("--allow-run", str(tmp_path / "gone")))
+    for wide in ("/", str(tmp_path / "home")):
+        with pytest.raises(SettingsError, match="inside it"):
+            server_settings(parsed("--allow-run", wide))

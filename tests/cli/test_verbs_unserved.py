@@ -8,13 +8,10 @@ from tests.support.command_line import studio
 @pytest.mark.parametrize(
     "line",
     [
-        "launch my_package my_launch_file.py",
-        "launch my_package x.launch.py use_sim_time:=true --show-args",
         "bag record /number -o bag1",
         "bag record -a",
         "bag play bag1 --loop",
         "bag info bag1",
-        "pkg create --build-type ament_python my_package --dependencies rclpy",
     ],
 )
 def test_a_line_that_is_not_served_says_so_in_one_sentence(line: str):

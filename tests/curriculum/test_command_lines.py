@@ -82,13 +82,12 @@ LINES = (
     Ends("pkg list", "turtlesim\n"),
     Ends("pkg xml rover_description", "<name>rover_description</name>"),
     Ends("pkg executables turtlesim", "turtlesim turtlesim_node\n"),
-    Ends("pkg create -h", "not served yet"),
-    Ends("pkg create --build-type ament_cmake my_robot_description", NOT_YET, 2),
-    Ends("pkg create --build-type ament_python my_python_package", NOT_YET, 2),
+    Ends("pkg create -h", "--node-name"),
+    Ends("pkg create --build-type ament_cmake my_robot_description", "CMakeLists.txt\n"),
+    Ends("pkg create --build-type ament_python my_python_package", "setup.py\n"),
     Ends(
         "pkg create urdf_view --build-type ament_python --dependencies rclpy --license Apache-2.0",
-        NOT_YET,
-        2,
+        "creating ./urdf_view/LICENSE\n",
     ),
     # Running
     GoesOn("run turtlesim turtlesim_node", "Spawning turtle"),
@@ -100,19 +99,35 @@ LINES = (
     Ends("run turtlesim turtle_teleop_key", "Keys come from a terminal", 1),
     Ends(
         "run lifecycle lifecycle_service_client get_available_states --node-name n",
-        "has no executable",
+        "studio lifecycle get NODE",
         2,
     ),
     Ends("run my_robot_package my_robot_node", "has no executable", 2),
     # The rest
     Ends("doctor --report", "   NODE LIST\n"),
-    Ends("doctor --report --include-dds", "unrecognized arguments: --include-dds", 2),
+    Ends("doctor --report --include-dds", "doctor has no --include-dds", 2),
     Ends("daemon stop", "There is no daemon to stop"),
     Ends("daemon start", "No daemon is needed"),
     Ends("bag record /number -o bag1", NOT_YET, 2),
     Ends("bag play ~/bags/bag1/", NOT_YET, 2),
-    Ends("launch my_robot_description robot_display.launch.py", NOT_YET, 2),
-    Ends("launch urdf_view demo.launch.py", NOT_YET, 2),
+    Ends("launch my_robot_description robot_display.launch.py", "No package", 2),
+    Ends("launch urdf_view demo.launch.py", "No package", 2),
+    # Misspelt as printed, and lines of the shell
+    Ends(
+        "service call_ /_spawn turtlesim_/srv/_Spawn_ '{x: 2}'",
+        "did you mean: studio service call",
+        2,
+    ),
+    Ends(
+        "service call /get_now_playing radio_station_interfaces/srv/GetNowPlaying.srv",
+        "write radio_station_interfaces/srv/GetNowPlaying",
+        2,
+    ),
+    Ends("colcon build --packages-select radio_station", "nothing is built here", 2),
+    Ends("source install/setup.bash", "needs no ROS", 2),
+    Ends("rosdep install -i --from-path src --rosdistro humble -y", "package.xml", 2),
+    Ends("rqt_graph", "Node graph", 2),
+    Ends("rviz2", "studio open", 2),
 )
 ENDING = [one for one in LINES if isinstance(one, Ends)]
 GOING_ON = [one for one in LINES if isinstance(one, GoesOn)]
@@ -160,7 +175,11 @@ def world(endpoint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 
 
 @pytest.mark.parametrize("row", ENDING, ids=lambda row: row.line)
-def test_a_line_of_the_course_ends_as_expected(endpoint: str, row: Ends):
+def test_a_line_of_the_course_ends_as_expected(
+    endpoint: str, row: Ends, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    if row.line.startswith("pkg create"):
+        monkeypatch.chdir(tmp_path)
     if row.line.startswith("run "):  # a process of its own: it reads and changes its environment
         with started(endpoint, *shlex.split(row.line)) as process:
             assert process.wait() == row.code

@@ -9,9 +9,9 @@ import pytest
 
 import studio.ros.action as rclpy_action
 import studio.ros.client as rclpy
-from studio.course.tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 from studio.ros.messages import action, message, service
 from studio.ros.node.service_client import Client
+from studio.tf2.broadcasters import StaticTransformBroadcaster, TransformBroadcaster
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from studio.course.demos import DEMOS
-from tests.support.corpus import corpus
+from tests.support.course_listings import course_folder, seed_lines
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 LINES_AT_MOST = 80
@@ -98,11 +98,10 @@ def plain_class(text: str) -> str:
 
 
 def text_of(page: str) -> str:
-    """A page of the course, which lies beside the corpus; skips the test where it is not."""
-    course = corpus().parent / "course"
-    if not course.is_dir():
-        pytest.skip(f"the course's pages are not in {course}, beside STUDIO_CORPUS")
-    return next(course.glob(f"{page}_*.txt")).read_text()
+    """A page of the course; skips the test where STUDIO_COURSE names no folder of them."""
+    if course_folder() is None:
+        pytest.skip("STUDIO_COURSE names no folder of the course's texts")
+    return "\n".join(seed_lines(page)) + "\n"
 
 
 def listing(page: str, start: str) -> str:

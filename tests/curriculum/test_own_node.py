@@ -24,7 +24,7 @@ def test_the_node_of_the_readme_repeats_what_the_talker_says_and_ends_by_ctrl_c(
     with (
         running_router() as router,
         node_at(router) as node,
-        running([sys.executable, str(script)], router) as shout,
+        running([sys.executable, "-P", "-m", "studio", "run", str(script)], router) as shout,
         running_demo(router, "talker"),
     ):
         loud = heard(node, "std_msgs/msg/String", "/loud")

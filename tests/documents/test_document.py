@@ -204,6 +204,7 @@ def test_a_missing_package_is_chosen_and_the_robot_opens(tmp_path: Path):
                 "action": "choose_package",
                 "target": "parts",
                 "edits": [],
+                "new_files": [],
             }
             await document.choose_package("parts", str(elsewhere))
             assert [link["name"] for link in ear.last("robot")["links"]] == ["base"]

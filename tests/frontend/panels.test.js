@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { placedPanels } from "../../frontend_assets/app/layouts.js";
+import { placedPanels, withoutRunning } from "../../frontend_assets/app/layouts.js";
 import { PANEL_GROUPS, readPanels } from "../../frontend_assets/app/panels.js";
 import { ICON_NAMES, PANEL_FILES, PANEL_IDS } from "./support/panels.js";
 
@@ -10,6 +10,7 @@ const PARTS = {
   wide: ["left", "middle", "below", "right"],
   medium: ["middle", "below", "right"],
   live: ["left", "middle", "below", "upper", "lower"],
+  workspace: ["left", "middle", "below", "right"],
   phone: ["tabs"],
 };
 const LAYOUTS = /** @type {(keyof typeof PARTS)[]} */ (Object.keys(PARTS));
@@ -61,6 +62,15 @@ test("a place is a part of a layout and a number among its tabs; without one it 
   };
   assert.deepEqual(placedPanels(panels, "live", "below"), ["first", "second", "last"]);
   assert.deepEqual(placedPanels(panels, "wide", "below"), ["other"]);
+});
+
+test("beside a robot that may not be run nothing is placed that runs programs", () => {
+  for (const layout of /** @type {const} */ (["wide", "medium"])) {
+    assert.ok(placedPanels(PANEL_FILES, layout, "below").includes("launch"));
+    assert.ok(placedPanels(PANEL_FILES, layout, "below").includes("packages"));
+    const kept = placedPanels(withoutRunning(PANEL_FILES), layout, "below");
+    assert.ok(kept.includes("source") && !kept.includes("launch") && !kept.includes("packages"));
+  }
 });
 
 test("every part of every first layout has a panel, and no two ask for the same place", () => {

@@ -30,7 +30,7 @@ const problem = (severity, sentence, more = {}) => ({
 const at = (/** @type {string} */ file, /** @type {number} */ line) => ({
   place: { file, line, column: 3 },
 });
-const edit = { label: "Mend", action: "edit", target: "", edits: [] };
+const edit = { label: "Mend", action: "edit", target: "", edits: [], new_files: [] };
 const LIST = [
   problem("info", "Unused.", at("/a.xacro", 2)),
   problem("warning", "Heavy wheel.", { ...at("/b.xacro", 9), fix: edit }),

@@ -8,7 +8,7 @@ const linesFor = (text) => ros2LinesFor(text).map(({ line }) => line.line);
 
 test("a line that is being typed offers those that begin so", () => {
   assert.deepEqual(linesFor("ros2 service"), [
-    ...["list", "type", "find"].map((verb) => `ros2 service ${verb}`),
+    ...["list", "type", "find", "info"].map((verb) => `ros2 service ${verb}`),
     "ros2 service call",
   ]);
   assert.deepEqual(linesFor("rvi"), ["rviz2"]);

@@ -62,6 +62,10 @@ PRESENTER_COMMANDS = {
     *("discard_restored", "add_interfaces", "start_demo", "stop_demo"),
     *("connect_wire", "examine_wire", "disconnect_wire", "find_wire_robots", "open_from_wire"),
     *("save_rviz_file", "list_rviz_files", "forget_rviz_file"),
+    *("plan_launch", "cancel_plan", "start_launch", "start_node", "stop_run", "start_run_again"),
+    *("restart_process", "end_process", "run_again_on_save", "forget_run", "get_runs"),
+    *("get_run_output", "get_workspaces", "create_package", "add_to_package"),
+    *("undo_package_edit", "mend_package"),
 }
 """What reaches beyond the robot that is shared: files, processes, connections, people."""
 ROLES = (Role.GUEST, Role.STUDENT, Role.HELPER, Role.PRESENTER)

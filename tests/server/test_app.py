@@ -125,6 +125,10 @@ FIELDS: dict[str, object] = {
     "paused": False,
     "displays": ("d1",),
     **dict.fromkeys(("nodes", "items"), ()),
+    **dict.fromkeys(("package", "executable"), "x"),
+    **dict.fromkeys(("run", "process", "edit"), 1),
+    "on": True,
+    "what": "node",
 }
 """A value for each field that a command needs."""
 

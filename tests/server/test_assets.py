@@ -206,7 +206,7 @@ def test_the_words_hold_why_a_finding_matters(tmp_path: Path):
     for language in ("en", "de"):
         (written / f"{language}.json").write_text("{}")
     made = check_texts({"bad-mass": {"en": "Forces divide by it.", "de": "Kräfte."}})
-    files = Assets(tmp_path, {CHECK_TEXTS: made}).current().files
+    files = Assets(tmp_path, {CHECK_TEXTS: lambda: made}).current().files
     assert json.loads(files["i18n/en.json"].content) == {"why.bad-mass": "Forces divide by it."}
     assert json.loads(files["i18n/de.json"].content) == {"why.bad-mass": "Kräfte."}
 
@@ -234,7 +234,7 @@ def test_the_page_names_all_modules_that_its_own_import_but_not_those_that_come_
 
 def test_a_file_made_in_memory_is_one_of_the_tree(tmp_path: Path):
     plain = Assets(tmp_path).current()
-    tree = Assets(tmp_path, {"viser/client.zst": b"packed" * 100}).current()
+    tree = Assets(tmp_path, {"viser/client.zst": lambda: b"packed" * 100}).current()
     asset = tree.files["viser/client.zst"]
     assert (asset.content, asset.type) == (b"packed" * 100, "application/zstd")
     assert asset.packed("gzip") is None

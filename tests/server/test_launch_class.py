@@ -80,7 +80,8 @@ def test_it_is_encrypted_and_all_come_back_after_the_studio_was_killed(tmp_path:
 
 def work_of_a_student(lane: Lane, data: Path) -> list[float | None]:
     """Make a copy, do steps of a lesson on it and hand it in; when the steps were done."""
-    assert lane.ask("open_copy", document="rover")["type"] == "done"
+    answer = lane.ask("open_copy", document="rover")
+    assert answer["type"] == "done", answer
     name = lane.newest("opened")["document"]
     lane.ask("watch", document=name)
     lane.ask("open_lesson", document=name, lesson=LESSON)

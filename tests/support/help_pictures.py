@@ -22,9 +22,10 @@ from tests.support.demos import running_demo
 from tests.support.managed_arm import managed_arm
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, Theme, tab_of
 from tests.support.readme_pictures import save_variant
+from tests.support.run_studio import workspace
 from tests.support.server import running_studio
 from tests.support.student_nodes import OwnNode
-from tests.support.studio_page import wait_until
+from tests.support.studio_page import StudioPage, wait_until
 from tests.support.wire import running_router
 from tests.support.wired_tab import add_displays, connect, look_at_odometry
 
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from playwright.sync_api import Browser, FloatRect, Locator, Page
-
-    from tests.support.studio_page import StudioPage
 
 ASSETS = Path(__file__).resolve().parents[2] / "frontend_assets"
 GROUP_OF: dict[str, str] = {
@@ -49,19 +48,28 @@ _CLASS_ADDRESS = "http://robots.example:8765/"
 _NAMES = ("Grace", "Edsger", "Barbara", "Ada", "Donald")
 OF_CLASSES = ("people", "class", "own_nodes")
 """The panel and the windows about a class, of which the demo has none."""
+OF_PROGRAMS = ("packages", "launch")
+"""The panels about what the owner runs, for which the demo has no folder."""
 OF_OPERATIONS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
 """Panels whose pictures `operation_pictures` and `field_pictures` take."""
 ON_THE_WIRE = sorted(
     (
         panel
         for panel, group in GROUP_OF.items()
-        if group in {"watch", "act", "learn"} and panel not in (*OF_OPERATIONS, *OF_CLASSES)
+        if group in {"watch", "act", "learn"}
+        and panel not in (*OF_OPERATIONS, *OF_CLASSES, *OF_PROGRAMS)
     ),
     key=lambda panel: panel != "lessons",
 )
 """Panels that show something only while a ROS 2 system is there. The node that the lesson starts
 runs in the pictures after it, of both themes."""
-NOT_OF_THE_DEMO = {"problems", "displays", *ON_THE_WIRE, *OF_OPERATIONS, *OF_CLASSES}
+NOT_OF_THE_DEMO = {
+    *("problems", "displays"),
+    *ON_THE_WIRE,
+    *OF_OPERATIONS,
+    *OF_CLASSES,
+    *OF_PROGRAMS,
+}
 _HIGHEST_PX = 380
 BESIDE_THE_SCENE = ("cameraview",)
 """Panels that the 3D view draws: it has to be there, too."""
@@ -411,6 +419,25 @@ def take_displays(camera: Camera) -> None:
     camera.take("displays", page.evaluate(_DOCK_OF, "displays"))
 
 
+def take_programs(browser: Browser, folder: Path) -> None:
+    """The packages of a workspace, and the plan of its launch file."""
+    ws = workspace(folder / "workspace")
+    arguments = ["open", str(ws), "--allow-run", str(ws), "--router", "off"]
+    with running_studio(arguments, folder / "studio") as studio:
+        for theme in THEMES:
+            context = browser.new_context(
+                viewport={"width": 1600, "height": 900}, color_scheme=theme, reduced_motion="reduce"
+            )
+            context.add_init_script("localStorage.setItem('studio.graphics.said', 'true')")
+            tab = StudioPage(context.new_page())
+            tab.page.goto(studio.url)
+            tab.page.get_by_text("/hall/one").wait_for()
+            camera = Camera(tab, theme)
+            for panel in filter(wanted, OF_PROGRAMS):
+                camera.take(panel, tab.page.evaluate(_DOCK_OF, panel))
+            context.close()
+
+
 def take_broken(browser: Browser, data: Path) -> None:
     """The problems of a robot that has some."""
     path = data / "cart.urdf.xacro"
@@ -468,7 +495,7 @@ def main() -> None:
     """Take them all anew."""
     wired = (*ON_THE_WIRE, "live", "displays", "ros")
     for browser in open_browser():
-        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, OF_CLASSES, _ALONE):
+        if not sys.argv[1:] or set(sys.argv[1:]).difference(wired, OF_CLASSES, OF_PROGRAMS, _ALONE):
             with tempfile.TemporaryDirectory() as data:
                 take_demo(browser, Path(data))
         if any(map(wanted, wired)):
@@ -480,6 +507,9 @@ def main() -> None:
         if any(map(wanted, OF_CLASSES)):
             with tempfile.TemporaryDirectory() as data:
                 take_class(browser, Path(data) / "data")
+        if any(map(wanted, OF_PROGRAMS)):
+            with tempfile.TemporaryDirectory() as data:
+                take_programs(browser, Path(data))
         if wanted("problems"):
             with tempfile.TemporaryDirectory() as data:
                 take_broken(browser, Path(data))

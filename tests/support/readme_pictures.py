@@ -13,6 +13,7 @@ from PIL import Image
 
 from tests.support.browser import open_browser
 from tests.support.panel_pictures import SHOW_PANEL
+from tests.support.run_studio import robot_workspace
 from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage
 from tests.support.wire import running_router
@@ -185,9 +186,31 @@ def take_class(browser: Browser) -> None:
         take(tab, "class-light")
 
 
+def take_launch(browser: Browser) -> None:
+    """What a launch file started: its processes, and what they print, below the robot."""
+    with (
+        running_router() as endpoint,
+        tempfile.TemporaryDirectory() as folder,
+    ):
+        ws = robot_workspace(Path(folder) / "ws")
+        words = ["open", str(ws), "--allow-run", str(ws), "--connect", endpoint, "--router", "off"]
+        with (
+            running_studio(words, Path(folder) / "data") as studio,
+            tab_of(browser, studio, "dark") as tab,
+        ):
+            tab.page.evaluate(SHOW_PANEL, "launch")
+            panel = tab.page.get_by_role("region", name="Launch", exact=True)
+            files = panel.get_by_role("combobox", name="Launch file")
+            files.select_option(label="show.launch.py")
+            panel.get_by_role("button", name="Start", exact=True).click()
+            panel.get_by_text("hello is said").first.wait_for()
+            tab.page.get_by_text("cart.rviz is open").wait_for(state="hidden")
+            take(tab, "launch-dark")
+
+
 def main() -> None:
     """Take them all anew, or one kind: `python -m tests.support.readme_pictures live`."""
-    kinds = {"all": take_all, "live": take_live, "class": take_class}
+    kinds = {"all": take_all, "live": take_live, "class": take_class, "launch": take_launch}
     for browser in open_browser():
         for kind in sys.argv[1:] or kinds:
             kinds[kind](browser)

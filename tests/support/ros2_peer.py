@@ -202,13 +202,31 @@ def ros2(endpoint: str, *words: str, timeout_s: float = PATIENCE_S) -> str:
     return said
 
 
-def _started(
+def real_program(endpoint: str, file: Path) -> subprocess.CompletedProcess[str]:
+    """Run a Python file with the real rclpy; it must end in time."""
+    process = started_program(endpoint, file)
+    try:
+        out, err = process.communicate(timeout=PATIENCE_S)
+    finally:
+        process.kill()
+        process.wait()
+    return subprocess.CompletedProcess(process.args, process.returncode, out, err)
+
+
+def started_program(endpoint: str, file: Path) -> subprocess.Popen[str]:
+    """Start a Python file with the real rclpy."""
+    words = ("python", str(file))
+    return _started(_IN_ROS, endpoint, words, None, errors=subprocess.PIPE)
+
+
+def _started(  # noqa: PLR0913, PLR0917
     script: str,
     endpoint: str,
     words: tuple[str, ...],
     environment: Mapping[str, str] | None,
     output: int = subprocess.PIPE,
     stdin: int = subprocess.DEVNULL,
+    errors: int = subprocess.STDOUT,
 ) -> subprocess.Popen[str]:
     unwanted = ("ROS", "ZENOH", "RMW", "AMENT", "PYTHON", "LD_")
     kept = {name: value for name, value in os.environ.items() if not name.startswith(unwanted)}
@@ -223,7 +241,7 @@ def _started(
         },
         stdin=stdin,
         stdout=output,
-        stderr=subprocess.STDOUT,
+        stderr=errors,
         text=True,
         errors="replace",
     )

@@ -1,4 +1,4 @@
-"""Which of many cases every run tries; `make sweep` and CI try them all."""
+"""Which of many cases every run tries; `make sweep` tries them all."""
 
 from __future__ import annotations
 

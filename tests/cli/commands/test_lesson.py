@@ -47,3 +47,13 @@ def test_a_folder_without_a_lesson_is_said(tmp_path: Path):
     ran = studio("lesson", "check", str(tmp_path))
     assert ran.code == 1
     assert "a lesson is a folder with a file lesson.md" in ran.err
+
+
+def test_the_files_of_a_lesson_are_written_and_never_twice(tmp_path: Path):
+    assert "mend_a_package\n" in studio("lesson", "files").out
+    ran = studio("lesson", "files", "mend_a_package", str(tmp_path))
+    assert ran.code == 0
+    assert "mend_a_package/src/harbor/setup.py\n" in ran.out
+    again = studio("lesson", "files", "mend_a_package", str(tmp_path))
+    assert (again.code, again.out) == (2, "")
+    assert "is there already" in again.err

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.command_line import comes_to, started, studio
+from tests.support.student_programs import SETUP_CFG, python_package, studio_run
 from tests.support.wire import free_endpoint, wait_until
 
 if TYPE_CHECKING:
@@ -30,6 +31,13 @@ def test_without_a_router_and_without_leave_to_start_one_a_sentence_is_said():
     ran = studio("run", "demo_nodes_py", "talker", "--connect", endpoint, "--router", "off")
     assert ran.code == 2
     assert "No Zenoh router answers" in ran.err
+
+
+@pytest.mark.parametrize("line", ["up.launch.py", "up.launch.xml", "my_pkg up.launch.py"])
+def test_a_launch_file_is_answered_with_its_command(line: str):
+    ran = studio("run", *line.split())
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err.endswith(f": this is a launch file: studio launch {line}\n")
 
 
 def test_n8_a_remap_moves_the_topic(endpoint: str):
@@ -58,13 +66,18 @@ def test_what_cannot_be_started_is_one_sentence(tmp_path: Path, monkeypatch: pyt
     package = tmp_path / "src" / "own_pkg"
     package.mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>own_pkg</name></package>")
-    (package / "setup.py").write_text("d = {'console_scripts': ['mine = own_pkg.mine:main']}")
+    (package / "setup.py").write_text(
+        "setup(entry_points={'console_scripts': ['mine = own_pkg.mine:main']})"
+    )
     monkeypatch.chdir(tmp_path)
     for words, said in (
         (("no_such", "x"), 'No package "no_such"'),
         (("turtlesim", "x"), "it has turtle_teleop_key, turtlesim_node"),
-        (("own_pkg", "mine"), "own_pkg.mine:main, but no file of the package is the module"),
-        (("own_pkg", "other"), 'has no executable "other": it has mine.'),
+        (
+            ("own_pkg", "mine"),
+            f'{package}/setup.py:1: "mine" starts own_pkg.mine, and no file of the package is',
+        ),
+        (("own_pkg", "other"), 'has no executable "other": it has mine; a new one is a line of'),
         (("rover_description", "x"), "starts nothing"),
         (("--demo", "own_pkg", "mine"), "The studio has no node own_pkg mine"),
     ):
@@ -134,6 +147,7 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (python / "setup.py").write_text(
         "setup(entry_points={'console_scripts': ['server = learning_interface.own_server:main']})"
     )
+    (python / "setup.cfg").write_text(SETUP_CFG.format(name="learning_interface"))
     (python / "learning_interface" / "own_server.py").write_text(SERVER)
     cmake = tmp_path / "ws" / "src" / "demo_nodes_py"
     (cmake / "src").mkdir(parents=True)
@@ -144,17 +158,13 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.parametrize("inside", [True, False])
-def test_a_node_of_the_workspace_comes_before_the_demo_of_its_name_and_is_only_told(
-    workspace: Path, monkeypatch: pytest.MonkeyPatch, inside: bool
+def test_a_node_of_the_workspace_runs_before_the_demo_of_its_name(
+    workspace: Path, inside: bool, endpoint: str
 ):
-    monkeypatch.chdir(workspace if inside else workspace.parent)
     named = [] if inside else ["--package-path", str(workspace / "src")]
-    ran = studio("run", "learning_interface", "server", *named)
-    package = workspace / "src" / "learning_interface"
-    assert (ran.code, ran.out) == (2, "")
-    assert f"the package is {package}, " in ran.err
-    assert f"would start main() in {package / 'learning_interface' / 'own_server.py'}." in ran.err
-    assert ran.err.endswith("starts with: studio run --demo learning_interface server\n")
+    cwd = workspace if inside else workspace.parent
+    ran = studio_run(endpoint, "learning_interface", "server", *named, cwd=cwd)
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, "mine\n", "")
 
 
 def test_programs_of_a_cmake_package_come_before_the_demo_too(
@@ -163,7 +173,8 @@ def test_programs_of_a_cmake_package_come_before_the_demo_too(
     monkeypatch.chdir(workspace / "src")
     ran = studio("run", "demo_nodes_py", "talker")
     assert ran.code == 2
-    assert f"would start {workspace / 'src/demo_nodes_py/src/talker.cpp'}." in ran.err
+    assert f"compiled from {workspace / 'src/demo_nodes_py/src/talker.cpp'}" in ran.err
+    assert "colcon build --packages-select demo_nodes_py" in ran.err
     listed = studio("pkg", "executables", "demo_nodes_py").out
     assert listed == "demo_nodes_py listener.py\ndemo_nodes_py talker\n"
     ran = studio("run", "demo_nodes_py", "listener")
@@ -180,7 +191,7 @@ def test_the_demo_runs_where_it_is_asked_for_by_its_option(
 
 
 def test_an_installed_package_is_of_the_workspace_where_colcon_installed_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, endpoint: str
 ):
     monkeypatch.setenv("STUDIO_DATA_DIR", str(tmp_path / "data"))
     monkeypatch.chdir(tmp_path)
@@ -189,12 +200,107 @@ def test_an_installed_package_is_of_the_workspace_where_colcon_installed_it(
     for folder in (share, programs):
         folder.mkdir(parents=True)
     (share / "package.xml").write_text("<package><name>turtlesim</name></package>")
-    (programs / "turtlesim_node").write_text("#!/bin/sh\n")
+    (programs / "turtlesim_node").write_text('#!/bin/sh\necho built "$@"\nexit 3\n')
     (programs / "turtlesim_node").chmod(0o755)
     (prefix / "local_setup.sh").write_text("")
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
     with started(free_endpoint(), "run", "turtlesim", "turtlesim_node") as node:
         node.wait_for("Spawning turtle")
     (prefix / ".colcon_install_layout").write_text("merged\n")
-    ran = studio("run", "turtlesim", "turtlesim_node")
-    assert (ran.code, str(programs / "turtlesim_node") in ran.err) == (2, True)
+    words = ("turtlesim", "turtlesim_node", "--ros-args", "-r", "a:=b")
+    ran = studio_run(endpoint, *words, cwd=tmp_path)
+    assert (ran.returncode, ran.stdout) == (3, "built --ros-args -r a:=b\n")
+
+
+TALKER = """\
+from std_msgs.msg import String
+import rclpy
+import sys
+from rclpy.node import Node
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = Node("talker")
+    publisher = node.create_publisher(String, "chatter", 10)
+    publisher.publish(String(data="hello"))
+    node.get_logger().info(f"Publishing on {publisher.topic_name}")
+    print(sys.argv[0].rpartition("/")[2], sys.argv[1:], __name__)
+    node.destroy_node()
+    rclpy.shutdown()
+    return 4
+"""
+
+
+@pytest.fixture
+def own_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A workspace with a Python package and one of interfaces that it uses, nothing built."""
+    monkeypatch.setenv("STUDIO_DATA_DIR", str(tmp_path / "data"))
+    source = tmp_path / "ws" / "src"
+    modules = {
+        "talker": TALKER,
+        "telemetry": "import rclpy\nfrom my_own_interfaces.msg import Telemetry\n"
+        "from helping.sums import double\n"
+        "def main():\n    print(Telemetry(speed=double(1.5)))\n",
+        "broken": "def helper():\n    raise ValueError('of mine')\n\n\ndef main():\n    helper()\n",
+    }
+    scripts = (
+        "talker = own_pkg.talker:main",
+        "telemetry = own_pkg.telemetry:main",
+        "broken = own_pkg.broken:main",
+    )
+    python_package(source, "own_pkg", modules, *scripts)
+    python_package(source, "helping", {"sums": "def double(x):\n    return 2 * x\n"})
+    interfaces = source / "my_own_interfaces"
+    (interfaces / "msg").mkdir(parents=True)
+    (interfaces / "package.xml").write_text("<package><name>my_own_interfaces</name></package>")
+    (interfaces / "msg" / "Telemetry.msg").write_text("float64 speed\n")
+    return source
+
+
+def test_an_entry_point_runs_as_ros2_run_runs_it(own_packages: Path, endpoint: str):
+    words = ("own_pkg", "talker", "a", "--ros-args", "-r", "chatter:=/x")
+    ran = studio_run(endpoint, *words, cwd=own_packages)
+    assert ran.returncode == 4
+    assert ran.stdout == "talker ['a', '--ros-args', '-r', 'chatter:=/x'] own_pkg.talker\n"
+    assert ran.stderr.endswith("[talker]: Publishing on /x\n")
+
+
+def test_interfaces_and_modules_of_other_packages_are_imported_without_a_build(
+    own_packages: Path, endpoint: str
+):
+    ran = studio_run(endpoint, "own_pkg", "telemetry", cwd=own_packages)
+    assert (ran.stdout, ran.stderr) == ("my_own_interfaces.msg.Telemetry(speed=3.0)\n", "")
+
+
+def test_a_traceback_begins_with_the_users_own_code(own_packages: Path, endpoint: str):
+    ran = studio_run(endpoint, "own_pkg", "broken", cwd=own_packages)
+    head, first, *_ = ran.stderr.splitlines()
+    assert (ran.returncode, head) == (1, "Traceback (most recent call last):")
+    assert "own_pkg/broken.py" in first
+    assert ran.stderr.endswith("ValueError: of mine\n")
+
+
+def test_a_file_runs_as_python_runs_it(tmp_path: Path, endpoint: str):
+    (tmp_path / "beside.py").write_text("NAME = 'beside'\n")
+    (tmp_path / "own.py").write_text(
+        "import sys\nimport beside\n"
+        "print(__name__, __file__, sys.argv, sys.path[0] == sys.argv[1], beside.NAME)\n"
+        "sys.exit(5)\n"
+    )
+    ran = studio_run(endpoint, "own.py", str(tmp_path), cwd=tmp_path)
+    assert ran.returncode == 5
+    assert ran.stdout == f"__main__ own.py ['own.py', '{tmp_path}'] True beside\n"
+
+
+def test_a_package_alone_asks_for_its_executable():
+    ran = studio("run", "turtlesim")
+    assert (ran.code, "name an executable of the package" in ran.err) == (2, True)
+
+
+@pytest.mark.parametrize("name", ["gone.py", "folder.py"])
+def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path, name: str):
+    (tmp_path / "folder.py").mkdir()
+    ran = studio("run", str(tmp_path / name))
+    assert (ran.code, ran.err.count("\n")) == (2, 1)
+    assert "there is no such file" in ran.err

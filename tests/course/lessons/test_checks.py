@@ -56,6 +56,7 @@ CASES: dict[str, tuple[str, dict[str, str]]] = {
     ),
     "tf leads from odom to base_link": ("tf", {"parent": "odom", "child": "base_link"}),
     "opened origin": ("opened", {"panel": "origin"}),
+    "package my_robot has no problems": ("package", {"name": "my_robot"}),
 }
 
 

@@ -101,5 +101,6 @@ def test_only_services_that_change_nothing_are_called():
         check.values["name"] for name in NAMES for check in checks(name) if check.kind == "answers"
     }
     assert asked == {
-        *("/add_two_ints", "/get_now_playing", "/add_points", "/distance", "/transform_point")
+        *("/add_two_ints", "/get_now_playing", "/add_points", "/distance", "/transform_point"),
+        *("/tide", "/how_many"),
     }

@@ -12,6 +12,7 @@ import pytest
 
 from studio.course.demos import LESSONS
 from studio.course.lessons.checks import Concern
+from studio.course.lessons.files import write_files
 from studio.course.lessons.shelf import EXERCISES, Shelf
 from studio.documents.engine import Engine
 from studio.documents.lessons.graph_checks import GraphChecks
@@ -20,6 +21,7 @@ from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.lessons import CourseDemos
 from studio.protocol.connection import ConnectWire, PublishRobot
 from studio.protocol.lessons import GetDemos, StartDemo, StopDemo
+from studio.ros.type_lookup import known_service
 from studio.settings import Settings, WireChoice, repository_or_wheel
 from tests.support.demos import running
 from tests.support.open_documents import engine, opened
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
 
     from studio.course.lessons.text import LessonText, Step
     from studio.documents.document import Document
+    from studio.live.connection.link import WireLink
 
 pytestmark = pytest.mark.network
 
@@ -122,7 +125,10 @@ not here.
 class Reader:
     """Does what a lesson says, and looks at its checks of the graph."""
 
-    def __init__(self, endpoint: str, demos: CourseDemos, checks: GraphChecks) -> None:
+    def __init__(
+        self, endpoint: str, demos: CourseDemos, checks: GraphChecks, link: WireLink
+    ) -> None:
+        self._link = link
         self._endpoint, self._demos, self._checks = endpoint, demos, checks
         self._lines = ExitStack()
 
@@ -137,6 +143,12 @@ class Reader:
             await self._ended(words[0])
         elif verb == "end":
             self.close()
+        elif verb == "form":  # as the panel Services does, which asks the server for its type
+            name, kind = words
+            async with asyncio.timeout(PATIENCE_S):
+                while not self._link.graph.servers(name):  # noqa: ASYNC110
+                    await asyncio.sleep(0.02)
+            await asyncio.to_thread(known_service, self._link.node, name, kind, print)
         else:
             words = [sys.executable, "-m", "studio", verb, *words]
             self._lines.enter_context(running(words, self._endpoint, warm=False))
@@ -176,8 +188,9 @@ class Reader:
 async def reading(endpoint: str, name: str) -> AsyncGenerator[tuple[Reader, LessonText]]:
     """Who reads a lesson, whose demos are started one after the other."""
     wire = RosConnection(WireChoice("off", (endpoint,)))
-    demos, checks = CourseDemos(wire), GraphChecks(await wire.link())
-    reader, text = Reader(endpoint, demos, checks), COURSE.find(name).read()
+    link = await wire.link()
+    demos, checks = CourseDemos(wire), GraphChecks(link)
+    reader, text = Reader(endpoint, demos, checks, link), COURSE.find(name).read()
     try:
         for demo in [*text.needs, *({name} & LESSONS.keys())]:
             await reader.do(f"start {demo}")
@@ -189,11 +202,54 @@ async def reading(endpoint: str, name: str) -> AsyncGenerator[tuple[Reader, Less
         await wire.close()
 
 
-@pytest.mark.parametrize("name", some_of([one for one in NAMES if one != "find_the_wheel"], 20))
+NO_DEMOS = {"find_the_wheel", "mend_a_node", "mend_a_package"}
+"""Lessons whose first step is about a robot, or about what the reader has mended."""
+
+
+@pytest.mark.parametrize("name", some_of([one for one in NAMES if one not in NO_DEMOS], 20))
 def test_the_first_step_holds_when_the_demos_run(endpoint: str, name: str):
     async def run() -> None:
         async with reading(endpoint, name) as (reader, text):
             await reader.sees(text.steps[0])
+
+    asyncio.run(run())
+
+
+MENDED = {
+    "mend_a_package": {
+        "src/harbor/setup.py": [("harbor.server_node", "harbor.tide_server_node")],
+        "src/harbor_interfaces/srv/Tide.srv": [("high float64", "high\nfloat64")],
+        "src/harbor_interfaces/package.xml": [("ament_cmake/build", "ament_cmake</build")],
+    },
+}
+"""What the reader mends."""
+STARTED = {
+    "mend_a_package": [
+        "run harbor tide_server --package-path {folder}/src",
+        "form /tide harbor_interfaces/srv/Tide",
+    ],
+}
+
+
+@pytest.mark.parametrize("name", MENDED)
+def test_a_step_holds_once_the_files_of_the_lesson_are_mended(
+    endpoint: str, name: str, tmp_path: Path
+):
+    folder = tmp_path / name
+    write_files(repository_or_wheel("frontend_assets") / "lessons", name, folder)
+    for path, edits in MENDED[name].items():
+        text = (folder / path).read_text()
+        for old, new in edits:
+            assert old in text
+            text = text.replace(old, new)
+        (folder / path).write_text(text)
+
+    async def run() -> None:
+        async with reading(endpoint, name) as (reader, text):
+            for line in STARTED[name]:
+                await reader.do(line.format(folder=folder))
+            for step in text.steps:
+                await reader.sees(step)
 
     asyncio.run(run())
 
