@@ -115,7 +115,7 @@ class WorkspaceRoom:
                 settings.data_folder,
                 dict(os.environ),
             )
-            self._indexes[folder] = location.index
+            self._indexes[folder] = location.index.without(self._allowed.is_received)
             self.follow()
         return self._indexes[folder]
 
