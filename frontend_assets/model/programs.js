@@ -1,6 +1,6 @@
 /** What the owner runs out of the page: the packages of the opened folders, plans, and what runs. */
 
-/** @import { OutputLine, PackageView, PlanView, RunOutput, RunView, Workspaces } from "../types/wire.d.ts" */
+/** @import { OutputLine, PackageView, Plan, RunOutput, RunView, Workspaces } from "../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { computed, effect, signal } from "vendor/preact.js";
@@ -228,8 +228,8 @@ export function isShown(line, { words, process, errors }) {
 /**
  * What is planned as one plan of what starts: nodes and processes below the file that names them.
  *
- * @typedef {{id: number | null, file: string, level: number, include: PlanView["includes"][number] | null, nodes: PlanView["nodes"], processes: PlanView["processes"]}} PlanPart
- * @param {PlanView} plan
+ * @typedef {{id: number | null, file: string, level: number, include: Plan["includes"][number] | null, nodes: Plan["nodes"], processes: Plan["processes"]}} PlanPart
+ * @param {Plan} plan
  * @returns {PlanPart[]} the file itself first, then each include below the one that names it
  */
 export function planParts(plan) {
@@ -239,7 +239,7 @@ export function planParts(plan) {
   const seen = new Set();
   const add = (
     /** @type {number | null} */ id,
-    /** @type {PlanView["includes"][number] | null} */ include,
+    /** @type {Plan["includes"][number] | null} */ include,
     /** @type {number} */ level,
   ) => {
     if (seen.has(id)) return;

@@ -1879,7 +1879,7 @@ export interface LaunchFileView {
 export interface LaunchPlan {
   type: "launch_plan";
   request: number;
-  plan: PlanView;
+  plan: Plan;
 }
 
 /** Show others what the presenter looks at, or no longer. */
@@ -2755,18 +2755,8 @@ export interface Places {
   folders: string[];
 }
 
-/** Ask what a launch file would start; a later one of the same person ends this one. */
-export interface PlanLaunch {
-  request?: number;
-  document?: string;
-  id?: string;
-  type: "plan_launch";
-  file: string;
-  arguments?: Record<string, string>;
-}
-
 /** All that a launch file would do with the given arguments. */
-export interface PlanView {
+export interface Plan {
   file: string;
   package: string;
   arguments: PlannedArgument[];
@@ -2783,7 +2773,17 @@ export interface PlanView {
   ended: string;
 }
 
-/** An argument that a launch file declares; `value` null: it needs one and has none. */
+/** Ask what a launch file would start; a later one of the same person ends this one. */
+export interface PlanLaunch {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "plan_launch";
+  file: string;
+  arguments?: Record<string, string>;
+}
+
+/** An argument that a launch file declares. */
 export interface PlannedArgument {
   name: string;
   default: string | null;
@@ -2791,41 +2791,41 @@ export interface PlannedArgument {
   description: string;
   value: string | null;
   given: boolean;
-  where: PlannedWhere;
+  where: Where;
   include: number | null;
   condition: PlannedCondition | null;
 }
 
-/** What a thing depends on; `holds` null where a value that it needs is not known. */
+/** What a thing depends on; `holds` is None where a value that it needs is not known. */
 export interface PlannedCondition {
   text: string;
   holds: boolean | null;
 }
 
-/** What went wrong. */
+/** What went wrong, in a sentence; the plan holds what could be known all the same. */
 export interface PlannedFailure {
   sentence: string;
-  where: PlannedWhere;
+  where: Where;
 }
 
-/** A name that the studio does not know, or does not do. */
+/** A name that the studio does not know, or does not do; the plan goes on without it. */
 export interface PlannedGap {
   name: string;
   sentence: string;
-  where: PlannedWhere;
+  where: Where;
 }
 
-/** What is done later. */
+/** What is done later; what it starts has the same `when`. */
 export interface PlannedHappening {
   kind: string;
   when: string;
   does: string[];
   condition: PlannedCondition | null;
   include: number | null;
-  where: PlannedWhere;
+  where: Where;
 }
 
-/** A launch file within another; `parent` is null right in the file that was asked for. */
+/** A launch file within another; `parent` is None right in the file that was asked for. */
 export interface PlannedInclude {
   id: number;
   file: string;
@@ -2833,7 +2833,7 @@ export interface PlannedInclude {
   parent: number | null;
   condition: PlannedCondition | null;
   when: string;
-  where: PlannedWhere;
+  where: Where;
   failed: string;
 }
 
@@ -2842,7 +2842,7 @@ export interface PlannedLog {
   text: string;
   condition: PlannedCondition | null;
   when: string;
-  where: PlannedWhere;
+  where: Where;
 }
 
 /** A node that would run. */
@@ -2858,6 +2858,8 @@ export interface PlannedNode {
   files: string[];
   remaps: PlannedRemap[];
   arguments: string[];
+  ros_arguments: string[];
+  environment: Record<string, string>;
   output: string;
   respawn: boolean;
   respawn_delay_s: number;
@@ -2865,11 +2867,13 @@ export interface PlannedNode {
   condition: PlannedCondition | null;
   when: string;
   include: number | null;
-  where: PlannedWhere;
+  where: Where;
   start: PlannedStart;
+  prefix: string[];
+  cwd: string;
 }
 
-/** A parameter that a node is given; `robot` is the place of its robot in those of the plan. */
+/** A parameter that a node is given. */
 export interface PlannedParameter {
   name: string;
   value: boolean | number | string | (boolean | number | string | null)[] | null;
@@ -2877,17 +2881,21 @@ export interface PlannedParameter {
   robot: number | null;
 }
 
-/** A command that would run. */
+/** A command that would run; `shell`: by a shell, as one line. */
 export interface PlannedProcess {
   id: number;
   command: string[];
   name: string;
   shell: boolean;
+  cwd: string;
+  environment: Record<string, string>;
+  output: string;
   respawn: boolean;
+  respawn_delay_s: number;
   condition: PlannedCondition | null;
   when: string;
   include: number | null;
-  where: PlannedWhere;
+  where: Where;
   start: PlannedStart;
 }
 
@@ -2897,33 +2905,31 @@ export interface PlannedRemap {
   target: string;
 }
 
-/** A robot description that a node is given, and the arguments that xacro would get. */
+/**
+ * A robot description that a node is given: the file and the arguments that xacro would get.
+ *
+ * `kind` is `xacro` or `urdf`; `node` is the id of the first node that gets it, if one does.
+ */
 export interface PlannedRobot {
   file: string;
   kind: string;
   mappings: Record<string, string>;
   node: number | null;
-  where: PlannedWhere;
+  where: Where;
 }
 
-/** A variable of the environment that is set; `value` null: unset. */
+/** A variable of the environment that is set; `value` None: unset. */
 export interface PlannedSetting {
   name: string;
   value: string | null;
   condition: PlannedCondition | null;
-  where: PlannedWhere;
+  where: Where;
 }
 
-/** How the studio would start a thing, or, for `none`, half a sentence why it does not. */
+/** How the studio would start a thing, or why it does not. */
 export interface PlannedStart {
   kind: string;
   text: string;
-}
-
-/** A line of a launch file, 1-based; 0 where it is not known. */
-export interface PlannedWhere {
-  file: string;
-  line: number;
 }
 
 /** One named pose as the page lists it. */
@@ -4451,6 +4457,12 @@ export interface Watch {
   document?: string;
   id?: string;
   type: "watch";
+}
+
+/** A line of a launch file, 1-based; 0 where it is not known. */
+export interface Where {
+  file: string;
+  line: number;
 }
 
 /** Editing control of a site; `minimum`, `maximum` and `step` are in `unit`, the file's unit. */

@@ -14,7 +14,14 @@ from studio.packages.folder_memory import FolderMemory
 from studio.packages.index import Indexed, PackageIndex
 from studio.packages.manifest import FILE_NAME
 from studio.packages.recent import last_opened
-from studio.packages.roots import ServedRoots, is_too_wide, package_folder_of, served_roots_for
+from studio.packages.roots import (
+    ServedRoots,
+    is_below,
+    is_too_wide,
+    package_folder_of,
+    served_roots_for,
+)
+from studio.packages.run_folders import is_received
 from studio.settings import data_folder, repository_or_wheel
 
 if TYPE_CHECKING:
@@ -39,12 +46,19 @@ def add_package_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--data-dir", type=Path, metavar="DIR", help="where caches live")
 
 
-def opened_packages(options: argparse.Namespace) -> PackageIndex:
-    """Find the packages of `--package-path`, the current workspace, the last one and ROS."""
+def opened_packages(options: argparse.Namespace, *, to_run: bool = False) -> PackageIndex:
+    """Find the packages of `--package-path`, the current workspace, the last one and ROS.
+
+    Args:
+        options: Those of `add_package_options`.
+        to_run: Leaves out what came in an archive or from others, unless its own folder is named
+            or is the current one: who looks at a zip has not asked for its nodes.
+    """
     folder = data_folder(options.data_dir)
     given = [Path(part) for one in options.package_path for part in one.split(os.pathsep) if part]
     named = [Path(os.path.realpath(one.expanduser())) for one in given]
-    roots = dict.fromkeys([*named, *_workspace_of(Path.cwd()), *_last(folder)])
+    asked = dict.fromkeys([*named, *_workspace_of(Path.cwd())])
+    roots = dict.fromkeys([*asked, *_last(folder)])
     environment = RosEnvironment.from_variables(os.environ)
     prefixes = environment.prefixes
     own = (repository_or_wheel("models"),)
@@ -55,7 +69,13 @@ def opened_packages(options: argparse.Namespace) -> PackageIndex:
         *_found(prefixes, memory, is_prefix=True),
     ]
     memory.save()
-    return PackageIndex({one.folder: one for one in reversed(found)}.values())
+    index = PackageIndex({one.folder: one for one in reversed(found)}.values())
+    if not to_run:
+        return index
+    own = [one for one in asked if is_received(one, folder)]
+    return index.without(
+        lambda one: is_received(one, folder) and not any(is_below(one, root) for root in own)
+    )
 
 
 def _found(folders: Iterable[Path], memory: FolderMemory, *, is_prefix: bool) -> list[Indexed]:

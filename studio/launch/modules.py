@@ -14,6 +14,7 @@ import sys
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
+from studio.files import is_file, is_folder
 from studio.launch.vocabulary import (
     actions,
     conditions,
@@ -322,26 +323,21 @@ def _importer() -> str:
     return ""
 
 
-def install(
-    extra: dict[str, _Names],
-    folder_of: Callable[[str], str | None],
-    *,
-    stand_in: bool,
-) -> None:
-    """Have this process import the vocabulary; `stand_in`: and a stand-in of what is missing.
+def install(index: PackageIndex, asking: Path, *, stand_in: bool) -> None:
+    """Have this process import the vocabulary, and the packages of an index as a file sees them.
 
     Args:
-        extra: Modules beside those of launch, with their names.
-        folder_of: The folder in which a top-level module of the workspace lies.
-        stand_in: For planning, which goes on without what is missing.
+        index: The packages: ament_index_python finds them, and their Python can be imported.
+        asking: The launch file.
+        stand_in: Makes one of what is missing: for planning, which goes on without it.
     """
-    sys.meta_path.insert(0, Finder(extra, folder_of))
+    sys.meta_path.insert(0, Finder(_ament_index(index, asking), _module_folders(index)))
     sys.meta_path.append(ProgramFinder())
     if stand_in:
         sys.meta_path.append(LastFinder())
 
 
-def ament_index(index: PackageIndex, asking: Path) -> dict[str, _Names]:
+def _ament_index(index: PackageIndex, asking: Path) -> dict[str, _Names]:
     """Return ament_index_python, by the packages of an index as a file sees them."""
     from studio.importable import ament_index as found  # noqa: PLC0415
     from studio.launch.shares import links_folder  # noqa: PLC0415
@@ -362,3 +358,20 @@ def ament_index(index: PackageIndex, asking: Path) -> dict[str, _Names]:
     )  # fmt: skip
     parts = ("", ".packages", ".resources", ".search_paths")
     return {f"ament_index_python{part}": names for part in parts}
+
+
+def _module_folders(index: PackageIndex) -> Callable[[str], str | None]:
+    """Return what gives the folder of a workspace's module, which launch files may import."""
+
+    def folder_of(name: str) -> str | None:
+        if name not in index:
+            return None
+        for one in index.packages:
+            if one.name != name or one.folder.parent.name == "share":
+                continue
+            for root in (one.folder, one.folder / "src"):
+                if is_folder(root / name) and is_file(root / name / "__init__.py"):
+                    return str(root)
+        return None
+
+    return folder_of

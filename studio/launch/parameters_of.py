@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 import numpy as np
 
 from studio.errors import StudioError
-from studio.launch.plan import Parameter, Value
+from studio.launch.plan import PlannedParameter, Value
 from studio.launch.vocabulary.parameters import read_text
 from studio.launch.vocabulary.temporary import source_of
 from studio.launch.vocabulary.texts import is_unknown
@@ -26,20 +26,20 @@ _ITEMS_MAX: Final = 500
 class Found:
     """Parameters, their files, and what cannot be read of them."""
 
-    parameters: tuple[Parameter, ...] = ()
+    parameters: tuple[PlannedParameter, ...] = ()
     files: tuple[str, ...] = ()
     failures: list[str] = field(default_factory=list[str])
 
 
 def planned_parameters(request: Request, robots: Robots, node: int) -> Found:
     """Return what a node is given; a later one of a name counts, as in ROS."""
-    found: dict[str, Parameter] = {}
+    found: dict[str, PlannedParameter] = {}
     result = Found()
     files: list[str] = []
     full_name = request.full_name or f"{request.namespace.rstrip('/')}/{request.executable}"
     for name, value in request.global_parameters:
         if name:
-            found[name] = Parameter(name, shown_value(value))
+            found[name] = PlannedParameter(name, shown_value(value))
         else:
             files.append(source_of(str(value)))
             _read(str(value), full_name, found, result)
@@ -55,15 +55,17 @@ def planned_parameters(request: Request, robots: Robots, node: int) -> Found:
     return result
 
 
-def _parameter(name: str, value: Any, request: Request, robots: Robots, node: int) -> Parameter:
+def _parameter(
+    name: str, value: Any, request: Request, robots: Robots, node: int
+) -> PlannedParameter:
     if isinstance(value, str) and "<" in value:
         robot = robots.robot_of(value, request.where, node)
         if robot is not None:
-            return Parameter(name, robot=robot)
-    return Parameter(name, shown_value(value))
+            return PlannedParameter(name, robot=robot)
+    return PlannedParameter(name, shown_value(value))
 
 
-def _read(path: str, full_name: str, into: dict[str, Parameter], result: Found) -> None:
+def _read(path: str, full_name: str, into: dict[str, PlannedParameter], result: Found) -> None:
     if is_unknown(path):
         return
     from studio.ros.parameters.files import read_parameters  # noqa: PLC0415
@@ -71,7 +73,7 @@ def _read(path: str, full_name: str, into: dict[str, Parameter], result: Found) 
     shown = source_of(path)
     try:
         for one in read_parameters(read_text(path), full_name, shown):
-            into[one.name] = Parameter(one.name, shown_value(one.value), shown)
+            into[one.name] = PlannedParameter(one.name, shown_value(one.value), shown)
     except StudioError as error:
         result.failures.append(str(error))
 

@@ -7,10 +7,24 @@ import shlex
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.errors import LaunchError, TooManyActionsError
-from studio.launch import plan as plans
 from studio.launch.hosting import BaseHost, choice_fault, fault_at
 from studio.launch.parameters_of import planned_parameters
-from studio.launch.plan import Condition, Plan, Where
+from studio.launch.plan import (
+    Plan,
+    PlannedArgument,
+    PlannedCondition,
+    PlannedFailure,
+    PlannedGap,
+    PlannedHappening,
+    PlannedInclude,
+    PlannedLog,
+    PlannedNode,
+    PlannedProcess,
+    PlannedRemap,
+    PlannedSetting,
+    PlannedStart,
+    Where,
+)
 from studio.launch.robots import Robots
 from studio.launch.shares import real_paths, why_not_installed
 from studio.launch.starting import beginning_of
@@ -58,18 +72,18 @@ class Planner(BaseHost):
         super().__init__(index, file)
         self.file, self.given = file, dict(given)
         self.robots = Robots(real_paths)
-        self._conditions: list[Condition] = []
+        self._conditions: list[PlannedCondition] = []
         self._whens: list[str] = []
         self._included: list[int] = []
-        self._arguments: list[plans.Argument] = []
-        self._nodes: list[plans.Node] = []
-        self._processes: list[plans.Process] = []
-        self._includes_found: list[plans.Include] = []
-        self._happenings: list[plans.Happening] = []
-        self._settings: list[plans.Setting] = []
-        self._log: list[plans.LogLine] = []
-        self._unsupported: dict[tuple[str, str], plans.Unsupported] = {}
-        self._failures: list[plans.Failure] = []
+        self._arguments: list[PlannedArgument] = []
+        self._nodes: list[PlannedNode] = []
+        self._processes: list[PlannedProcess] = []
+        self._includes_found: list[PlannedInclude] = []
+        self._happenings: list[PlannedHappening] = []
+        self._settings: list[PlannedSetting] = []
+        self._log: list[PlannedLog] = []
+        self._unsupported: dict[tuple[str, str], PlannedGap] = {}
+        self._failures: list[PlannedFailure] = []
         self._not_installed: set[str] = set()
         self._starts: dict[tuple[str, str, str], Beginning] = {}
 
@@ -118,7 +132,7 @@ class Planner(BaseHost):
             self._attempt(entity, context)
             return
         self._conditions.append(
-            Condition(_short(condition.describe()), self._holds(entity, context))
+            PlannedCondition(_short(condition.describe()), self._holds(entity, context))
         )
         try:
             if self._conditions[-1].holds is False:
@@ -182,7 +196,7 @@ class Planner(BaseHost):
         if len(self._arguments) >= THINGS_MAX:
             raise PlanEndedError(f"it declares more than {THINGS_MAX} arguments")
         self._arguments.append(
-            plans.Argument(
+            PlannedArgument(
                 argument.name,
                 None if default is None else self._shown(default),
                 tuple(argument.choices or ()),
@@ -221,7 +235,7 @@ class Planner(BaseHost):
         whole = self._when_with(later.when)
         self._append_row(
             self._happenings,
-            plans.Happening(
+            PlannedHappening(
                 later.kind, whole, does, self._condition, self._include, self._place(later.where)
             ),
         )
@@ -242,7 +256,7 @@ class Planner(BaseHost):
         if not self._whens:
             reason = getattr(event, "reason", "")
             text = f"emit {type(event).__name__}{f' ({reason})' if reason else ''}"
-            row = plans.Happening("other", "at once", (text,), self._condition, self._include)
+            row = PlannedHappening("other", "at once", (text,), self._condition, self._include)
             self._append_row(self._happenings, row)
 
     def include(
@@ -255,7 +269,7 @@ class Planner(BaseHost):
         location = source.launch_description_source
         number = len(self._includes_found)
         self._includes_found.append(
-            plans.Include(
+            PlannedInclude(
                 number,
                 self._shown(perform(context, location.location)) if location.location else "",
                 {name: self._shown(value) for name, value in given.items()},
@@ -286,13 +300,13 @@ class Planner(BaseHost):
     def log(self, level: str, text: str, where: Where) -> None:
         """Note a line of the log."""
         shown = text if level == "info" else f"{level.upper()}: {text}"
-        row = plans.LogLine(self._shown(shown), self._condition, self._when, self._place(where))
+        row = PlannedLog(self._shown(shown), self._condition, self._when, self._place(where))
         self._append_row(self._log, row)
 
     def set_environment(self, name: str, value: str | None, where: Where) -> None:
         """Note a variable, and set it for what follows."""
         shown = None if value is None else self._shown(value)
-        row = plans.Setting(name, shown, self._condition, self._place(where))
+        row = PlannedSetting(name, shown, self._condition, self._place(where))
         self._append_row(self._settings, row)
         super().set_environment(name, value, where)
 
@@ -318,25 +332,23 @@ class Planner(BaseHost):
         """Note what is left out, once for each line."""
         if len(self._unsupported) < ROWS_MAX:
             place = self._place(where)
-            self._unsupported.setdefault(
-                (name, str(place)), plans.Unsupported(name, sentence, place)
-            )
+            self._unsupported.setdefault((name, str(place)), PlannedGap(name, sentence, place))
 
     def failed(self, sentence: str, where: Where) -> None:
         """Note what went wrong."""
-        row = plans.Failure(_short(real_paths(sentence), 2_000), self._place(where))
+        row = PlannedFailure(_short(real_paths(sentence), 2_000), self._place(where))
         if row not in self._failures:
             self._append_row(self._failures, row)
 
     # What is noted with each thing.
 
     @property
-    def _condition(self) -> Condition | None:
+    def _condition(self) -> PlannedCondition | None:
         if not self._conditions:
             return None
         holds = [one.holds for one in self._conditions]
         whole = False if False in holds else None if None in holds else True
-        return Condition(" and ".join(one.text for one in self._conditions), whole)
+        return PlannedCondition(" and ".join(one.text for one in self._conditions), whole)
 
     @property
     def _is_left_out(self) -> bool:
@@ -373,7 +385,7 @@ class Planner(BaseHost):
             if reason := why_not_installed(Path(real)):
                 self.failed(reason, Where(real, 0))
 
-    def _node(self, number: int, request: Request) -> plans.Node:
+    def _node(self, number: int, request: Request) -> PlannedNode:
         found = planned_parameters(request, self.robots, number)
         for sentence in found.failures:
             self.failed(sentence, request.where)
@@ -381,7 +393,7 @@ class Planner(BaseHost):
             self._note_installed(file)
         arguments = tuple(self._shown(one) for one in request.arguments)
         self.robots.note_arguments(request, number)
-        return plans.Node(
+        return PlannedNode(
             number,
             request.kind,
             request.package,
@@ -391,7 +403,7 @@ class Planner(BaseHost):
             request.full_name,
             found.parameters,
             tuple(self._shown(one) for one in found.files),
-            tuple(plans.Remap(a, b) for a, b in request.remaps),
+            tuple(PlannedRemap(a, b) for a, b in request.remaps),
             arguments,
             tuple(self._shown(one) for one in request.ros_arguments),
             {name: self._shown(value) for name, value in request.environment.items()},
@@ -408,7 +420,7 @@ class Planner(BaseHost):
             self._shown(request.cwd),
         )
 
-    def _start_of(self, request: Request) -> plans.Start:
+    def _start_of(self, request: Request) -> PlannedStart:
         key = (request.kind, request.package, request.executable)
         if key not in self._starts:
             self._starts[key] = beginning_of(self.index, request)
@@ -416,8 +428,8 @@ class Planner(BaseHost):
             self.failed(self._starts[key].fault, request.where)
         return self._starts[key].start
 
-    def _process(self, number: int, request: Request) -> plans.Process:
-        return plans.Process(
+    def _process(self, number: int, request: Request) -> PlannedProcess:
+        return PlannedProcess(
             number,
             tuple(self._shown(one) for one in request.command),
             request.name,
@@ -435,7 +447,7 @@ class Planner(BaseHost):
         )
 
 
-def _with_failure(include: plans.Include, reason: str) -> plans.Include:
+def _with_failure(include: PlannedInclude, reason: str) -> PlannedInclude:
     from dataclasses import replace  # noqa: PLC0415
 
     return replace(include, failed=real_paths(reason))

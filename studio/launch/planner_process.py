@@ -155,11 +155,10 @@ def _confine(memory_bytes: int) -> None:
 
 
 def _planned(request: PlanRequest, printed: _Printed) -> Plan:
-    from studio.launch.modules import ament_index, install  # noqa: PLC0415 - after the limits
+    from studio.launch.modules import install  # noqa: PLC0415 - after the limits
     from studio.launch.planner import PlanEndedError, Planner  # noqa: PLC0415
     from studio.launch.vocabulary.context import LaunchContext, use_host  # noqa: PLC0415
     from studio.launch.vocabulary.temporary import use_folder  # noqa: PLC0415
-    from studio.launch.workspace_code import module_folders  # noqa: PLC0415
 
     index = index_of(request)
     planner = Planner(index, Path(request.file), request.given)
@@ -167,7 +166,7 @@ def _planned(request: PlanRequest, printed: _Printed) -> Plan:
     use_folder(request.folder)
     os.environ.update(environment_of(index, Path(request.file)))
     sys.modules["xacro"] = planner.robots.xacro_module()
-    install(ament_index(index, Path(request.file)), module_folders(index), stand_in=True)
+    install(index, Path(request.file), stand_in=True)
     planner.robots.watch_opened_files()
     sys.stdout = sys.stderr = printed
     ended = ""

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Final
 
 import msgspec
 
-from studio.launch.plan import Failure, Plan, Where, plan_from_json
+from studio.launch.plan import Plan, PlannedFailure, Where, plan_from_json
 from studio.launch.planner_process import LENGTH, PlanRequest, rows_of
 from studio.launch.shares import name_of_package_in
 from studio.launch.watchdog import MARK, Limits, Watchdog
@@ -67,7 +67,7 @@ def plan_launch_file(
         plan = Plan(str(file), ended=reason)
     if plan.ended:
         sentence = f"it is not planned whole: {plan.ended}"
-        plan = replace(plan, failures=(*plan.failures, Failure(sentence, Where(str(file)))))
+        plan = replace(plan, failures=(*plan.failures, PlannedFailure(sentence, Where(str(file)))))
     return replace(plan, package=_package_of(file))
 
 

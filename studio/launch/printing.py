@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from studio.launch.plan import Argument, Condition, Node, Plan, Process, Start
+    from studio.launch.plan import (
+        Plan,
+        PlannedArgument,
+        PlannedCondition,
+        PlannedNode,
+        PlannedProcess,
+        PlannedStart,
+    )
 
 
 def shown_arguments(plan: Plan) -> str:
@@ -24,7 +31,7 @@ def shown_arguments(plan: Plan) -> str:
     return "\n".join(lines)
 
 
-def _argument(one: Argument) -> Iterator[str]:
+def _argument(one: PlannedArgument) -> Iterator[str]:
     yield f"    '{one.name}':"
     text = " ".join(one.description.split()) or "no description given"
     if one.choices:
@@ -80,7 +87,7 @@ def _setting(name: str, value: str | None) -> str:
     return f"{name} is unset" if value is None else f"{name}={value}"
 
 
-def _node(plan: Plan, one: Node) -> Iterator[str]:
+def _node(plan: Plan, one: PlannedNode) -> Iterator[str]:
     name = one.full_name or one.namespace.rstrip("/") + "/?"
     yield f"{name}  {one.package} {one.executable}{_state(one.condition, one.when)}"
     yield f"    {_start(one.start)}"
@@ -106,7 +113,7 @@ def _node(plan: Plan, one: Node) -> Iterator[str]:
         yield f"    in the container {one.container}"
 
 
-def _process(one: Process) -> Iterator[str]:
+def _process(one: PlannedProcess) -> Iterator[str]:
     yield f"{' '.join(one.command)}{_state(one.condition, one.when)}"
     yield f"    {_start(one.start)}"
     yield from _surroundings(one.cwd, one.environment)
@@ -118,7 +125,7 @@ def _surroundings(cwd: str, environment: dict[str, str]) -> Iterator[str]:
     yield from (f"    with {_setting(name, value)}" for name, value in environment.items())
 
 
-def _start(start: Start) -> str:
+def _start(start: PlannedStart) -> str:
     words = {
         "node": "starts",
         "studio": "starts the studio's own:",
@@ -140,7 +147,7 @@ def _robot(file: str, mappings: dict[str, str]) -> str:
     return f"{file or 'a robot whose file is not known'}{given}"
 
 
-def _state(condition: Condition | None, when: str) -> str:
+def _state(condition: PlannedCondition | None, when: str) -> str:
     later = f"  [{when}]" if when else ""
     if condition is None:
         return later

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.launch.plan import Robot, Where
+from studio.launch.plan import PlannedRobot, Where
 from studio.launch.vocabulary.places import here
 
 if TYPE_CHECKING:
@@ -34,10 +34,10 @@ class Robots:
 
     def __init__(self, real: Callable[[str], str]) -> None:
         self._real = real
-        self._robots: list[Robot] = []
+        self._robots: list[PlannedRobot] = []
         self._opened: dict[str, Where] = {}
 
-    def all(self) -> tuple[Robot, ...]:
+    def all(self) -> tuple[PlannedRobot, ...]:
         """Return those that are known."""
         return tuple(self._robots)
 
@@ -46,7 +46,8 @@ class Robots:
         return _text_of(self._noted(file, kind, mappings, where))
 
     def _noted(self, file: str, kind: str, mappings: Mapping[str, str], where: Where) -> int:
-        robot = Robot(self._real(file), kind, {k: self._real(v) for k, v in mappings.items()})
+        real = {name: self._real(value) for name, value in mappings.items()}
+        robot = PlannedRobot(self._real(file), kind, real)
         for number, known in enumerate(self._robots):
             if replace(known, node=None, where=Where()) == robot:
                 return number

@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.errors import LaunchError, StudioError
-from studio.launch.modules import ament_index, install
+from studio.launch.modules import install
 from studio.launch.runner import Runner
 from studio.launch.vocabulary.context import LaunchContext, use_host
 from studio.launch.vocabulary.sources import AnyLaunchDescriptionSource, LaunchDescriptionSource
 from studio.launch.watchdog import take_up_orphans
-from studio.launch.workspace_code import module_folders
 from studio.packages.passing import environment_of
 
 if TYPE_CHECKING:
@@ -93,7 +92,7 @@ def _run(
     os.environ.update(environment_of(index, asking))
     runner = Runner(index, asking, environment, reporter, prepared=prepared)
     use_host(runner)
-    install(ament_index(index, asking), module_folders(index), stand_in=False)
+    install(index, asking, stand_in=False)
     runner.guard(commands)
     try:
         runner.load(

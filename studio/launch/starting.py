@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import EntryPointError, ProgramNotFoundError, StudioError
-from studio.launch.plan import Start
+from studio.launch.plan import PlannedStart
 from studio.launch.vocabulary.texts import is_unknown
 from studio.programs.finding import command_program, find_program, workspace_folder
 
@@ -50,7 +50,7 @@ class Beginning:
         fails_in_ros: Nothing runs by a fault of the user's own package: ROS 2 ends the launch.
     """
 
-    start: Start
+    start: PlannedStart
     command: tuple[str, ...] = ()
     environment: Mapping[str, str] = field(default_factory=dict[str, str])
     config: str = ""
@@ -89,7 +89,10 @@ def beginning_of(index: PackageIndex, request: Request) -> Beginning:
         return replace(_none(_half(str(error))), fails_in_ros=is_users)
     if named == ("rviz2", "rviz2"):
         return Beginning(
-            Start("page", "the page shows it"), program.command, {}, config_of(request.arguments)
+            PlannedStart("page", "the page shows it"),
+            program.command,
+            {},
+            config_of(request.arguments),
         )
     return _of_program(program)
 
@@ -106,7 +109,7 @@ def config_of(arguments: list[str]) -> str:
 
 def _of_program(program: Program) -> Beginning:
     text = str(program.file) if program.file is not None else " ".join(program.command[3:])
-    start = Start(_KINDS[program.kind], text or program.command[0])
+    start = PlannedStart(_KINDS[program.kind], text or program.command[0])
     return Beginning(start, program.command, dict(program.environment))
 
 
@@ -126,7 +129,7 @@ def _of_command(index: PackageIndex, request: Request) -> Beginning:
         from studio.programs.program import studio_command  # noqa: PLC0415
 
         command = studio_command(words[1:])
-        return Beginning(Start("command", "studio " + " ".join(words[1:])), command)
+        return Beginning(PlannedStart("command", "studio " + " ".join(words[1:])), command)
     return _of_words(words, {})
 
 
@@ -142,7 +145,7 @@ def _of_shell(index: PackageIndex, line: str) -> Beginning:
 
         if is_plain or words[0] == "ros2":
             return _of_command(index, Request(None, "process", command=words))
-    return Beginning(Start("command", line), ("/bin/sh", "-c", line))
+    return Beginning(PlannedStart("command", line), ("/bin/sh", "-c", line))
 
 
 def _of_words(words: list[str], environment: dict[str, str]) -> Beginning:
@@ -155,11 +158,11 @@ def _of_words(words: list[str], environment: dict[str, str]) -> Beginning:
                 "shell=True"
             )
         return _none(f"{name} is no program on this machine: install it, or give its whole path")
-    return Beginning(Start("installed", found), (found, *words[1:]), environment)
+    return Beginning(PlannedStart("installed", found), (found, *words[1:]), environment)
 
 
 def _none(reason: str) -> Beginning:
-    return Beginning(Start("none", reason))
+    return Beginning(PlannedStart("none", reason))
 
 
 def _half(sentence: str) -> str:

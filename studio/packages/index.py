@@ -22,7 +22,7 @@ from studio.packages.roots import ServedRoots, is_below, is_too_wide
 from studio.problems import Place, Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from studio.packages.discovery import Package
 
@@ -79,6 +79,11 @@ class PackageIndex:
         self._by_name: dict[str, list[Indexed]] = defaultdict(list)
         for one in self.packages:
             self._by_name[one.name].append(one)
+
+    def without(self, left_out: Callable[[Path], bool]) -> PackageIndex:
+        """Return the same but for the packages in some folders."""
+        chosen = {name: folder for name, folder in self.chosen.items() if not left_out(folder)}
+        return PackageIndex((one for one in self.packages if not left_out(one.folder)), chosen)
 
     def __contains__(self, name: object) -> bool:
         return name in self.chosen or name in self._by_name

@@ -137,6 +137,39 @@ def test_without_the_option_a_program_can_be_read_and_nothing_else(tmp_path: Pat
     asyncio.run(run())
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("CMakeLists.txt", "project(talk)\n"),
+        ("scripts/node", "#!/usr/bin/env python3\n"),
+        ("bringup/more.xml", "<!-- with a word before -->\n<launch/>\n"),
+        ("bringup/more.yaml", "launch: []\n"),
+        ("bringup/more.launch", "<launch/>\n"),
+    ],
+)
+def test_without_the_option_no_program_is_edited_whatever_its_name(
+    tmp_path: Path, name: str, text: str
+):
+    async def run() -> None:
+        ws = workspace(tmp_path / "ws")
+        file = ws / "src" / "talk" / name
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(text)
+        async with run_studio(tmp_path / "data") as studio:
+            await opened(studio, ws)
+            await studio.ask(GetText(document="ws", file=str(file)))
+            with pytest.raises(ReadOnlyTextError, match="--allow-run"):
+                await studio.ask(typed(file))
+        async with run_studio(tmp_path / "data", ws) as studio:
+            await opened(studio, ws)
+            await studio.ask(GetText(document="ws", file=str(file)))
+            await studio.ask(typed(file))
+            await studio.ask(Save(document="ws"))
+            assert file.read_text() == f"# typed\n{text}"
+
+    asyncio.run(run())
+
+
 def test_who_has_control_and_owns_nothing_touches_no_program(tmp_path: Path):
     async def run() -> None:
         ws = workspace(tmp_path / "ws")
@@ -167,12 +200,14 @@ def test_who_has_control_and_owns_nothing_touches_no_program(tmp_path: Path):
     asyncio.run(run())
 
 
+@pytest.mark.parametrize("name", ["launch/more.launch.xml", "bringup/more.xml"])
 def test_no_value_and_no_replacement_writes_into_a_launch_file_that_a_robot_includes(
-    tmp_path: Path,
+    tmp_path: Path, name: str
 ):
     async def run() -> None:
         ws = workspace(tmp_path / "ws")
-        launch = ws / "src" / "talk" / "launch" / "more.launch.xml"
+        launch = ws / "src" / "talk" / name
+        launch.parent.mkdir(exist_ok=True)
         xacro = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
         text = (
             f'<launch {xacro}><xacro:property name="p" value="1"/>'
@@ -182,13 +217,18 @@ def test_no_value_and_no_replacement_writes_into_a_launch_file_that_a_robot_incl
         robot = ws / "src" / "talk" / "r.urdf.xacro"
         robot.write_text(
             f'<robot {xacro} name="r"><link name="base"/>'
-            '<xacro:include filename="launch/more.launch.xml"/></robot>\n'
+            f'<xacro:include filename="{name}"/></robot>\n'
         )
         async with run_studio(tmp_path / "data", ws) as studio:
             document = await opened(studio, robot)
             assert str(launch) in document.workspace.sources.files
             student = Ear(Role.STUDENT)
             site = studio.ear.site("p")["id"]
+            await studio.ask(GetText(document=document.id, file=str(launch)))
+            change = TextChange(start=0, end=0, text="<!-- typed -->")
+            edit = EditText(document=document.id, file=str(launch), version=1, changes=(change,))
+            with pytest.raises(NotAllowedError):
+                await studio.engine.execute(edit, student)
             for command in (
                 EditSite(document=document.id, site=site, text="2"),
                 ReplaceTexts(

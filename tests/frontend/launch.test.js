@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { isShown, planParts, withPrinted } from "../../frontend_assets/model/programs.js";
 import { plannedGraph } from "../../frontend_assets/panels/launch/launch-graph.js";
-import { parameterText } from "../../frontend_assets/panels/launch/plan.js";
+import { detailsOf, parameterText } from "../../frontend_assets/panels/launch/plan.js";
 
 const where = { file: "/ws/a.launch.py", line: 3 };
 
@@ -81,6 +81,22 @@ test("a parameter is shown as its value, with the file that it comes from, and n
 
 /** @param {number} number @param {object} some @returns {any} */
 const line = (number, some = {}) => ({ number, process: 1, stream: "stdout", text: "hi", ...some });
+
+test("a node's details are all that it is given, also by a prefix, a folder and its environment", () => {
+  const none = { parameters: [], files: [], arguments: [], ros_arguments: [], prefix: [], cwd: "" };
+  assert.deepEqual(detailsOf(node({ ...none, environment: {} })), []);
+  const given = {
+    ...none,
+    remaps: [{ source: "said", target: "heard" }],
+    arguments: ["--fast"],
+    ros_arguments: ["--log-level", "debug"],
+    prefix: ["gdb", "--args"],
+    cwd: "/ws",
+    environment: { LOUD: "1" },
+  };
+  const texts = detailsOf(node(given)).map(([, text]) => text);
+  assert.deepEqual(texts, ["→ heard", "--fast --log-level debug", "gdb --args", "/ws", "1"]);
+});
 
 test("lines are added to those that are known, and another run takes their place", () => {
   const known = { run: 1, lines: [line(1)], last: 1, dropped: 0 };

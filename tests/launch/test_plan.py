@@ -1,12 +1,12 @@
 from __future__ import annotations
 
 from studio.launch.plan import (
-    Argument,
-    Condition,
-    Node,
-    Parameter,
     Plan,
-    Robot,
+    PlannedArgument,
+    PlannedCondition,
+    PlannedNode,
+    PlannedParameter,
+    PlannedRobot,
     Where,
     plan_from_json,
     plan_to_json,
@@ -17,28 +17,28 @@ def test_a_plan_survives_the_way_through_json():
     plan = Plan(
         "/ws/a.launch.py",
         arguments=(
-            Argument("ur_type", choices=("ur5", "ur10"), where=Where("/ws/a.launch.py", 3)),
+            PlannedArgument("ur_type", choices=("ur5", "ur10"), where=Where("/ws/a.launch.py", 3)),
         ),
         nodes=(
-            Node(
+            PlannedNode(
                 1,
                 "node",
                 "demo",
                 "talker",
                 parameters=(
-                    Parameter("rates", [1.0, 2.5]),
-                    Parameter("robot_description", robot=0),
+                    PlannedParameter("rates", [1.0, 2.5]),
+                    PlannedParameter("robot_description", robot=0),
                 ),
-                condition=Condition("$(var gui)", None),
+                condition=PlannedCondition("$(var gui)", None),
             ),
         ),
-        robots=(Robot("/ws/a.xacro", "xacro", {"name": "ur"}, 1),),
+        robots=(PlannedRobot("/ws/a.xacro", "xacro", {"name": "ur"}, 1),),
     )
     assert plan_from_json(plan_to_json(plan)) == plan
 
 
 def test_arguments_without_a_value_are_missing():
-    plan = Plan("a", arguments=(Argument("one", value="1"), Argument("two")))
+    plan = Plan("a", arguments=(PlannedArgument("one", value="1"), PlannedArgument("two")))
     assert [one.name for one in plan.missing] == ["two"]
 
 

@@ -7,13 +7,13 @@ from tests.support.launch_files import described, index_of, package_at, plan_of,
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from studio.launch.plan import Node, Plan
+    from studio.launch.plan import Plan, PlannedNode
 
 _TALKER = "package='demo_nodes_py', executable='talker'"
 _URDF = '<robot name="r2d2"><link name="axis"/></robot>\n'
 
 
-def _node(plan: Plan, name: str) -> Node:
+def _node(plan: Plan, name: str) -> PlannedNode:
     assert plan.failures == ()
     return next(one for one in plan.nodes if one.name == name)
 

@@ -3,21 +3,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studio.launch.plan import (
-    Argument,
-    Condition,
-    Failure,
-    Happening,
-    Include,
-    LogLine,
-    Node,
-    Parameter,
     Plan,
-    Process,
-    Remap,
-    Robot,
-    Setting,
-    Start,
-    Unsupported,
+    PlannedArgument,
+    PlannedCondition,
+    PlannedFailure,
+    PlannedGap,
+    PlannedHappening,
+    PlannedInclude,
+    PlannedLog,
+    PlannedNode,
+    PlannedParameter,
+    PlannedProcess,
+    PlannedRemap,
+    PlannedRobot,
+    PlannedSetting,
+    PlannedStart,
     Where,
     plan_from_json,
     plan_to_json,
@@ -29,14 +29,52 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+_TALKER = PlannedNode(
+    0,
+    "node",
+    "p",
+    "talker",
+    "t",
+    "/ns",
+    "/ns/t",
+    (PlannedParameter("rate", 2, "p.yaml"), PlannedParameter("robot_description", robot=0)),
+    remaps=(PlannedRemap("a", "/b"),),
+    arguments=("-d", "x y"),
+    respawn=True,
+    respawn_delay_s=0.5,
+    container="/c",
+    condition=PlannedCondition("sim", None),
+    start=PlannedStart("node", "p/talker.py"),
+)
+_PLAN = Plan(
+    "a.launch.py",
+    arguments=(
+        PlannedArgument("sim", None, ("yes", "no")),
+        PlannedArgument("rate", "1", value="2"),
+    ),
+    includes=(
+        PlannedInclude(0, "b.launch.py", {"x": "1 2"}),
+        PlannedInclude(1, "c.launch.py", parent=0, when="after 3 s", failed="it is missing"),
+    ),
+    settings=(PlannedSetting("A", "1"), PlannedSetting("B", None)),
+    nodes=(_TALKER, PlannedNode(1, "node", "q", "gz", start=PlannedStart("none", "no physics"))),
+    processes=(PlannedProcess(2, ("echo", "x"), start=PlannedStart("installed", "/bin/echo")),),
+    happenings=(PlannedHappening("on_exit", "when t exits", ("Shutdown",)),),
+    robots=(PlannedRobot("r.xacro", "xacro", {"lidar": "none"}),),
+    log=(PlannedLog("hello"),),
+    unsupported=(PlannedGap("Odd", "Odd is left out", Where("a.launch.py", 4)),),
+    failures=(PlannedFailure("it fails", Where("a.launch.py", 5)),),
+)
+
+
 def test_arguments_are_printed_as_ros2_launch_prints_them():
     plan = Plan(
         "a.launch.py",
         arguments=(
-            Argument("model", "rover.urdf", ("a", "b"), "Which\n  robot.", "rover.urdf"),
-            Argument("model", "other", include=0),
-            Argument("rate"),
-            Argument("set_above", value="1", include=0),
+            PlannedArgument("model", "rover.urdf", ("a", "b"), "Which\n  robot.", "rover.urdf"),
+            PlannedArgument("model", "other", include=0),
+            PlannedArgument("rate"),
+            PlannedArgument("set_above", value="1", include=0),
         ),
     )
     assert shown_arguments(plan) == (
@@ -57,42 +95,7 @@ def test_arguments_are_printed_as_ros2_launch_prints_them():
 
 
 def test_a_plan_is_printed_part_below_part():
-    plan = Plan(
-        "a.launch.py",
-        arguments=(Argument("sim", None, ("yes", "no")), Argument("rate", "1", value="2")),
-        includes=(
-            Include(0, "b.launch.py", {"x": "1 2"}),
-            Include(1, "c.launch.py", parent=0, when="after 3 s", failed="it is missing"),
-        ),
-        settings=(Setting("A", "1"), Setting("B", None)),
-        nodes=(
-            Node(
-                0,
-                "node",
-                "p",
-                "talker",
-                "t",
-                "/ns",
-                "/ns/t",
-                (Parameter("rate", 2, "p.yaml"), Parameter("robot_description", robot=0)),
-                remaps=(Remap("a", "/b"),),
-                arguments=("-d", "x y"),
-                respawn=True,
-                respawn_delay_s=0.5,
-                container="/c",
-                condition=Condition("sim", None),
-                start=Start("node", "p/talker.py"),
-            ),
-            Node(1, "node", "q", "gz", start=Start("none", "no physics")),
-        ),
-        processes=(Process(2, ("echo", "x"), start=Start("installed", "/bin/echo")),),
-        happenings=(Happening("on_exit", "when t exits", ("Shutdown",)),),
-        robots=(Robot("r.xacro", "xacro", {"lidar": "none"}),),
-        log=(LogLine("hello"),),
-        unsupported=(Unsupported("Odd", "Odd is left out", Where("a.launch.py", 4)),),
-        failures=(Failure("it fails", Where("a.launch.py", 5)),),
-    )
-    assert shown_plan(plan).splitlines() == [
+    assert shown_plan(_PLAN).splitlines() == [
         "a.launch.py",
         "Arguments:",
         "  sim has no value  (one of yes, no)",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 import pytest
@@ -80,6 +81,7 @@ def test_what_is_not_there_is_said(tmp_path: Path):
         ("view_launch.py", True),
         ("a.launch.xml", True),
         ("a.launch.yaml", True),
+        ("a.launch", True),
         ("launch/a.xml", True),
         ("launch/a.yml", True),
         ("launch/more/a.yaml", True),
@@ -108,3 +110,31 @@ def test_texts_that_nobody_runs_are_no_programs_though_they_bear_the_bit(tmp_pat
     assert RunFolders().may_edit(robot)
     assert is_program(script)
     assert not RunFolders().may_edit(script)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "is_one"),
+    [
+        ("node", "#!/usr/bin/env python3\n", True),
+        ("node.pl", "#!/usr/bin/perl\n", True),
+        ("node", "import rclpy\n", False),
+        ("CMakeLists.txt", "", True),
+        ("bringup.xml", "<launch/>", True),
+        ("bringup.xml", '<?xml version="1.0"?>\n<!-- <robot> -->\n<launch name="a"/>', True),
+        ("bringup.txt", "<launch/>", True),
+        ("robot.xml", '<robot name="r"><launch/></robot>', False),
+        ("robot.xml", "<!-- <launch> --><robot/>", False),
+        ("bringup.yaml", "%YAML 1.2\n---\nlaunch:\n- node: {}\n", True),
+        ("bringup.yml", '{"launch": []}', True),
+        ("poses.yaml", "launcher: 1\nlaunch_delay: 2\narm:\n  relaunch: 3\n", False),
+        ("poses.yaml", "\n" * 20_000, False),
+    ],
+)
+def test_what_a_name_does_not_say_the_file_does(tmp_path: Path, name: str, text: str, is_one: bool):
+    (tmp_path / name).write_text(text)
+    assert is_program(tmp_path / name) is is_one
+
+
+def test_a_pipe_is_not_waited_for(tmp_path: Path):
+    os.mkfifo(tmp_path / "pipe")
+    assert not is_program(tmp_path / "pipe")

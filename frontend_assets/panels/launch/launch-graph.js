@@ -1,6 +1,6 @@
 /** The graph that a launch file would make, as far as its remaps tell: drawn as the node graph is. */
 
-/** @import { PlanView } from "../../types/wire.d.ts" */
+/** @import { Plan } from "../../types/wire.d.ts" */
 /** @import { Arrow, Box } from "../graph/nodes.js" */
 
 import { html, useSignal } from "vendor/preact.js";
@@ -10,7 +10,7 @@ import { EmptyState } from "../../lib/ui.js";
 import { showSource } from "../../model/source.js";
 import { GraphDrawing } from "../graph/drawing.js";
 
-/** @param {{plan: PlanView}} props */
+/** @param {{plan: Plan}} props */
 export function LaunchGraph({ plan }) {
   const chosen = useSignal("");
   const drawn = plannedGraph(plan);
@@ -25,7 +25,7 @@ export function LaunchGraph({ plan }) {
 }
 
 /**
- * @param {PlanView} plan
+ * @param {Plan} plan
  * @returns {{boxes: Box[], arrows: Arrow[]}} nodes that would run, the file that names each, and the names that they are given
  */
 export function plannedGraph(plan) {
@@ -58,7 +58,7 @@ export function plannedGraph(plan) {
 /** @param {string} id @param {Box["kind"]} kind @param {string} name @returns {Box} */
 const boxOf = (id, kind, name) => ({ id, kind, name, count: 1 });
 
-/** @param {PlanView["nodes"][number]} node */
+/** @param {Plan["nodes"][number]} node */
 const nameOf = ({ namespace, name, executable }) => `${withSlash(namespace)}${name || executable}`;
 
 /** @param {string} namespace */

@@ -1,6 +1,6 @@
 /** A launch file: its arguments, what it would start, and what it does once it is started. */
 
-/** @import { PlanView } from "../../types/wire.d.ts" */
+/** @import { Plan } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, signal, useEffect, useSignal } from "vendor/preact.js";
@@ -32,7 +32,7 @@ import { LaunchPlan } from "./plan.js";
 import { RunsView } from "./runs.js";
 
 const PARTS = /** @type {const} */ (["plan", "graph", "runs"]);
-/** @type {Signal<{file: string, plan: PlanView} | null>} */
+/** @type {Signal<{file: string, plan: Plan} | null>} */
 const planned = signal(null);
 const trouble = signal("");
 /** A plan was asked for and is not here yet. */
@@ -189,7 +189,7 @@ function usePlan(file) {
   }, [file, asked, version]);
 }
 
-/** @param {string} file @param {Record<string, string>} wanted @returns {Promise<PlanView | null>} */
+/** @param {string} file @param {Record<string, string>} wanted @returns {Promise<Plan | null>} */
 async function plannedOf(file, wanted) {
   try {
     const answer = await send({ type: "plan_launch", file, arguments: wanted });

@@ -1,6 +1,6 @@
 /** The plan of a launch file: the form of its arguments, and the list of what it would start. */
 
-/** @import { PlanView, PlannedArgument, PlannedCondition, PlannedNode, PlannedParameter, PlannedProcess, PlannedRobot, PlannedWhere } from "../../types/wire.d.ts" */
+/** @import { Plan, PlannedArgument, PlannedCondition, PlannedNode, PlannedParameter, PlannedProcess, PlannedRobot, Where } from "../../types/wire.d.ts" */
 
 import { html, useSignal } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
@@ -12,7 +12,7 @@ import { PlaceLink } from "../parts.js";
 
 /** @typedef {(name: string, value: string | null) => void} Write null: the default counts again */
 
-/** @param {{plan: PlanView, values: Record<string, string>, write: Write}} props */
+/** @param {{plan: Plan, values: Record<string, string>, write: Write}} props */
 export function LaunchPlan({ plan, values, write }) {
   return html`<${Faults} plan=${plan} />
     <${Arguments} plan=${plan} values=${values} write=${write} />
@@ -24,13 +24,13 @@ export function LaunchPlan({ plan, values, write }) {
     <${Gaps} plan=${plan} />`;
 }
 
-/** @param {{where: PlannedWhere}} props */
-const Where = ({ where }) =>
+/** @param {{where: Where}} props */
+const LineLink = ({ where }) =>
   where.line > 0
     ? html`<${PlaceLink} place=${{ file: where.file, line: where.line, column: 1 }} />`
     : null;
 
-/** @param {{plan: PlanView}} props */
+/** @param {{plan: Plan}} props */
 function Faults({ plan }) {
   const ended = plan.ended ? [{ sentence: plan.ended, where: { file: "", line: 0 } }] : [];
   const unknown = plan.unknown.map((name) => ({
@@ -41,11 +41,11 @@ function Faults({ plan }) {
   if (all.length === 0) return null;
   return html`<ul class="launching-faults" role="alert">${all.map(
     ({ sentence, where }) =>
-      html`<li key=${sentence}><${Icon} name="error" size=${14} /><span>${sentence}</span><${Where} where=${where} /></li>`,
+      html`<li key=${sentence}><${Icon} name="error" size=${14} /><span>${sentence}</span><${LineLink} where=${where} /></li>`,
   )}</ul>`;
 }
 
-/** @param {{plan: PlanView, values: Record<string, string>, write: Write}} props */
+/** @param {{plan: Plan, values: Record<string, string>, write: Write}} props */
 function Arguments({ plan, values, write }) {
   if (plan.arguments.length === 0)
     return html`<section aria-label=${t("launching.arguments")}><h3>${t("launching.arguments")}</h3><p class="note">${t("launching.arguments.none")}</p></section>`;
@@ -111,7 +111,7 @@ function Words(props) {
     placeholder=${placeholder} title=${value ?? placeholder} onInput=${type} />`;
 }
 
-/** @param {{plan: PlanView}} props */
+/** @param {{plan: Plan}} props */
 function Robots({ plan }) {
   if (plan.robots.length === 0) return null;
   return html`<section aria-label=${t("launching.robots")}><h3>${t("launching.robots")}</h3>
@@ -133,7 +133,7 @@ function Part({ one }) {
   return html`<div class=${`launching-include ${isOff ? "off" : ""}`} style=${`--level:${one.level}`}>
     ${
       include &&
-      html`<p class="launching-include-name"><${Icon} name="includes" size=${14} /><span title=${include.file}>${baseName(include.file)}</span><${Where} where=${include.where} />
+      html`<p class="launching-include-name"><${Icon} name="includes" size=${14} /><span title=${include.file}>${baseName(include.file)}</span><${LineLink} where=${include.where} />
       <${Reasons} condition=${include.condition} when=${include.when} />
       ${include.failed && html`<span class="bad">${include.failed}</span>`}</p>`
     }
@@ -157,30 +157,46 @@ function Reasons({ condition, when }) {
 function NodeRow({ node }) {
   const isOpen = useSignal(false);
   const isOff = node.condition?.holds === false;
-  const hasMore =
-    node.parameters.length + node.remaps.length + node.files.length + node.arguments.length > 0;
+  const details = detailsOf(node);
   const name = node.full_name || node.name || node.executable;
   const toggle = () => {
     isOpen.value = !isOpen.value;
   };
   return html`<li class=${`launching-node ${isOff ? "off" : ""}`}>
-    <div class="launching-line"><button type="button" class="launching-toggle" aria-expanded=${isOpen.value} disabled=${!hasMore} onClick=${toggle}>
-        <${Icon} name=${hasMore ? (isOpen.value ? "chevronDown" : "chevronRight") : "dot"} size=${13} /><strong>${name}</strong><span class="muted">${name === node.executable ? node.package : `${node.package} ${node.executable}`}</span></button>
-      <${Where} where=${node.where} /></div>
+    <div class="launching-line"><button type="button" class="launching-toggle" aria-expanded=${isOpen.value} disabled=${details.length === 0} onClick=${toggle}>
+        <${Icon} name=${details.length > 0 ? (isOpen.value ? "chevronDown" : "chevronRight") : "dot"} size=${13} /><strong>${name}</strong><span class="muted">${name === node.executable ? node.package : `${node.package} ${node.executable}`}</span></button>
+      <${LineLink} where=${node.where} /></div>
     <${Reasons} condition=${node.condition} when=${node.when} />
     ${node.start.kind === "none" && node.start.text && !isOff && html`<p class="note launching-not">${t("launching.not_started", { reason: node.start.text })}</p>`}
     ${node.respawn && html`<span class="launching-tag">${t("launching.respawn")}</span>`}
-    ${isOpen.value && html`<${NodeDetails} node=${node} />`}</li>`;
+    ${isOpen.value && html`<dl class="launching-details">${details.map(([term, text], at) => html`<div key=${at}><dt>${term}</dt><dd>${text}</dd></div>`)}</dl>`}</li>`;
 }
 
-/** @param {{node: PlannedNode}} props */
-function NodeDetails({ node }) {
-  return html`<dl class="launching-details">
-    ${node.parameters.map((one, at) => html`<div key=${`p${at}`}><dt>${one.name}</dt><dd>${parameterText(one)}</dd></div>`)}
-    ${node.files.map((file) => html`<div key=${file}><dt>${t("launching.parameter_file")}</dt><dd>${file}</dd></div>`)}
-    ${node.remaps.map((one, at) => html`<div key=${`r${at}`}><dt>${one.source}</dt><dd>→ ${one.target}</dd></div>`)}
-    ${node.arguments.length > 0 && html`<div><dt>${t("launching.words")}</dt><dd>${node.arguments.join(" ")}</dd></div>`}
-  </dl>`;
+/**
+ * All that a node is given: terms and texts.
+ * @param {PlannedNode} node
+ * @returns {[string, string][]}
+ */
+export function detailsOf(node) {
+  /** @type {[string, string[]][]} */
+  const words = [
+    ["launching.words", [...node.arguments, ...node.ros_arguments]],
+    ["launching.prefix", node.prefix],
+    ["launching.folder", node.cwd ? [node.cwd] : []],
+  ];
+  return [
+    ...node.parameters.map(
+      (one) => /** @type {[string, string]} */ ([one.name, parameterText(one)]),
+    ),
+    ...node.files.map(
+      (file) => /** @type {[string, string]} */ ([t("launching.parameter_file"), file]),
+    ),
+    ...node.remaps.map((one) => /** @type {[string, string]} */ ([one.source, `→ ${one.target}`])),
+    ...words
+      .filter(([, given]) => given.length > 0)
+      .map(([key, given]) => /** @type {[string, string]} */ ([t(key), given.join(" ")])),
+    ...Object.entries(node.environment),
+  ];
 }
 
 const TEXT_MAX = 200;
@@ -196,12 +212,12 @@ export function parameterText({ value, robot, file }) {
 /** @param {{process: PlannedProcess}} props */
 function ProcessRow({ process }) {
   const isOff = process.condition?.holds === false;
-  return html`<li class=${`launching-node ${isOff ? "off" : ""}`}><div class="launching-line"><span class="launching-toggle"><${Icon} name="dot" size=${13} /><code>${process.command.join(" ")}</code></span><${Where} where=${process.where} /></div>
+  return html`<li class=${`launching-node ${isOff ? "off" : ""}`}><div class="launching-line"><span class="launching-toggle"><${Icon} name="dot" size=${13} /><code>${process.command.join(" ")}</code></span><${LineLink} where=${process.where} /></div>
     <${Reasons} condition=${process.condition} when=${process.when} />
     ${process.start.kind === "none" && process.start.text && !isOff && html`<p class="note launching-not">${t("launching.not_started", { reason: process.start.text })}</p>`}</li>`;
 }
 
-/** @param {{plan: PlanView}} props what is done later, set and said */
+/** @param {{plan: Plan}} props what is done later, set and said */
 function Later({ plan }) {
   const rows = [
     ...plan.happenings.map((one) => ({
@@ -217,12 +233,12 @@ function Later({ plan }) {
   ];
   if (rows.length === 0) return null;
   return html`<section aria-label=${t("launching.later")}><h3>${t("launching.later")}</h3>
-    <ul class="launching-rows">${rows.map(({ words, where }, at) => html`<li key=${at}><span>${words}</span><${Where} where=${where} /></li>`)}</ul></section>`;
+    <ul class="launching-rows">${rows.map(({ words, where }, at) => html`<li key=${at}><span>${words}</span><${LineLink} where=${where} /></li>`)}</ul></section>`;
 }
 
-/** @param {{plan: PlanView}} props */
+/** @param {{plan: Plan}} props */
 function Gaps({ plan }) {
   if (plan.unsupported.length === 0) return null;
   return html`<section aria-label=${t("launching.gaps")}><h3>${t("launching.gaps")}</h3>
-    <ul class="launching-rows">${plan.unsupported.map(({ name, sentence, where }, at) => html`<li key=${at}><span><code>${name}</code> ${sentence}</span><${Where} where=${where} /></li>`)}</ul></section>`;
+    <ul class="launching-rows">${plan.unsupported.map(({ name, sentence, where }, at) => html`<li key=${at}><span><code>${name}</code> ${sentence}</span><${LineLink} where=${where} /></li>`)}</ul></section>`;
 }

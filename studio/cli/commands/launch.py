@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.interface_types import add_interfaces_option, environment_with
-from studio.cli.packages import opened_packages
+from studio.cli.packages import add_package_options, opened_packages
 from studio.cli.terminal import harmless
 from studio.cli.wire import STARTING, add_wire_options, ended_by_signals, profile_of
 from studio.errors import SettingsError
@@ -67,16 +67,10 @@ def add(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(*word, action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--events", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--node", action="store_true", help=argparse.SUPPRESS)
-    parser.add_argument(
-        "--package-path",
-        action="append",
-        default=[],
-        metavar="DIR",
-        help="find packages here, too; may be given again",
-    )
+    add_package_options(parser)
     add_interfaces_option(parser, "types of one's own that the nodes know; may be given again")
     add_wire_options(parser, router=STARTING, own_types=False)
-    parser.set_defaults(run=run, takes_mappings=True, data_dir=None, interrupted_code=130)
+    parser.set_defaults(run=run, takes_mappings=True, interrupted_code=130)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -84,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
     from studio.launch.finding import find_launch_file
 
     words = [word for word in options.words if word != "--"]
-    index = opened_packages(options)
+    index = opened_packages(options, to_run=True)
     given = _given(options.mappings)
     if options.node:
         return _run(options, index, Path(words[0]), words, given)
@@ -111,7 +105,7 @@ def _with_neighbours(options: argparse.Namespace, index: PackageIndex, file: Pat
         *options.package_path,
         *map(str, served_roots_for(folder / "package.xml")),
     ]
-    return opened_packages(options)
+    return opened_packages(options, to_run=True)
 
 
 def _given(mappings: list[str]) -> dict[str, str]:

@@ -77,7 +77,8 @@ def _run(options: argparse.Namespace) -> int:
     if name.endswith(_PYTHON_FILE) and not options.demo:
         wire, rest = _part_arguments(words)
         options.package_path = wire.package_path
-        return _start(file_program(Path(name), opened_packages(options)), options, wire, rest)
+        packages = opened_packages(options, to_run=True)
+        return _start(file_program(Path(name), packages), options, wire, rest)
     if not words or words[0].startswith("-"):
         raise SettingsError(
             f"studio run {harmless(name)}: name an executable of the package, too "
@@ -85,7 +86,8 @@ def _run(options: argparse.Namespace) -> int:
         )
     wire, rest = _part_arguments(words[1:])
     options.package_path = wire.package_path
-    program = find_program(opened_packages(options), name, words[0], demo=options.demo)
+    packages = opened_packages(options, to_run=True)
+    program = find_program(packages, name, words[0], demo=options.demo)
     return _start(program, options, wire, rest)
 
 

@@ -19,7 +19,7 @@ from studio.launch.vocabulary.texts import Substitution, TextSubstitution
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.launch.frontends.element import Element
+    from studio.launch.frontends.reading import Element
 
 _TYPES: Final[dict[str, Any]] = {
     "int": int, "float": float, "bool": bool, "str": str,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Any, Final, NoReturn, cast
 from xml.parsers import expat
 
@@ -9,7 +10,6 @@ import yaml
 from yaml.composer import ComposerError
 
 from studio.errors import LaunchFileError
-from studio.launch.frontends.element import Element
 from studio.launch.plan import Where
 
 ELEMENTS_MAX: Final = 50_000
@@ -21,6 +21,29 @@ _LISTS: Final = frozenset((
     "load_composable_node", "node_container", "for",
 ))  # fmt: skip
 """Keys of YAML whose values are elements, not attributes."""
+
+
+@dataclass(slots=True)
+class Element:
+    """A tag with its attributes, and what stands in it.
+
+    An XML attribute is a text; YAML's may be typed. `children` are elements of any tag.
+    """
+
+    tag: str
+    where: Where
+    attributes: dict[str, Any] = field(default_factory=dict[str, Any])
+    children: list[Element] = field(default_factory=list["Element"])
+    used: set[str] = field(default_factory=set[str])
+
+    def get(self, name: str) -> Any:
+        """Return an attribute, None without; it counts as read."""
+        self.used.add(name)
+        return self.attributes.get(name)
+
+    def of(self, *tags: str) -> list[Element]:
+        """Return the children of these tags."""
+        return [one for one in self.children if one.tag in tags]
 
 
 def read_xml(path: str, data: bytes) -> Element:

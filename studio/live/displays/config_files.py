@@ -13,6 +13,7 @@ from studio.files import is_file, is_folder, is_there, write_whole
 from studio.live.displays.display_file import OpenedConfig
 from studio.packages.recent import RecentFiles
 from studio.packages.roots import ServedRoots, package_folder_of
+from studio.packages.run_folders import is_program
 from studio.protocol.rviz_configs import RvizFileEntry
 from studio.rviz.config_text import ENDINGS, SIZE_LIMIT_BYTES
 
@@ -113,6 +114,8 @@ class ConfigFiles:
             raise NotSavedError(str(path), "there is no such folder; name one that is there")
         if not roots.may_write(path):
             raise NotSavedError(str(path), "it may only be read here; name another")
+        if is_program(path) and not path.name.endswith(ENDINGS):
+            raise NotSavedError(str(path), "it is a program, and no config; name another")
         return path
 
     def write(self, path: Path, text: str, *, replace: bool) -> Literal["", "file", "changes"]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.errors import CommandError
 from studio.protocol.commands import Commands, Limits, Scope
-from studio.protocol.launch_plans import CancelPlan, LaunchPlan, PlanLaunch, PlanView
+from studio.protocol.launch_plans import CancelPlan, LaunchPlan, PlanLaunch
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -64,9 +64,7 @@ class Planning:
                 del self._asked[asker.person]
         if task.cancelled():
             raise CommandError("The planning was given up.")
-        plan = task.result()
-        view = PlanView.model_validate(plan, from_attributes=True)
-        return LaunchPlan(request=command.request, plan=view)
+        return LaunchPlan(request=command.request, plan=task.result())
 
     def cancel(self, _: CancelPlan, asker: Listener) -> None:
         """Give up what a person asked."""

@@ -42,7 +42,7 @@ class Programs:
         opened: Callable[[], Iterable[Path]],
         changes: Changes,
     ) -> None:
-        self._allowed = allowed
+        self._allowed, self._data_folder = allowed, settings.data_folder
         self.workspaces = workspaces.WorkspaceRoom(
             settings,
             allowed,
@@ -64,6 +64,7 @@ class Programs:
     def launch_command(self, file: Path, words: tuple[str, ...]) -> tuple[str, ...]:
         """Return the process that runs a launch file and speaks by `studio.launch.events`."""
         found = ("--package-path", str(self._allowed.folder_of(file)))
+        found += ("--data-dir", str(self._data_folder))
         return (*_STUDIO, "launch", "--events", *found, str(file), *words)
 
     async def plan(self, file: Path, arguments: Mapping[str, str]) -> Plan:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.debounce import Throttle
 from studio.errors import CommandError, NotRunnableError
-from studio.live.programs.package_edits import PackageEdits, Written
+from studio.live.programs.package_edits import PackageEdits
 from studio.live.programs.watching import FolderWatch
 from studio.packages.edits.package_edit import PackageEdit
 from studio.packages.roots import is_below
@@ -115,7 +115,7 @@ class WorkspaceRoom:
                 settings.data_folder,
                 dict(os.environ),
             )
-            self._indexes[folder] = location.index
+            self._indexes[folder] = location.index.without(self._allowed.is_received)
             self.follow()
         return self._indexes[folder]
 
@@ -139,7 +139,6 @@ class WorkspaceRoom:
         Raises:
             NotRunnableError: The package lies in no folder of `--allow-run`.
             NotMadeError: Something forbids it.
-            NotSavedError: The disk refuses it.
         """
         folder = self._allowed.resolve(command.package)
         edit = await asyncio.to_thread(_edit_of, folder, command)
@@ -166,10 +165,17 @@ class WorkspaceRoom:
     async def make(self, folder: Path, edit: PackageEdit, request: int = 0) -> PackageEdited:
         """Write an edit of a package; errors as `add`."""
         self._allowed.resolve(folder)
-        written = await asyncio.to_thread(
-            self._edits.write, folder, edit.label, edit.new_files, edit.edits
+        number, files = await asyncio.to_thread(self._edits.write, folder, edit)
+        self._indexes.clear()
+        self._reading.trigger()
+        return PackageEdited(
+            request=request,
+            edit=number,
+            label=edit.label,
+            opened=edit.opened,
+            files=tuple(map(str, files)),
+            by_hand=edit.by_hand,
         )
-        return self._answer(request, written, edit.opened, edit.by_hand)
 
     async def undo(self, command: UndoPackageEdit) -> None:
         """Take an edit back.
@@ -185,20 +191,6 @@ class WorkspaceRoom:
     async def close(self) -> None:
         """Watch and read nothing any more."""
         await asyncio.gather(self._watch.close(), self._reading.close())
-
-    def _answer(
-        self, request: int, written: Written, opened: str, by_hand: tuple[str, ...]
-    ) -> PackageEdited:
-        self._indexes.clear()
-        self._reading.trigger()
-        return PackageEdited(
-            request=request,
-            edit=written.number,
-            label=written.label,
-            opened=opened,
-            files=tuple(map(str, written.after)),
-            by_hand=by_hand,
-        )
 
     def _files_changed(self, files: set[Path]) -> None:
         self._indexes.clear()

@@ -12,6 +12,7 @@ import yaml
 from studio.errors import (
     CommandError,
     NotAllowedError,
+    NotSavedError,
     OutsideRootsError,
     RvizConfigError,
     StudioError,
@@ -251,6 +252,27 @@ def test_a_file_is_opened_saved_listed_and_remembered(tmp_path: Path):
         assert names == ["other.rviz", "view.rviz"]
         await one.do(CloseRvizConfig())
         assert one.state["name"] == ""
+
+    with_arm(folder, work)
+
+
+def test_a_launch_file_that_was_opened_as_a_config_is_not_written(tmp_path: Path):
+    folder = tmp_path / "arm_description"
+    folder.mkdir()
+    file, link = folder / "view.launch.yaml", folder / "link.rviz"
+    text = f"launch: []\n{FILE}"
+    file.write_text(text)
+    link.symlink_to(folder / "new.launch.yaml")
+
+    async def work(one: Opened) -> None:
+        await one.do(OpenRvizFile(path="view.launch.yaml"))
+        await one.do(SetDisplayProperty(display=one.displays[0]["id"], name="Alpha", value=0.5))
+        await one.changed()
+        for command in (SaveRvizFile(), SaveRvizFile(path="link.rviz")):
+            with pytest.raises(NotSavedError, match="program"):
+                await one.do(command)
+        assert file.read_text() == text
+        assert not (folder / "new.launch.yaml").exists()
 
     with_arm(folder, work)
 

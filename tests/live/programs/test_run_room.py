@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from studio.errors import CommandError, NotRunnableError
+from studio.packages.creation.making import create_package
+from studio.packages.creation.new_package import NewPackage
+from studio.packages.recent import RecentFiles
+from studio.packages.roots import is_below
 from studio.protocol.connection import DisconnectWire
 from studio.protocol.launch_plans import PlanLaunch
 from studio.protocol.launching import (
@@ -21,11 +25,8 @@ from studio.protocol.launching import (
     StopRun,
 )
 from studio.system import is_running
-from tests.support.run_studio import NODE, run_studio, workspace
+from tests.support.run_studio import LAUNCH, NODE, run_studio, workspace
 from tests.support.wire import free_endpoint, router_at
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 pytestmark = pytest.mark.network
 
@@ -92,6 +93,43 @@ def test_nothing_is_run_that_lies_elsewhere(tmp_path: Path):
             async with run_studio(tmp_path / "data", endpoint=endpoint) as studio:
                 with pytest.raises(NotRunnableError, match="--allow-run"):
                     await studio.ask(StartNode(package="talk", executable="speaker"))
+
+    asyncio.run(run())
+
+
+def test_a_launch_file_that_may_be_run_starts_no_node_that_came_in_a_zip(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    async def run() -> None:
+        endpoint, ws = free_endpoint(), tmp_path / "ws"
+        data = ws / "data"
+        # It bears the name of nodes of the studio's own, was opened last, and lies below a folder
+        # that may be run.
+        new = NewPackage("turtlesim", "ament_python", ("rclpy",), node_name="turtlesim_node")
+        create_package(workspace(ws) / "src", new)
+        unpacked = data / "uploads" / "0123" / "turtlesim"
+        unpacked.parent.mkdir(parents=True)
+        (ws / "src" / "turtlesim").rename(unpacked)
+        RecentFiles(data).note(str(unpacked / "package.xml"), "turtle", {}, 1.0)
+        monkeypatch.setenv("STUDIO_DATA_DIR", str(data))
+        file = ws / "src/talk/launch/turtle.launch.py"
+        names = {'"talk"': '"turtlesim"', '"speaker"': '"turtlesim_node"'}
+        text = LAUNCH
+        for name, other in names.items():
+            text = text.replace(name, other)
+        file.write_text(text)
+        with router_at(endpoint):
+            async with run_studio(data, ws, endpoint=endpoint) as studio:
+                plan = (await studio.ask(PlanLaunch(file=str(file))))["plan"]
+                assert plan["nodes"][0]["start"]["kind"] == "studio"
+                number = (await studio.ask(StartLaunch(file=str(file))))["run"]
+                await studio.until(lambda: bool(studio.runs()[0].processes))
+                assert "studio.course" in studio.runs()[0].processes[0].command
+                await studio.ask(StopRun(run=number))
+                node = await studio.ask(StartNode(package="turtlesim", executable="turtlesim_node"))
+                (view,) = (one for one in studio.runs() if one.run == node["run"])
+                assert not is_below(Path(view.file), data)
+                await studio.ask(StopRun(run=node["run"]))
 
     asyncio.run(run())
 

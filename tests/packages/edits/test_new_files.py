@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 
 def write(edit: PackageEdit, folder: Path) -> list[str]:
     assert edit.by_hand == ()
-    return [one.relative_to(folder).as_posix() for one in write_edit(edit, ServedRoots([folder]))]
+    return [
+        one.relative_to(folder).as_posix() for one in write_edit(edit, ServedRoots([folder])).after
+    ]
 
 
 def test_every_node_has_its_entry_and_its_dependencies(tmp_path: Path):

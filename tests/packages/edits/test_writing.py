@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -22,7 +23,7 @@ def edit_of(folder: Path, before: str = "a") -> PackageEdit:
 def test_new_and_changed_files_are_written(tmp_path: Path):
     (tmp_path / "there").write_text("abc")
     written = write_edit(edit_of(tmp_path), ServedRoots([tmp_path]))
-    assert written == (tmp_path / "sub" / "new", tmp_path / "there")
+    assert tuple(written.after) == (tmp_path / "sub" / "new", tmp_path / "there")
     assert (tmp_path / "there").read_text() == "bbc"
 
 
@@ -47,3 +48,16 @@ def test_what_lies_outside_is_not_written_and_what_was_made_is_taken_back(tmp_pa
         write_edit(PackageEdit("It", "", new), ServedRoots([inner]))
     assert list(inner.iterdir()) == []
     assert not (tmp_path / "two").exists()
+
+
+def test_what_the_system_refuses_leaves_all_as_it_was(tmp_path: Path):
+    (tmp_path / "there").write_text("abc")
+    (tmp_path / "there").chmod(0o755)
+    # The second of the new files would lie in the first, which is no folder.
+    files = (NewFile(str(tmp_path / "sub/new"), "n"), NewFile(str(tmp_path / "sub/new/more"), "m"))
+    edit = replace(edit_of(tmp_path), new_files=files)
+    with pytest.raises(NotMadeError, match="the system refused"):
+        write_edit(edit, ServedRoots([tmp_path]))
+    assert [one.name for one in tmp_path.iterdir()] == ["there"]
+    assert (tmp_path / "there").read_text() == "abc"
+    assert (tmp_path / "there").stat().st_mode & 0o777 == 0o755

@@ -67,7 +67,7 @@ def _add(options: argparse.Namespace) -> int:
     if folder is None:
         raise SettingsError(f"{given} is in no package: name its folder by --package.")
     edit = _edit(options, PackageSource(folder))
-    for path in write_edit(edit, ServedRoots([folder])):
+    for path in write_edit(edit, ServedRoots([folder])).after:
         print(harmless(f"written: {os.path.relpath(path)}"))
     for sentence in edit.by_hand:
         print(harmless(sentence))
