@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.discovery import FOLDER_LIMIT, Origin, Package, discover
-from studio.packages.entry_points import entry_points
 from studio.packages.executables import executables
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.inspection.dependencies import dependency_graph
@@ -24,6 +23,7 @@ from studio.packages.inspection.inspected import (
     RobotFile,
 )
 from studio.packages.known import Known
+from studio.packages.robot_files import robot_candidates
 from studio.packages.roots import ServedRoots
 from studio.packages.ros_packages import is_system_key
 from studio.packages.shares import installs
@@ -280,7 +280,7 @@ def parameter_nodes(data: bytes) -> tuple[str, ...]:
 def _robots_by_package(found: PackagesFound) -> dict[Path, tuple[RobotFile, ...]]:
     by_folder: dict[Path, list[RobotFile]] = defaultdict(list)
     folders = sorted(found.sources, key=lambda one: -len(one.parts))
-    for point in entry_points(found.root, found.roots, memory=found.memory):
+    for point in robot_candidates(found.root, found.roots, memory=found.memory):
         if point.kind == "urdf" and not point.openable and not point.path.name.endswith(".urdf"):
             continue
         parents = set(point.path.parents)
