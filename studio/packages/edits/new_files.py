@@ -13,6 +13,7 @@ from studio.packages.edits import cmake_edits, manifest_edits, setup_edits
 from studio.packages.edits.imports_needed import needed_packages
 from studio.packages.edits.package_edit import PackageEdit
 from studio.packages.known import Known
+from studio.packages.sources.interfaces import KIND_NAMES, packages_of_interface
 from studio.packages.sources.python_file import PythonFile
 from studio.problems import NewFile, Replacement
 
@@ -38,7 +39,6 @@ TEXT_LIMIT: Final = 100_000
 _TEMPLATES: Final = Path(__file__).parent / "node_templates"
 _MODULE: Final = re.compile(r"[a-z][a-z0-9_]{0,79}")
 _TYPE: Final = re.compile(r"[A-Z][A-Za-z0-9]{0,79}")
-_FIELD_TYPE: Final = re.compile(r"([a-z][a-z0-9_]*)/(?:msg/)?[A-Z][A-Za-z0-9]*")
 _LAUNCH: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,79}")
 _SAMPLES: Final[dict[str, str]] = {
     "msg": "# One field a line: its type, then its name.\nstring text\nint32 count\n",
@@ -204,25 +204,7 @@ def new_interface(
     changes.depend([("member_of_group", "rosidl_interface_packages")])
     ended = text if text.endswith("\n") else f"{text}\n"
     path = source.file(file)
-    return changes.edit(f"New {_KIND_NAMES[kind]} {name}", path, [NewFile(path, ended)])
-
-
-_KIND_NAMES: Final = {"msg": "message", "srv": "service", "action": "action"}
-
-
-def packages_of_interface(text: str, kind: str, own: str) -> tuple[str, ...]:
-    """Return the packages whose types an interface is made of, those of its actions too."""
-    found: dict[str, None] = {}
-    for line in text.splitlines():
-        words = line.partition("#")[0].split()
-        named = _FIELD_TYPE.match(words[0]) if words else None
-        if named and named[1] != own:
-            found[named[1]] = None
-        elif words and words[0].partition("[")[0] == "Header":
-            found["std_msgs"] = None
-    if kind == "action":
-        found["action_msgs"] = None
-    return tuple(found)
+    return changes.edit(f"New {KIND_NAMES[kind]} {name}", path, [NewFile(path, ended)])
 
 
 def new_launch_file(

@@ -27,6 +27,7 @@ from studio.packages.robot_files import robot_candidates
 from studio.packages.roots import ServedRoots
 from studio.packages.ros_packages import is_system_key
 from studio.packages.shares import installs
+from studio.packages.sources.interfaces import ENDINGS, interface_files
 from studio.packages.sources.package_source import PackageSource
 
 if TYPE_CHECKING:
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 PACKAGES_MAX: Final = 300
 INTERFACES_MAX: Final = 500
-KINDS: Final = ("msg", "srv", "action")
 LAUNCH_SUFFIXES: Final = {
     ".launch.py": "python",
     ".launch.xml": "xml",
@@ -194,23 +194,15 @@ def interfaces(source: PackageSource, known: Known) -> tuple[InterfaceFile, ...]
     """Return the messages, services and actions that a package defines."""
     listed = generated_names(source)
     found: list[InterfaceFile] = []
-    for kind in KINDS:
-        for name in source.below(kind, f".{kind}"):
-            if name.count("/") != 1 or len(found) >= INTERFACES_MAX:
-                continue
-            full = f"{source.name}/{name.removesuffix(f'.{kind}')}"
-            text = source.text(name)
-            fault = known.type_fault(full, text.text) if text else None
-            found.append(
-                InterfaceFile(
-                    full,
-                    kind,
-                    source.path(name),
-                    name in listed,
-                    fault.sentence if fault else "",
-                    fault.line if fault else 0,
-                )
-            )
+    for kind, name in interface_files(source):
+        if name.count("/") != 1 or len(found) >= INTERFACES_MAX:
+            continue
+        full = f"{source.name}/{name.removesuffix(f'.{kind}')}"
+        text = source.text(name)
+        fault = known.type_fault(full, text.text) if text else None
+        sentence, line = (fault.sentence, fault.line) if fault else ("", 0)
+        path = source.path(name)
+        found.append(InterfaceFile(full, kind, path, name in listed, sentence, line))
     return tuple(found)
 
 
@@ -219,18 +211,11 @@ def generated_names(source: PackageSource) -> frozenset[str]:
     lists = source.cmake
     if lists is None:
         return frozenset()
-    values = {
-        one
-        for call in lists.of("rosidl_generate_interfaces", "set")
-        for one in call.values
-        if one.endswith(tuple(f".{kind}" for kind in KINDS))
-    }
+    calls = lists.of("rosidl_generate_interfaces", "set")
+    values = {one for call in calls for one in call.values if one.endswith(ENDINGS)}
     globbed = {one for call in lists.of("file") for one in call.values if "*" in one}
     matched = {
-        name
-        for kind in KINDS
-        for name in source.below(kind, f".{kind}")
-        if any(f"{kind}/" in one for one in globbed)
+        name for kind, name in interface_files(source) if any(f"{kind}/" in one for one in globbed)
     }
     return frozenset(values | matched)
 

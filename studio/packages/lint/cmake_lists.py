@@ -6,10 +6,10 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.edits import cmake_edits
-from studio.packages.edits.new_files import packages_of_interface
 from studio.packages.inspection.inspecting import generated_names
-from studio.packages.lint.checked import ERROR, KINDS, WARNING, edit, found, meant, safely
+from studio.packages.lint.checked import ERROR, WARNING, edit, found, meant, safely
 from studio.packages.shares import installs
+from studio.packages.sources.interfaces import ENDINGS, interface_files, packages_of_interface
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -129,7 +129,7 @@ def _not_found(lists: CMakeLists, package: str, call: Call, why: str) -> Problem
 
 def _interfaces(checked: CheckedPackage, lists: CMakeLists) -> Iterator[Problem]:
     source = checked.source
-    files = [(kind, one) for kind in KINDS for one in source.below(kind, f".{kind}")]
+    files = interface_files(source)
     calls = lists.of(cmake_edits.GENERATE)
     early = [one for one in calls if len(one.arguments) < 2]
     for one in early:
@@ -152,7 +152,7 @@ def _interfaces(checked: CheckedPackage, lists: CMakeLists) -> Iterator[Problem]
     for call in calls:
         depends = {one.value for one in call.after("DEPENDENCIES", "LIBRARY_NAME")}
         for one in call.arguments[1:]:
-            if one.value.endswith(tuple(f".{kind}" for kind in KINDS)) and "$" not in one.value:
+            if one.value.endswith(ENDINGS) and "$" not in one.value:
                 if source.has(one.value):
                     continue
                 right = meant(one.value, [name for _, name in files], 0.6)

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Final
 
 from studio.packages.edits import manifest_edits
 from studio.packages.edits.imports_needed import needed_packages, satisfying
-from studio.packages.edits.new_files import packages_of_interface
-from studio.packages.lint.checked import INFO, KINDS, WARNING, edit, found, meant, safely
+from studio.packages.lint.checked import INFO, WARNING, edit, found, meant, safely
 from studio.packages.ros_packages import PACKAGES, is_system_key
+from studio.packages.sources.interfaces import interface_files, packages_of_interface
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -87,7 +87,7 @@ def _imported(checked: CheckedPackage) -> Iterator[Problem]:
 def _of_interfaces(checked: CheckedPackage) -> Iterator[Problem]:
     source = checked.source
     named = {one.text for one in source.manifest.dependencies()}
-    files = [(kind, one) for kind in KINDS for one in source.below(kind, f".{kind}")]
+    files = interface_files(source)
     if not files or source.is_python:
         return
     for tag, name, why in (

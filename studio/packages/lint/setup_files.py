@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.edits import manifest_edits, setup_edits
-from studio.packages.inspection.inspecting import KINDS, launch_format
+from studio.packages.inspection.inspecting import launch_format
 from studio.packages.lint.checked import ERROR, WARNING, edit, found, safely
 from studio.packages.shares import installs
+from studio.packages.sources.interfaces import KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
