@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
+from studio.packages.edits.python_edits import import_added
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -64,13 +66,17 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
     name = "package_name" if "package_name" in setup.constants else repr(setup.text("name") or "")
     if name == "''":
         raise ValueError(setup.source.file)
+    glob = "glob.glob" if setup.imports("glob") else "glob"
     items = [
-        f"('share/' + {name} + '/{folder}', glob('{folder}/{pattern}'))"
+        f"('share/' + {name} + '/{folder}', {glob}('{folder}/{pattern}'))"
         if folder
         else f"('share/' + {name}, [{pattern!r}])"
         for folder, pattern in wanted
     ]
-    imported = glob_imported(setup) if any(folder for folder, _ in wanted) else ()
+    has_glob = glob != "glob" or setup.imports("glob", "glob")
+    imported: tuple[Replacement, ...] = ()
+    if not has_glob and any(folder for folder, _ in wanted):
+        imported = (import_added(setup.python, "from glob import glob"),)
     listed = setup.data_files_list
     if listed is None:
         if setup.keyword("data_files") is not None:
@@ -78,29 +84,6 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
         change = _keyword_added(setup, f"data_files=[{', '.join(items)}]")
         return (*imported, change)
     return (*imported, list_items_added(setup, listed, items))
-
-
-def glob_imported(setup: SetupPy) -> tuple[Replacement, ...]:
-    """Return the change that imports `glob` at the top of the file; none if it is imported."""
-    tree = setup.python.tree
-    if setup.imports("glob", "glob") or tree is None:
-        return ()
-    eol = setup.source.line_break
-    first = next(
-        (one for one in tree.body if not _is_docstring(one) and not _is_future(one)), tree.body[0]
-    )
-    at = setup.source.line_start(setup.python.span(first)[0])
-    is_import = isinstance(first, ast.Import | ast.ImportFrom)
-    gap = "" if is_import and getattr(first, "module", "") not in {"setuptools"} else eol
-    return (setup.source.put_in(at, f"from glob import glob{eol}{gap}"),)
-
-
-def _is_docstring(node: ast.stmt) -> bool:
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-
-
-def _is_future(node: ast.stmt) -> bool:
-    return isinstance(node, ast.ImportFrom) and node.module == "__future__"
 
 
 def list_items_added(
