@@ -53,7 +53,6 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
     """Return the changes that install files: of each row the folder and a pattern of its files.
 
     Rows whose files are installed already are left out; `glob` is imported where it is not.
-    A row of the folder "" names a file of the package's root.
 
     Raises:
         ValueError: The file is broken, or computes what it installs.
@@ -63,19 +62,9 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
     wanted = [one for one in rows if "/".join(filter(None, one)) not in known]
     if not wanted:
         return ()
-    name = "package_name" if "package_name" in setup.constants else repr(setup.text("name") or "")
-    if name == "''":
-        raise ValueError(setup.source.file)
-    glob = "glob.glob" if setup.imports("glob") else "glob"
-    items = [
-        f"('share/' + {name} + '/{folder}', {glob}('{folder}/{pattern}'))"
-        if folder
-        else f"('share/' + {name}, [{pattern!r}])"
-        for folder, pattern in wanted
-    ]
-    has_glob = glob != "glob" or setup.imports("glob", "glob")
+    items = [data_files_row(setup, *one) for one in wanted]
     imported: tuple[Replacement, ...] = ()
-    if not has_glob and any(folder for folder, _ in wanted):
+    if any(map(_has_wildcard, (pattern for _, pattern in wanted))) and not imports_glob(setup):
         imported = (import_added(setup.python, "from glob import glob"),)
     listed = setup.data_files_list
     if listed is None:
@@ -84,6 +73,39 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
         change = _keyword_added(setup, f"data_files=[{', '.join(items)}]")
         return (*imported, change)
     return (*imported, list_items_added(setup, listed, items))
+
+
+def data_files_row(setup: SetupPy, folder: str, pattern: str) -> str:
+    """Return the row of `data_files` that installs files of a folder, as the file would have it.
+
+    Args:
+        setup: The file.
+        folder: Below the package; empty: its root.
+        pattern: Of the names of files in it, or one name.
+
+    Raises:
+        ValueError: The name of the package is computed.
+    """
+    below = f"/{folder}" if folder else ""
+    if "package_name" in setup.constants:
+        share = "'share/' + package_name" + (f" + '{below}'" if below else "")
+    elif name := setup.text("name"):
+        share = f"'share/{name}{below}'"
+    else:
+        raise ValueError(setup.source.file)
+    files = repr(f"{folder}/{pattern}" if folder else pattern)
+    if not _has_wildcard(pattern):
+        return f"({share}, [{files}])"
+    return f"({share}, {'glob.glob' if setup.imports('glob') else 'glob'}({files}))"
+
+
+def imports_glob(setup: SetupPy) -> bool:
+    """Whether a row with `glob` needs no import."""
+    return setup.imports("glob") or setup.imports("glob", "glob")
+
+
+def _has_wildcard(pattern: str) -> bool:
+    return any(letter in pattern for letter in "*?[")
 
 
 def list_items_added(

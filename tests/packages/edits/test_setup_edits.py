@@ -110,5 +110,5 @@ def test_what_is_broken_or_computed_is_left_alone(text: str):
 def test_glob_is_called_as_the_file_imports_it():
     text = "import glob\nfrom setuptools import setup\nsetup(name='p', data_files=[])\n"
     made = with_replacements(text.encode(), data_files_added(setup_of(text), [("launch", "*")]))
-    assert b"('share/' + 'p' + '/launch', glob.glob('launch/*'))" in made
+    assert b"('share/p/launch', glob.glob('launch/*'))" in made
     assert made.count(b"import glob") == 1
