@@ -12,6 +12,12 @@ KINDS: Final = ("msg", "srv", "action")
 """Of types: also the names of their folders, and the endings of their files."""
 KIND_NAMES: Final = {"msg": "message", "srv": "service", "action": "action"}
 ENDINGS: Final = tuple(f".{kind}" for kind in KINDS)
+PACKAGE_NEEDS: Final = (
+    ("buildtool_depend", "rosidl_default_generators"),
+    ("exec_depend", "rosidl_default_runtime"),
+    ("member_of_group", "rosidl_interface_packages"),
+)
+"""What package.xml says so that code is made of interfaces, as (tag, text)."""
 _FIELD_TYPE: Final = re.compile(r"([a-z][a-z0-9_]*)/(?:msg/)?[A-Z][A-Za-z0-9]*")
 
 
