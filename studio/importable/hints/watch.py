@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from studio.importable.hints.said import ROOM, Said, are_wanted, is_users, place
-from studio.ros.node.base import NodeBase, node_listeners
+from studio.ros.node.base import NodeBase, node_listeners, was_spun
 from studio.ros.node.service import Service
 from studio.ros.node.subscription import Subscription
 from studio.ros.node.timer import Timer
@@ -88,7 +88,7 @@ class Watch:
         at = place(frame) if frame is not None else ""
         if frame is not None:
             self._files.add(frame.f_code.co_filename)
-        name = node.token.path
+        name = node.get_fully_qualified_name()
         self._made.append(_Made(weakref.ref(node), name, type(node).__name__, at, time.monotonic()))
         node.context.on_close(self._look_at_nodes)
         if self._thread is None:
@@ -104,7 +104,7 @@ class Watch:
         node = made.node()
         if node is None:
             return
-        made.was_spun = made.was_spun or node.was_spun
+        made.was_spun = made.was_spun or was_spun(node)
         made.waiting = _waiting(node) or made.waiting
 
     def _say_ending(self, error: BaseException) -> None:
@@ -145,7 +145,7 @@ class Watch:
                 if self._ends is None:
                     from studio.importable.hints.ends import Ends  # noqa: PLC0415
 
-                    self._ends = Ends(self._said, node.token.zid, node.graph)
+                    self._ends = Ends(self._said, node.context.wire.zid, node.context.graph)
                 self._ends.look(frozenset(self._files))
                 return
 
