@@ -352,8 +352,3 @@ PACKAGES: Final = frozenset(
     module.rpartition(".")[0] for module in MODULES if "." in module
 ) | frozenset({"tf2_py"})
 """Modules that have others below them."""
-
-
-def target_of(module: str, name: str) -> str:
-    """Return where a name of a module is from, `module:attribute`."""
-    return MODULES[module][name]
