@@ -26,7 +26,7 @@ from studio.packages.known import Known
 from studio.packages.robot_files import robot_candidates
 from studio.packages.roots import ServedRoots
 from studio.packages.ros_packages import is_system_key
-from studio.packages.shares import installs
+from studio.packages.shares import left_out
 from studio.packages.sources.interfaces import ENDINGS, interface_files
 from studio.packages.sources.package_source import PackageSource
 
@@ -231,9 +231,10 @@ def launch_format(name: str) -> str:
 
 
 def _launch_files(source: PackageSource) -> Iterator[LaunchFile]:
-    for name in source.names:
-        if form := launch_format(name):
-            yield LaunchFile(source.path(name), form, installs(source, name) is not False)
+    files = {one: form for one in source.names if (form := launch_format(one))}
+    left = left_out(source, files)
+    for name, form in files.items():
+        yield LaunchFile(source.path(name), form, name not in left)
 
 
 def _parameter_files(source: PackageSource) -> Iterator[ParameterFile]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 from studio.packages.edits import cmake_edits, setup_edits
 from studio.packages.inspection.inspecting import LAUNCH_SUFFIXES, launch_format
 from studio.packages.lint.checked import WARNING, found, safely
-from studio.packages.shares import installs
+from studio.packages.shares import left_out
 from studio.packages.sources.interfaces import KINDS
 
 if TYPE_CHECKING:
@@ -33,10 +33,9 @@ def findings(checked: CheckedPackage) -> Iterator[Problem]:
     elif lists is not None and not lists.fault and source.build_type == "ament_cmake":
         folders = FOLDERS
     for folder in folders:
-        left = (one for one in source.below(folder) if installs(source, one) is False)
-        first = next((one for one in left if _is_wanted(source, one)), None)
-        if first is not None:
-            yield from _problem(source, first)
+        left = left_out(source, (one for one in source.below(folder) if _is_wanted(source, one)))
+        if left:
+            yield from _problem(source, left[0])
     for name in source.names if source.is_python else ():
         if "/" not in name and launch_format(name):
             yield from not_installed(source, name)
@@ -54,7 +53,7 @@ def not_installed(source: PackageSource, name: str) -> Iterator[Problem]:
 
     Nothing is told of a package that builds nothing yet, or that computes what it installs.
     """
-    if installs(source, name) is False:
+    if left_out(source, [name]):
         yield from _problem(source, name)
 
 
@@ -104,7 +103,7 @@ def _pattern(source: PackageSource, name: str) -> str:
     folder, _, last = name.rpartition("/")
     if not folder:
         return last
-    left = [one for one in source.below(folder) if installs(source, one) is False]
+    left = left_out(source, source.below(folder))
     for ending in LAUNCH_SUFFIXES:
         if all(one.endswith(ending) for one in left):
             return f"*{ending}"
