@@ -33,6 +33,7 @@ StudioError
     LessonError
     LaunchError
         LaunchFileError
+        TooManyActionsError
         LaunchNotFoundError
         SubstitutionFailure
     RobotError
@@ -89,6 +90,8 @@ StudioError
             ExternalShutdownException
             NodeNameNonExistentError
             RclError
+            MessageCallbackError
+            NotCallableError
             ExecutorTimeoutError
             WouldFailError
     WorkerError

@@ -1,4 +1,4 @@
-"""Calls that not every system has, each with what happens where it is missing."""
+"""How Python is started, and calls that not every system has, with what happens without them."""
 
 from __future__ import annotations
 
@@ -8,11 +8,18 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import IO
+from typing import IO, Final
 
+PYTHON_OPTIONS: Final = ("-P", "-m")
+"""The folder that we are in, which may be anybody's, gives no modules."""
 _WATCH_INTERVAL_S = 0.2
 _DESCRIPTORS = 16_384
 _NICE = 10
+
+
+def python_command(module: str, *arguments: str) -> tuple[str, ...]:
+    """Return the command that runs a module by the Python that we run by."""
+    return (sys.executable, *PYTHON_OPTIONS, module, *arguments)
 
 
 def limit_memory(limit_bytes: int) -> None:

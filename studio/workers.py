@@ -16,7 +16,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, TypeVar
 
 from studio.errors import WorkerDiedError, WorkerTimeoutError
-from studio.system import let_others_go_first
+from studio.system import let_others_go_first, python_command
 from studio.worker_process import FRAME_LENGTH
 
 if TYPE_CHECKING:
@@ -50,8 +50,7 @@ class Worker:
     ) -> None:
         """Make one that starts a module, at low priority with `others_first`."""
         self.name, self.generation, self._others_first = name, 0, others_first
-        # -P: the folder that somebody works in, which may be anybody's, gives it no modules.
-        self._command = (sys.executable, "-P", "-m", module, *arguments)
+        self._command = python_command(module, *arguments)
         self._codec = codec
         self._process: asyncio.subprocess.Process | None = None
         self._is_up = False

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
-import sys
 import time
 from typing import TYPE_CHECKING, Self
+
+from studio.ros.wire.settings import environment_for
+from studio.system import python_command
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -20,7 +21,6 @@ BY_ITSELF_S = 0.6
 AFTER_SIGNAL_S = 1.0
 LEASHED = "studio.course.leashed"
 """Runs the module that is its first argument for as long as its input stays open."""
-_OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
 
 
 class DemoProcesses:
@@ -37,12 +37,12 @@ class DemoProcesses:
 
     def start(self, module: str, arguments: Iterable[str] = ()) -> None:
         """Run a module, none of the folder we are in; what it prints comes out where ours does."""
-        command = [sys.executable, "-P", "-m", module, *arguments]
+        command = python_command(module, *arguments)
         self._processes.append(subprocess.Popen(command, env=self._environment))
 
     def start_leashed(self, module: str, arguments: Iterable[str] = ()) -> None:
         """Run a module that ends with this process, however that ends; no key reaches it."""
-        command = [sys.executable, "-P", "-m", LEASHED, module, *arguments]
+        command = python_command(LEASHED, module, *arguments)
         self._processes.append(
             subprocess.Popen(command, env=self._environment, stdin=subprocess.PIPE)
         )
@@ -92,18 +92,3 @@ def rover_call(package: Path, arguments: Mapping[str, str], router: str) -> tupl
     file = package / "urdf" / "rover.urdf.xacro"
     mapping = [f"{name}:={value}" for name, value in arguments.items()]
     return "studio.course.rover", [str(file), *mapping, "--router", router]
-
-
-def environment_for(
-    settings: WireSettings, environment: Mapping[str, str] = os.environ
-) -> dict[str, str]:
-    """Return an environment in which nodes join the same routers and domain, as the same ROS."""
-    routers = f"connect/endpoints={json.dumps(settings.connect)}"
-    override = environment.get(_OVERRIDE, "")
-    return {
-        **environment,
-        "ROS_DOMAIN_ID": str(settings.domain),
-        "ROS_DISTRO": settings.profile.distro,
-        _OVERRIDE: f"{override};{routers}" if override else routers,
-        "PYTHONUNBUFFERED": "1",  # what is printed is seen at once, also through a pipe
-    }

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import AsyncGenerator, Iterable, Iterator, Mapping, Sequence
 
     from studio.documents.services import Opened
-    from studio.packages.entry_points import EntryPoint
+    from studio.packages.robot_files import Candidate
     from studio.packages.workspace import Location, Progress
     from studio.settings import Settings
 
@@ -129,7 +129,7 @@ async def _check_folder(run: _Run, location: Location, path: Path) -> list[Check
     return checked
 
 
-def whole_robots(points: Iterable[EntryPoint]) -> list[Path]:
+def whole_robots(points: Iterable[Candidate]) -> list[Path]:
     """Return the openable files that come first of all that include each other, in their order.
 
     Each of the others is included by one of these, over any number of steps.

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Final
 from studio.errors import DataFolderError, StudioError, UploadError
 from studio.files import is_folder
 from studio.packages.archive import folder_to_open
-from studio.packages.entry_points import entry_points
 from studio.packages.index import load_choices, save_choices
+from studio.packages.robot_files import robot_candidates
 from studio.packages.roots import ServedRoots
 from studio.packages.uploads import Upload, arrange, is_zip, read_manifest
 from studio.packages.workspace import unpacked_folder
@@ -101,7 +101,7 @@ def _robot_in(folder: Path) -> Path:
         UploadError: It holds no description.
     """
     base = folder_to_open(folder)
-    found = entry_points(base, ServedRoots([base]))
+    found = robot_candidates(base, ServedRoots([base]))
     if any(one.openable for one in found):
         return base
     broken = next((one.path for one in found if one.reason.startswith("not readable")), None)

@@ -9,7 +9,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import spec_from_file_location
 from typing import TYPE_CHECKING, Any, Final
 
-from studio.importable.names import MODULES, ON_IMPORT, PACKAGES, target_of
+from studio.importable.names import MODULES, ON_IMPORT, PACKAGES
 from studio.ros.messages import spec_of_types
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ class _NamesLoader(Loader):
 
         def get(wanted: str) -> Any:  # noqa: ANN401
             if wanted in names:
-                found = _fetch(target_of(name, wanted))
+                found = _fetch(names[wanted])
                 setattr(module, wanted, found)
                 return found
             if f"{name}.{wanted}" in MODULES:

@@ -21,6 +21,10 @@ _QOS: Final = """
     studio.ros.node.qos_overriding_options: QoSPolicyKind
     studio.ros.duration: Duration
 """
+_ACTIONS: Final = """
+    studio.importable.rclpy_parts.graph: get_action_names_and_types
+      get_action_client_names_and_types_by_node get_action_server_names_and_types_by_node
+"""
 _EVENTS: Final = """
     studio.ros.node.event_handler: PublisherEventCallbacks SubscriptionEventCallbacks
       QoSPublisherMatchedInfo QoSSubscriptionMatchedInfo QoSMessageLostInfo IncompatibleTypeInfo
@@ -36,6 +40,11 @@ _PARAMETER: Final = """
     studio.importable.rclpy_parts.parameters: PARAMETER_SEPARATOR_STRING get_parameter_value
       parameter_dict_from_yaml_file parameter_value_to_python
 """
+_TF2_GEOMETRY: Final = """
+    studio.tf2.geometry: do_transform_point do_transform_vector3 do_transform_pose
+      do_transform_pose_stamped do_transform_pose_with_covariance_stamped to_msg_msg
+      from_msg_msg transform_covariance
+"""
 _TABLE: Final = {
     "rclpy": """
         studio.ros.node.spinning: create_node get_global_executor init ok shutdown spin spin_once
@@ -49,18 +58,14 @@ _TABLE: Final = {
     """,
     "rclpy.action": """
         studio.ros.action: ActionClient ActionServer CancelResponse GoalResponse
-        studio.importable.rclpy_parts.graph: get_action_names_and_types
-          get_action_client_names_and_types_by_node get_action_server_names_and_types_by_node
-    """,
+    """
+    + _ACTIONS,
     "rclpy.action.client": """
         studio.ros.action: ActionClient ClientGoalHandle
         studio.ros.action.protocol: GoalStatus
         studio.ros.node.task: Future
     """,
-    "rclpy.action.graph": """
-        studio.importable.rclpy_parts.graph: get_action_names_and_types
-          get_action_client_names_and_types_by_node get_action_server_names_and_types_by_node
-    """,
+    "rclpy.action.graph": _ACTIONS,
     "rclpy.action.server": """
         studio.ros.action: ActionServer CancelResponse GoalResponse ServerGoalHandle
         studio.ros.action.server: default_goal_callback default_handle_accepted_callback
@@ -76,8 +81,8 @@ _TABLE: Final = {
         studio.ros.node.task: Future
     """,
     "rclpy.clock": """
-        studio.ros.node.clock: Clock ClockChange ClockType JumpHandle JumpThreshold Time TimeJump
-        studio.importable.rclpy_parts.clocks: ROSClock
+        studio.ros.node.clock: Clock ClockChange ClockType JumpHandle JumpThreshold ROSClock Time
+          TimeJump
         studio.ros.duration: Duration
     """,
     "rclpy.clock_type": "studio.ros.node.clock: ClockType",
@@ -145,8 +150,7 @@ _TABLE: Final = {
         studio.ros.node.publisher: Publisher
         studio.ros.node.subscription: Subscription
         studio.ros.node.timer: Rate Timer
-        studio.ros.node.clock: Clock
-        studio.importable.rclpy_parts.clocks: ROSClock
+        studio.ros.node.clock: Clock ROSClock TimeSource
         studio.ros.node.context: Context
         studio.ros.node.executors: Executor
         studio.ros.node.work: CallbackGroup GuardCondition MutuallyExclusiveCallbackGroup
@@ -165,13 +169,12 @@ _TABLE: Final = {
           ListParametersResult ParameterDescriptor ParameterEvent ParameterMsg ParameterType
           ParameterValue SetParametersResult
         studio.importable.rclpy_parts.parameters: PARAMETER_SEPARATOR_STRING
-        studio.importable.rclpy_parts.endpoint_info: TopicEndpointInfo
+        studio.ros.graph.endpoints: TopicEndpointInfo=GraphEndpoint
         studio.importable.rclpy_parts.validation: HIDDEN_NODE_PREFIX expand_topic_name
           validate_full_topic_name validate_namespace validate_node_name
           validate_parameter_name validate_topic_name
         studio.importable.rclpy_parts.type_support: check_is_valid_msg_type
           check_is_valid_srv_type
-        studio.ros.node.clock: TimeSource
         studio.importable.rclpy_parts.logging: get_logger
         studio.ros.duration: S_TO_NS=NANOSECONDS
     """,
@@ -192,7 +195,7 @@ _TABLE: Final = {
         studio.errors: InvalidQosOverridesError=QosOverrideError
     """,
     "rclpy.serialization": """
-        studio.importable.rclpy_parts.serialization: deserialize_message serialize_message
+        studio.importable.rclpy_parts.messages: deserialize_message serialize_message
     """,
     "rclpy.service": "studio.ros.node.service: Service",
     "rclpy.service_introspection": """
@@ -218,13 +221,13 @@ _TABLE: Final = {
         studio.importable.rclpy_parts.exceptions: ROSInterruptException InvalidHandle
     """,
     "rclpy.topic_endpoint_info": """
-        studio.importable.rclpy_parts.endpoint_info: TopicEndpointInfo TopicEndpointTypeEnum
-          TypeHash
+        studio.ros.graph.endpoints: TopicEndpointInfo=GraphEndpoint
+        studio.importable.rclpy_parts.graph: TopicEndpointTypeEnum TypeHash
     """,
     "rclpy.topic_or_service_is_hidden": """
         studio.importable.rclpy_parts.validation: HIDDEN_TOPIC_PREFIX topic_or_service_is_hidden
     """,
-    "rclpy.type_hash": "studio.importable.rclpy_parts.endpoint_info: TypeHash",
+    "rclpy.type_hash": "studio.importable.rclpy_parts.graph: TypeHash",
     "rclpy.type_support": """
         studio.importable.rclpy_parts.type_support: check_for_type_support
           check_is_valid_msg_type check_is_valid_srv_type
@@ -283,16 +286,8 @@ _TABLE: Final = {
         studio.tf2.exceptions: TransformException LookupException ConnectivityException
           ExtrapolationException InvalidArgumentException TimeoutException
     """,
-    "tf2_geometry_msgs": """
-        studio.tf2.geometry: do_transform_point do_transform_vector3 do_transform_pose
-          do_transform_pose_stamped do_transform_pose_with_covariance_stamped to_msg_msg
-          from_msg_msg transform_covariance
-    """,
-    "tf2_geometry_msgs.tf2_geometry_msgs": """
-        studio.tf2.geometry: do_transform_point do_transform_vector3 do_transform_pose
-          do_transform_pose_stamped do_transform_pose_with_covariance_stamped to_msg_msg
-          from_msg_msg transform_covariance
-    """,
+    "tf2_geometry_msgs": _TF2_GEOMETRY,
+    "tf2_geometry_msgs.tf2_geometry_msgs": _TF2_GEOMETRY,
     "sensor_msgs_py": "",
     "sensor_msgs_py.point_cloud2": """
         studio.importable.point_cloud2: PointCloud2 PointField DUMMY_FIELD_PREFIX create_cloud
@@ -357,8 +352,3 @@ PACKAGES: Final = frozenset(
     module.rpartition(".")[0] for module in MODULES if "." in module
 ) | frozenset({"tf2_py"})
 """Modules that have others below them."""
-
-
-def target_of(module: str, name: str) -> str:
-    """Return where a name of a module is from, `module:attribute`."""
-    return MODULES[module][name]

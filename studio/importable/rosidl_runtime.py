@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, Final, cast
 
 from studio.errors import MessageValueError, RosNameError, UnknownTypeError
+from studio.packages.passing import passed_packages
 from studio.ros.messages import action, message, service, shared_types
 from studio.ros.names import full_type_name, split_type_name
 from studio.ros.types.classes import MessageValue, attributes_of, class_of_field, definition_of
@@ -14,6 +16,9 @@ from studio.ros.types.library import ActionType, ServiceType
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+
+
+_LOOK_UPS: Final = {"msg": message, "srv": service, "action": action}
 
 
 def message_to_ordereddict(  # rosidl_runtime_py's
@@ -85,8 +90,7 @@ def get_message(identifier: str) -> type[MessageValue]:
         ValueError: It is no name of a message.
         ModuleNotFoundError: No such message is known.
     """
-    _check(identifier, "msg")
-    return _looked_up(identifier, message)
+    return _looked_up(identifier, "msg")
 
 
 def get_service(identifier: str) -> ServiceType:
@@ -96,8 +100,7 @@ def get_service(identifier: str) -> ServiceType:
         ValueError: It is no name of a service.
         ModuleNotFoundError: No such service is known.
     """
-    _check(identifier, "srv")
-    return _looked_up(identifier, service)
+    return _looked_up(identifier, "srv")
 
 
 def get_action(identifier: str) -> ActionType:
@@ -107,8 +110,7 @@ def get_action(identifier: str) -> ActionType:
         ValueError: It is no name of an action.
         ModuleNotFoundError: No such action is known.
     """
-    _check(identifier, "action")
-    return _looked_up(identifier, action)
+    return _looked_up(identifier, "action")
 
 
 def get_interface(identifier: str) -> Any:  # noqa: ANN401
@@ -118,8 +120,7 @@ def get_interface(identifier: str) -> Any:  # noqa: ANN401
         ValueError: It is no full name.
         ModuleNotFoundError: No such type is known.
     """
-    kind = split_type_name(identifier)[1]
-    return _looked_up(identifier, {"msg": message, "srv": service, "action": action}[kind])
+    return _looked_up(identifier, *_LOOK_UPS)
 
 
 def is_message(obj: object) -> bool:
@@ -160,8 +161,6 @@ def get_interface_path(interface_name: str) -> str:
     Raises:
         LookupError: No folder of a workspace has it.
     """
-    from studio.packages.passing import passed_packages  # noqa: PLC0415
-
     package, kind, name = split_type_name(full_type_name(interface_name))
     folder = passed_packages().get(package)
     file = folder / kind / f"{name}.{kind}" if folder is not None else None
@@ -170,22 +169,18 @@ def get_interface_path(interface_name: str) -> str:
     return str(file)
 
 
-def _check(identifier: str, kind: str) -> None:
+def _looked_up(identifier: str, *kinds: str) -> Any:  # noqa: ANN401
+    """Return a type, whose module is imported: so the workspace's types are taken."""
     try:
-        found = split_type_name(identifier)[1]
+        package, kind, _ = split_type_name(identifier)
     except RosNameError:
-        found = ""
-    if found != kind:
-        raise ValueError(f"Expected the full name of a {kind} type, got '{identifier}'")
-
-
-def _looked_up(identifier: str, look_up: Any) -> Any:  # noqa: ANN401
-    from importlib import import_module  # noqa: PLC0415
-
-    package, kind, _ = split_type_name(identifier)
-    import_module(f"{package}.{kind}")  # the workspace's types are taken when they are imported
+        package, kind = "", ""
+    if kind not in kinds:
+        wanted = " or ".join(kinds)
+        raise ValueError(f"Expected the full name of a {wanted} type, got '{identifier}'")
+    importlib.import_module(f"{package}.{kind}")
     try:
-        return look_up(identifier)
+        return _LOOK_UPS[kind](identifier)
     except UnknownTypeError as error:
         raise AttributeError(str(error)) from None
 

@@ -21,6 +21,7 @@ from studio.errors import (
 )
 from studio.importable.finder import install, missing_sentence
 from studio.importable.hints import watch as hints
+from studio.importable.hints.said import ROOM
 from studio.importable.names import MODULES
 from studio.importable.rclpy_parts.exceptions import name_as_rclpy
 from studio.importable.workspace import Workspace
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
     from types import TracebackType
 
 STRICT: Final = "--strict"
-_ROOM: Final = str(Path(__file__).parent.parent)
-"""Frames of the studio's own files are left out above those of the user."""
 _FAILED: Final = 1
 _NOT_THERE: Final = re.compile(r"cannot import name '(?P<name>\w+)' from '(?P<module>[\w.]+)'")
 """Python leaves out what a module says of a name that it does not have."""
@@ -171,4 +170,4 @@ def _users_part(error: BaseException) -> TracebackType | None:
 
 def _is_ours(tb: TracebackType) -> bool:
     name = tb.tb_frame.f_code.co_filename
-    return name.startswith((_ROOM, "<frozen ")) or name in {runpy.__file__, importlib.__file__}
+    return name.startswith((ROOM, "<frozen ")) or name in {runpy.__file__, importlib.__file__}

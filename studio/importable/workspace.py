@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import StudioError
 from studio.packages.passing import passed_packages
+from studio.packages.sources.interfaces import packages_of_interface
 from studio.packages.sources.package_source import PackageSource
 from studio.ros.messages import INTERFACES_VARIABLE, shared_types
 from studio.ros.names import KINDS
@@ -43,8 +44,9 @@ class Workspace:
         except StudioError as error:
             self._tell(str(error))
             return
-        for other in {word for text in texts.texts.values() for word in _packages_in(text)}:
-            self.take_types(other)
+        for text in texts.texts.values():
+            for other in packages_of_interface(text, "", package):
+                self.take_types(other)
         for fault in shared_types().add_sound_texts(texts).values():
             self._tell(str(fault))
 
@@ -69,9 +71,3 @@ class Workspace:
 
     def _tell(self, text: str) -> None:
         os.write(2, f"studio: {text}\n".encode(errors="replace"))
-
-
-def _packages_in(text: str) -> set[str]:
-    """Return the packages whose types a text names: `geometry_msgs/Point p`."""
-    lines = (line.partition("#")[0].split() for line in text.splitlines())
-    return {words[0].partition("/")[0] for words in lines if words and "/" in words[0]}

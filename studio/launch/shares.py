@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import os
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.errors import PackageError
 from studio.launch.vocabulary.temporary import folder as temporary_folder
-from studio.packages.inspection.inspecting import LAUNCH_SUFFIXES
 from studio.packages.manifest import FILE_NAME, package_name
 from studio.packages.roots import ServedRoots, package_folder_of
-from studio.packages.shares import installed_files, share_of
+from studio.packages.shares import share_of
 from studio.packages.sources.package_source import PackageSource
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from studio.packages.index import PackageIndex
 
 
@@ -59,47 +59,20 @@ def real_paths(text: str) -> str:
 def why_not_installed(file: Path) -> str:
     """Return why `ros2 launch` would not find a file of a package's sources; empty: it would.
 
-    It tells nothing of packages that install nothing at all: those are no packages to build yet.
+    It is what `studio pkg check` finds; nothing is told of what is no package to build yet.
     """
     folder = package_folder_of(file.parent)
     if folder is None or folder.parent.name == "share":
         return ""
-    has_setup, has_cmake = (folder / "setup.py").is_file(), (folder / "CMakeLists.txt").is_file()
-    if not (folder / FILE_NAME).is_file() or not (has_setup or has_cmake):
-        return ""
     name = name_of_package_in(folder)
-    relative = file.relative_to(folder).as_posix()
-    if not name or any(source == relative for _, source in installed_files(folder, name)):
+    if not name:
         return ""
-    mend = _cmake_mend(relative) if has_cmake else _setup_mend(folder, name, relative)
-    return f"{relative} of {name} is not installed, so ros2 launch would not find it: {mend}"
+    # Imported where a file of a package is named: most of a plan are names of nodes.
+    from studio.packages.lint.installed_files import not_installed  # noqa: PLC0415
 
-
-def _cmake_mend(relative: str) -> str:
-    inside = Path(relative).parent.as_posix()
-    what = f"FILES {relative}" if inside == "." else f"DIRECTORY {inside}"
-    install = f"install({what} DESTINATION share/${{PROJECT_NAME}})"
-    return f"add {install} to CMakeLists.txt, before ament_package()"
-
-
-def _setup_mend(folder: Path, name: str, relative: str) -> str:
-    """Return a row for data_files that builds as it stands, and what it needs to be imported.
-
-    A pattern of all files of a folder would match its folders, too, at which setuptools stops.
-    """
-    setup = PackageSource(folder, name=name).setup
-    inside = Path(relative).parent.as_posix()
-    below = "" if inside == "." else f"/{inside}"
-    share = f"'share/{name}{below}'"
-    if setup is not None and "package_name" in setup.constants:
-        share = "'share/' + package_name" + (f" + '{below}'" if below else "")
-    ending = next((one for one in LAUNCH_SUFFIXES if relative.endswith(one)), "")
-    if not below or not ending:
-        return f"add ({share}, ['{relative}']) to data_files in setup.py"
-    row = f"({share}, glob('{inside}/*{ending}'))"
-    if setup is None or setup.imports("glob", "glob"):
-        return f"add {row} to data_files in setup.py"
-    return f"write from glob import glob at the top of setup.py, and add {row} to its data_files"
+    source = PackageSource(folder, name=name)
+    found = not_installed(source, file.relative_to(folder).as_posix())
+    return next((one.sentence.removesuffix(".") for one in found), "")
 
 
 def name_of_package_in(folder: Path) -> str:

@@ -16,8 +16,8 @@ from studio.errors import ExternalShutdownException, RosArgumentError, StudioErr
 from studio.ros.client import Node, init, spin
 from studio.ros.messages import message
 from studio.ros.node.arguments import parse_arguments
+from studio.tf.rotations import wxyz_from_rpy
 from studio.tf2.broadcasters import StaticTransformBroadcaster
-from studio.tf2.rotations import quaternion_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,7 +69,7 @@ def read_wanted(arguments: Sequence[str]) -> Wanted:
         rotation = _unit((x, y, z, 1.0 if given[3] is None else given[3]))
     else:
         roll, pitch, yaw = (one or 0.0 for one in turned)
-        rotation = quaternion_of(roll, pitch, yaw)
+        rotation = _turned(roll, pitch, yaw)
     return _checked(Wanted((found.x, found.y, found.z), rotation, found.frame_id,
                            found.child_frame_id))  # fmt: skip
 
@@ -92,10 +92,15 @@ def _positional(arguments: list[str]) -> Wanted:
     x, y, z, *turned = values
     if len(turned) == 3:
         yaw, pitch, roll = turned
-        rotation = quaternion_of(roll, pitch, yaw)
+        rotation = _turned(roll, pitch, yaw)
     else:
         rotation = _unit((turned[0], turned[1], turned[2], turned[3]))
     return _checked(Wanted((x, y, z), rotation, parent, child))
+
+
+def _turned(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
+    w, x, y, z = wxyz_from_rpy(roll, pitch, yaw)
+    return x, y, z, w
 
 
 def _unit(xyzw: tuple[float, float, float, float]) -> tuple[float, float, float, float]:

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 from studio.errors import UnreadableFileError
 from studio.files import is_file
-from studio.packages.entry_points import survey
 from studio.packages.folder_memory import is_robot_name, is_text
 from studio.packages.manifest import FILE_NAME
+from studio.packages.robot_files import survey
 from studio.packages.roots import is_below
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from studio.packages.roots import is_below
 from studio.packages.sources.package_source import PackageSource
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
 _LINKS_MAX: Final = 5_000
 _USUAL: Final = ("config", "launch", "meshes", "params", "rviz", "urdf", "worlds")
@@ -60,11 +60,12 @@ class _Rule:
     """Below the prefix: `share/my_package`; none: it is computed."""
 
 
-def installs(source: PackageSource, name: str) -> bool | None:
-    """Whether the build installs a file; None where that is computed and cannot be read."""
-    if any(_matches(rule, name) for rule in _rules(source)):
-        return True
-    return None if _is_computed(source) else False
+def left_out(source: PackageSource, names: Iterable[str]) -> list[str]:
+    """Return the files that the build does not install; none where that is computed."""
+    if _is_computed(source):
+        return []
+    rules = tuple(_rules(source))
+    return [one for one in names if not any(_matches(rule, one) for rule in rules)]
 
 
 def installed_files(folder: Path, package: str) -> list[tuple[str, str]]:

@@ -13,7 +13,6 @@ from studio.errors import DataFolderError, UnreadableFileError, UnsafeArchiveErr
 from studio.files import is_file, is_folder, is_there, write_whole
 from studio.packages.archive import folder_to_open, unpack_zip
 from studio.packages.discovery import FOLDER_LIMIT, Discovery, discover
-from studio.packages.entry_points import EntryPoint, entry_points
 from studio.packages.environment import RosEnvironment, is_install_space, is_installed
 from studio.packages.folder_memory import FolderMemory, is_text
 from studio.packages.index import (
@@ -28,6 +27,7 @@ from studio.packages.manifest import FILE_NAME
 from studio.packages.received_texts import FROM_ROS_FOLDER as FROM_WIRE
 from studio.packages.received_texts import UNTITLED_FOLDER as UNTITLED
 from studio.packages.received_texts import untitled_number
+from studio.packages.robot_files import Candidate, robot_candidates
 from studio.packages.roots import (
     ServedRoots,
     is_below,
@@ -60,7 +60,7 @@ class Location:
     entry: Path | None
     served: ServedRoots
     index: PackageIndex
-    candidates: tuple[EntryPoint, ...]
+    candidates: tuple[Candidate, ...]
     """The robot files of the opened folder, or of the opened file's package: best first."""
     problems: tuple[Problem, ...]
     data_folder: Path
@@ -301,7 +301,7 @@ def _serve_chosen(served: ServedRoots, chosen: Iterable[Path]) -> ServedRoots:
 
 def _candidates(
     opened: Path, served: ServedRoots, memory: FolderMemory, report: Progress
-) -> tuple[EntryPoint, ...]:
+) -> tuple[Candidate, ...]:
     folder = opened if is_folder(opened) else package_folder_of(opened)
     if folder is None or not served.serves(folder):
         return ()
@@ -309,10 +309,10 @@ def _candidates(
     def progress(done: int, total: int) -> None:
         report("robot files", done, total)
 
-    return tuple(entry_points(folder, served, progress, memory))
+    return tuple(robot_candidates(folder, served, progress, memory))
 
 
-def _best(candidates: tuple[EntryPoint, ...]) -> Path | None:
+def _best(candidates: tuple[Candidate, ...]) -> Path | None:
     return next((one.path for one in candidates if one.openable), None)
 
 

@@ -19,7 +19,8 @@ from studio.packages.passing import environment_of
 from studio.packages.sources.package_source import PackageSource
 from studio.programs.entry_points import find_entry_point
 from studio.programs.own import COMMANDS, own_executables, own_file, own_module
-from studio.programs.program import RUNNER, Program, python_command, studio_command
+from studio.programs.program import RUNNER, Program, studio_command
+from studio.system import python_command
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -73,7 +74,7 @@ def file_program(path: Path, index: PackageIndex | None = None) -> Program:
             "", path.name, f"{path}: its name does not end in .py, so it is not run as Python."
         )
     environment = {} if index is None else environment_of(index, file)
-    command = python_command(RUNNER, ("file", str(path)))
+    command = python_command(RUNNER, "file", str(path))
     return Program("", path.name, "workspace", command, file, environment)
 
 
@@ -154,8 +155,8 @@ def _of_workspace(index: PackageIndex, folder: Path, package: str, executable: s
     environment = environment_of(index, folder / "setup.py")
     name = f"{folder}/lib/{package}/{executable}"
     if point is not None:
-        words = ("entry", str(point.root), f"{point.module}:{point.function}", name)
-        command = python_command(RUNNER, words)
+        place = f"{point.module}:{point.function}"
+        command = python_command(RUNNER, "entry", str(point.root), place, name)
         return Program(package, executable, "workspace", command, point.file, environment)
     declared = {one.name: one for one in executables(source)}.get(executable)
     installed = _installed(index, package, executable)
@@ -163,7 +164,7 @@ def _of_workspace(index: PackageIndex, folder: Path, package: str, executable: s
         return installed or _not_of_workspace(index, folder, package, executable)
     file = declared.file
     if file is not None and _is_python(file) and (installed is None or installed.file != file):
-        command = python_command(RUNNER, ("file", str(file)))
+        command = python_command(RUNNER, "file", str(file))
         return Program(package, executable, "workspace", command, file, environment)
     if installed is not None:
         return installed
@@ -211,7 +212,9 @@ def _is_executable(file: Path) -> bool:
 
 
 def _not_found(index: PackageIndex, package: str, executable: str) -> Program:
-    known = executables_of_all(index).get(package, {})
+    known = dict(own_executables().get(package, {}))
+    if package in index:
+        known = executables_of(index.best(package, Path.cwd()), package) | known
     if known:
         text = f'{package} has no executable "{executable}": it has {", ".join(sorted(known))}.'
     elif package in index:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+
+from studio.system import PYTHON_OPTIONS, python_command
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -14,8 +15,7 @@ Kind: TypeAlias = Literal["workspace", "studio", "installed", "command"]
 """A node in Python of the user's; a node of the studio's own; an installed program, run as it is;
 a command of the studio that does what a program of ROS does."""
 
-_PYTHON: Final = ("-P", "-m")
-"""No module of the folder that we are in is taken for one of the studio's."""
+_MODULE_AT: Final = 1 + len(PYTHON_OPTIONS)
 RUNNER: Final = "studio.importable"
 """The module that runs a user's Python code, with rclpy and its companions importable."""
 
@@ -43,14 +43,14 @@ class Program:
     @property
     def module(self) -> str:
         """The module that Python runs; empty for what is run as it is."""
-        return self.command[3] if self.command[1:3] == _PYTHON else ""
+        return self.command[_MODULE_AT] if self.command[1:_MODULE_AT] == PYTHON_OPTIONS else ""
 
-
-def python_command(module: str, arguments: Sequence[str] = ()) -> tuple[str, ...]:
-    """Return the command that runs a module of the studio."""
-    return (sys.executable, *_PYTHON, module, *arguments)
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """What follows the module, or the program that is run as it is."""
+        return self.command[_MODULE_AT + 1 :] if self.module else self.command[1:]
 
 
 def studio_command(words: Sequence[str]) -> tuple[str, ...]:
     """Return the command that is `studio WORDS`."""
-    return python_command("studio", words)
+    return python_command("studio", *words)

@@ -13,6 +13,7 @@ from studio.robot.rotations import wxyz_from_matrices
 from studio.robot.values import Box, Cylinder, JointType, Mesh, Sphere
 from studio.scene import node
 from studio.scene.node import Style
+from studio.tf import rotations
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,15 +58,8 @@ _GROUPS: Final = frozenset({"visual", "collision"})
 @lru_cache(maxsize=1 << 12)  # an edit turns few of the shapes that it draws
 def wxyz_from_rpy(rpy_rad: Vector3) -> Quaternion:
     """Unit quaternion of fixed-axis roll, pitch, yaw; angles that are no numbers count as 0."""
-    roll, pitch, yaw = (angle / 2 if math.isfinite(angle) else 0.0 for angle in rpy_rad)
-    cr, cp, cy = math.cos(roll), math.cos(pitch), math.cos(yaw)
-    sr, sp, sy = math.sin(roll), math.sin(pitch), math.sin(yaw)
-    return (
-        cr * cp * cy + sr * sp * sy,
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-    )
+    roll, pitch, yaw = (angle if math.isfinite(angle) else 0.0 for angle in rpy_rad)
+    return rotations.wxyz_from_rpy(roll, pitch, yaw)
 
 
 def wxyz_and_position(origin: Origin) -> tuple[Quaternion, Vector3]:

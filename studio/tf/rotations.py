@@ -179,6 +179,19 @@ def inverse(a_from_b: Pose) -> Pose:
     return (w, -x, -y, -z, -rx, -ry, -rz)
 
 
+def wxyz_from_rpy(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
+    """Return the unit quaternion of turns in rad about the fixed axes x, then y, then z."""
+    cr, sr = math.cos(roll / 2), math.sin(roll / 2)
+    cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
+    cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
+    return (
+        cr * cp * cy + sr * sp * sy,
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+    )
+
+
 def turned(turn: Sequence[float], x: float, y: float, z: float) -> tuple[float, float, float]:
     """Return a point turned about the origin by the unit quaternion that `turn` begins with."""
     w, i, j, k = turn[:4]

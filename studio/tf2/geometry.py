@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio.tf.rotations import compose
+from studio.tf.rotations import compose, turned
 from studio.tf2.buffer_interface import TransformRegistration
 
 if TYPE_CHECKING:
@@ -34,17 +34,17 @@ def do_transform_point(point: Any, transform: Any) -> Any:  # noqa: ANN401
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:  # noqa: ANN401
     """Return a Vector3Stamped, which is turned and not moved."""
     made = _framed(vector3, transform)
-    turned = (*_pose_of(transform.transform)[:4], 0.0, 0.0, 0.0)
-    given = vector3.vector
-    _, _, _, _, x, y, z = compose(turned, (1.0, 0.0, 0.0, 0.0, given.x, given.y, given.z))
-    made.vector.x, made.vector.y, made.vector.z = float(x), float(y), float(z)
+    given, pose = vector3.vector, _pose_of(transform.transform)
+    made.vector.x, made.vector.y, made.vector.z = map(
+        float, turned(pose, given.x, given.y, given.z)
+    )
     return made
 
 
 def do_transform_pose(pose: Any, transform: Any) -> Any:  # noqa: ANN401
     """Return a Pose, which has no frame, as seen from the frame of a TransformStamped."""
     made = deepcopy(pose)
-    _set_pose(made, compose(_pose_of(transform.transform), _pose_of_pose(pose)))
+    _set_pose(made, compose(_pose_of(transform.transform), _pose(pose.orientation, pose.position)))
     return made
 
 
@@ -65,14 +65,11 @@ def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
 
 def transform_covariance(cov_in: Any, transform: Any) -> NDArray[Any]:  # noqa: ANN401
     """Return a covariance of 36 numbers, by rows, turned into another frame."""
-    wxyz = _pose_of(transform.transform)[:4]
-    axes = np.array(
-        [compose((*wxyz, 0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0, *axis))[4:] for axis in np.eye(3)]
-    ).T
-    turned = np.zeros((6, 6))
-    turned[:3, :3] = turned[3:, 3:] = axes
+    pose = _pose_of(transform.transform)
+    rotation = np.zeros((6, 6))
+    rotation[:3, :3] = rotation[3:, 3:] = np.array([turned(pose, *axis) for axis in np.eye(3)]).T
     given = np.asarray(cov_in, dtype=np.float64).reshape(6, 6)
-    return (turned @ given @ turned.T).reshape(36)
+    return (rotation @ given @ rotation.T).reshape(36)
 
 
 def _framed(message: Any, transform: Any) -> Any:  # noqa: ANN401
@@ -88,18 +85,16 @@ def _moved(transform: Any, point: Any) -> tuple[float, float, float]:  # noqa: A
 
 
 def _pose_of(transform: Any) -> Pose:  # noqa: ANN401
-    moved, turned = transform.translation, transform.rotation
-    return turned.w, turned.x, turned.y, turned.z, moved.x, moved.y, moved.z
+    return _pose(transform.rotation, transform.translation)
 
 
-def _pose_of_pose(pose: Any) -> Pose:  # noqa: ANN401
-    place, turned = pose.position, pose.orientation
-    return turned.w, turned.x, turned.y, turned.z, place.x, place.y, place.z
+def _pose(rotation: Any, place: Any) -> Pose:  # noqa: ANN401
+    return rotation.w, rotation.x, rotation.y, rotation.z, place.x, place.y, place.z
 
 
 def _set_pose(pose: Any, found: Pose) -> None:  # noqa: ANN401
-    place, turned = pose.position, pose.orientation
-    turned.w, turned.x, turned.y, turned.z, place.x, place.y, place.z = map(float, found)
+    place, rotation = pose.position, pose.orientation
+    rotation.w, rotation.x, rotation.y, rotation.z, place.x, place.y, place.z = map(float, found)
 
 
 def register() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from studio.description.evaluator.stock_xacro import export_urdf
-from studio.packages.entry_points import entry_points
+from studio.packages.robot_files import robot_candidates
 from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for
 from tests.support.open_documents import engine, opened
@@ -34,7 +34,7 @@ def robots_of(corpus: Path) -> list[Path]:
     """Every entry file of the corpus that stock expands without arguments, with links in it."""
     policy = policy_for(corpus)
     found: list[Path] = []
-    for entry in entry_points(corpus, ServedRoots([corpus])):
+    for entry in robot_candidates(corpus, ServedRoots([corpus])):
         if not entry.openable:
             continue
         try:

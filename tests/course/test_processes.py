@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.course.processes import DemoProcesses, environment_for
-from studio.ros.profiles import profile_named
-from studio.ros.wire.settings import WireSettings, wire_settings
+from studio.course.processes import DemoProcesses
 from tests.support.demos import ENDS_WITHIN_S, heard, node_at, running
 from tests.support.patience import Stopwatch
 from tests.support.wire import wait_until
@@ -95,15 +93,3 @@ def test_the_first_code_that_is_not_zero_is_answered():
         processes.start("this")
         processes.start("no_such_module")
         assert processes.wait() == 1
-
-
-def test_nodes_join_the_same_routers_and_domain_and_keep_the_rest_of_the_environment():
-    settings = WireSettings(
-        connect=("tcp/127.0.0.1:1", "tcp/127.0.0.1:2"), domain=7, profile=profile_named("humble")
-    )
-    environment = environment_for(settings, {"A": "b", "ZENOH_CONFIG_OVERRIDE": "x=1;y=2"})
-    found = wire_settings(environment=environment)
-    assert (found.connect, found.domain) == (settings.connect, settings.domain)
-    assert found.overrides == {"x": "1", "y": "2"}
-    assert environment["A"] == "b"
-    assert found.profile == settings.profile

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from studio.packages.shares import installed_files, installs, share_of
+from studio.packages.shares import installed_files, left_out, share_of
 from studio.packages.sources.package_source import PackageSource
 from tests.support.student_programs import python_package
 
@@ -67,14 +67,13 @@ def test_the_patterns_of_setup_py_are_those_of_the_package_alone(tmp_path: Path)
     )
     assert installed_files(folder, "pkg") == [("b/x.yaml", "b/x.yaml"), ("c/gone.txt", "gone.txt")]
     source = PackageSource(folder)
-    assert installs(source, "b/x.yaml")
-    assert installs(source, "b/deep/x.yaml") is False
+    assert left_out(source, ["b/x.yaml", "b/deep/x.yaml"]) == ["b/deep/x.yaml"]
 
 
 def test_what_a_build_computes_is_not_known(tmp_path: Path):
+    files = ["launch/a.launch.py", "urdf/a.urdf"]
     (tmp_path / "setup.py").write_text("setup(data_files=rows())")
-    assert installs(PackageSource(tmp_path), "launch/a.launch.py") is None
+    assert left_out(PackageSource(tmp_path), files) == []
     (tmp_path / "setup.py").unlink()
     (tmp_path / "CMakeLists.txt").write_text("install(DIRECTORY launch DESTINATION share/p)")
-    assert installs(PackageSource(tmp_path), "launch/a.launch.py")
-    assert installs(PackageSource(tmp_path), "urdf/a.urdf") is False
+    assert left_out(PackageSource(tmp_path), files) == ["urdf/a.urdf"]

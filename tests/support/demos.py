@@ -11,11 +11,10 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 from studio.course.demos import find_demo
-from studio.course.processes import environment_for
 from studio.errors import DestroyedError
 from studio.ros.client import Context, ExternalShutdownException, Node, SingleThreadedExecutor
 from studio.ros.messages import message, service, shared_types
-from studio.ros.wire.settings import WireSettings
+from studio.ros.wire.settings import WireSettings, environment_for
 from tests.support.patience import ended_within
 from tests.support.warm_python import NODE, start_python
 from tests.support.wire import PATIENCE_S, open_test_session, wait_until

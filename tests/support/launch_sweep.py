@@ -27,7 +27,7 @@ _LIMITS = PlanLimits(seconds=60.0)
 _OUTSIDE = (
     ("package '", "a package is not there"),
     ('package "', "a package is not there"),
-    ("is not installed, so ros2 launch", "a file is not installed"),
+    ("is not installed, so ROS", "a file is not installed"),
     ("environment variable '", "a variable of the environment is not set"),
     ("cannot be read (No such file", "a file that it names is not there"),
     ("which file depends on an argument", "an argument without a value names a file"),

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from studio.documents.engine import Engine
 from studio.packages.creation.making import create_package
 from studio.packages.creation.new_package import NewPackage
-from studio.packages.edits.new_files import installing_edit
+from studio.packages.edits.package_edit import PackageEdit
+from studio.packages.edits.setup_edits import data_files_added
 from studio.packages.edits.writing import write_edit
 from studio.packages.roots import ServedRoots
 from studio.packages.sources.package_source import PackageSource
@@ -121,8 +122,10 @@ def workspace(folder: Path, word: str = "hello") -> Path:
     launch = source / "talk" / "launch"
     launch.mkdir(exist_ok=True)
     (launch / "hall.launch.py").write_text(LAUNCH)
-    talk = PackageSource(source / "talk")
-    write_edit(installing_edit(talk, "launch", "*.launch.py"), ServedRoots([source]))
+    setup = PackageSource(source / "talk").setup
+    assert setup is not None
+    installed = data_files_added(setup, [("launch", "*.launch.py")])
+    write_edit(PackageEdit("Install launch", "", edits=installed), ServedRoots([source]))
     return folder
 
 

@@ -9,12 +9,12 @@ import studio.ros.client as rclpy
 from studio.errors import ExtrapolationError, FrameError, UnknownFrameError
 from studio.ros.client import Context, Duration, Time
 from studio.ros.messages import message
+from studio.tf.rotations import wxyz_from_rpy
 from studio.tf2.broadcasters import StaticTransformBroadcaster, TransformBroadcaster
 from studio.tf2.buffer import Buffer
 from studio.tf2.buffer_interface import TypeException
 from studio.tf2.geometry import do_transform_pose, do_transform_vector3, register
 from studio.tf2.listener import TransformListener
-from studio.tf2.rotations import quaternion_of
 from tests.support.wire import open_test_session
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def transform(parent: str, child: str, x: float = 0.0, yaw: float = 0.0, sec: in
     made.header.stamp.sec = sec
     made.transform.translation.x = x
     turned = made.transform.rotation
-    turned.x, turned.y, turned.z, turned.w = quaternion_of(0.0, 0.0, yaw)
+    turned.w, turned.x, turned.y, turned.z = wxyz_from_rpy(0.0, 0.0, yaw)
     return made
 
 

@@ -65,7 +65,8 @@ def run(options: argparse.Namespace) -> int:
 def _start(demos: Sequence[Demo], options: argparse.Namespace) -> int:
     """Hold the router, if it is ours, for as long as one of them runs."""
     from studio.course.demos import LESSONS
-    from studio.course.processes import DemoProcesses, environment_for
+    from studio.course.processes import DemoProcesses
+    from studio.ros.wire.settings import environment_for
 
     arguments = ["--ros-args", *options.ros_args] if options.ros_args else []
     own_types = environment_with(options.interfaces)

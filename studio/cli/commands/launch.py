@@ -154,9 +154,8 @@ def _run(
     given: dict[str, str],
 ) -> int:
     """Start a launch file, or one node as if a launch file named it."""
-    from studio.course.processes import environment_for
     from studio.launch.prepared import Prepared
-    from studio.ros.wire.settings import wire_settings
+    from studio.ros.wire.settings import environment_for, wire_settings
 
     reporter, commands = _reporter(options)
     # What it imports takes longer than all the rest of a launch.

@@ -106,12 +106,11 @@ def _start(
     arguments: list[str],
 ) -> int:
     """Run a program in this process, or as this process."""
-    from studio.course.processes import environment_for
     from studio.ros.wire.session import open_wire
-    from studio.ros.wire.settings import wire_settings
+    from studio.ros.wire.settings import environment_for, wire_settings
 
     if program.kind == "command":
-        return _run_command(program.command[4], program.executable, arguments)
+        return _run_command(program.arguments[0], program.executable, arguments)
     settings = wire_settings(tuple(wire.connect), wire.domain)
     os.environ.update(program.environment)
     added = environment_for(settings, environment_with(wire.interfaces))
@@ -122,7 +121,7 @@ def _start(
         os.environ.update(added | {ROUTER_VARIABLE: wire.router})
         if options.no_hints:
             os.environ[HINTS_VARIABLE] = "0"
-        return run_words(program.command[4:], arguments, strict=options.strict)
+        return run_words(program.arguments, arguments, strict=options.strict)
     if not program.module:
         os.environ.update(added)
         os.execv(program.command[0], [*program.command, *arguments])

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import ast
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.importable.hints.said import place_of
+from studio.importable.hints.said import place_of, tree_of
 from studio.ros.names import is_hidden
 from studio.ros.qos import why_unmatched
 from studio.ros.tokens import EndpointKind
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from studio.ros.graph.graph import Graph
 
 _NOISE: Final = frozenset({"/rosout", "/parameter_events"})
-_SIZE_MAX: Final = 1_000_000
 _COMPARED_MAX: Final = 50
 """Of one topic: those that differ are among the first."""
 _MAKES: Final = {
@@ -92,12 +90,8 @@ def _lines(files: frozenset[str], end: GraphEndpoint) -> Iterator[str]:
     """Yield where the program makes an end of a topic: the lines with its name in that call."""
     name = end.name.rpartition("/")[2]
     for file in sorted(files):
-        try:
-            with Path(file).open("rb") as text:
-                tree = ast.parse(text.read(_SIZE_MAX))
-        except (OSError, SyntaxError, ValueError, RecursionError):
-            continue
-        for node in ast.walk(tree):
+        tree = tree_of(file)
+        for node in ast.walk(tree) if tree else ():
             if isinstance(node, ast.Call) and _makes(node, _MAKES[end.kind], name):
                 yield place_of(file, node.lineno)
 

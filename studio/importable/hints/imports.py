@@ -9,11 +9,11 @@ from typing import Final
 
 from studio.importable.hints.modules import absent_sentence, is_ours, name_sentence
 from studio.importable.hints.said import is_users, place_of
+from studio.packages.sources.interfaces import KIND_NAMES
 from studio.ros.messages import shared_types
+from studio.ros.names import KINDS
 
-_KINDS: Final = ("msg", "srv", "action")
 _MISSING: Final = re.compile(r"cannot import name '(\w+)'")
-_OF_KIND: Final = {"msg": "message", "srv": "service", "action": "action"}
 
 
 def import_hint(error: ImportError) -> str | None:
@@ -39,7 +39,7 @@ def _of_others(module: str, wanted: list[str]) -> str | None:
     """Look among the types first: `from std_msgs.srv import AddTwoInts`."""
     package, _, kind = module.partition(".")
     meant = (_sentence(package, kind, name) for name in wanted)
-    known = next(filter(None, meant), None) if kind in _KINDS or not kind else None
+    known = next(filter(None, meant), None) if kind in KINDS or not kind else None
     return known or absent_sentence(module) or name_sentence(module, wanted)
 
 
@@ -72,7 +72,7 @@ def _sentence(package: str, kind: str, name: str) -> str | None:
     if f"{package}/{kind}/{name}" in all_names:
         return None
     same = [one for one in all_names if one.rpartition("/")[2] == name]
-    if not same and kind in _KINDS:
+    if not same and kind in KINDS:
         same = [
             f"{package}/{kind}/{one}"
             for one in difflib.get_close_matches(
@@ -89,7 +89,7 @@ def _sentence(package: str, kind: str, name: str) -> str | None:
     owner, has_kind, has_name = best.split("/")
     missing = f"{package}.{kind}" if kind else package
     return (
-        f"{missing} has no {name}, the {_OF_KIND[has_kind]} {has_name} is in {owner}: write "
+        f"{missing} has no {name}, the {KIND_NAMES[has_kind]} {has_name} is in {owner}: write "
         f"from {owner}.{has_kind} import {has_name}."
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from typing import Final
 
-from studio.importable.names import MODULES, target_of
+from studio.importable.names import MODULES
 from studio.ros.messages import shared_types
 from studio.ros.names import KINDS
 
@@ -121,5 +121,5 @@ def _close(name: str, modules: list[str]) -> list[str]:
 
 def _is_named_after(module: str, name: str) -> bool:
     last = module.rpartition(".")[2].replace("_", "").rstrip("s")
-    source = target_of(module, name).partition(":")[0].rpartition(".")[2].replace("_", "")
+    source = MODULES[module][name].partition(":")[0].rpartition(".")[2].replace("_", "")
     return last in {name.lower(), source.rstrip("s")} or name.lower().endswith(last)

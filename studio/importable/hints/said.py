@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import sys
 import threading
@@ -13,8 +14,10 @@ from studio.importable.hints import HINTS_VARIABLE
 if TYPE_CHECKING:
     from types import FrameType
 
-_ROOM: Final = str(Path(__file__).parents[2])
-_SKIPPED: Final = (_ROOM, "<")
+ROOM: Final = str(Path(__file__).parents[2])
+"""The folder of the studio: frames of its files are none of the user's."""
+_SKIPPED: Final = (ROOM, "<")
+_SIZE_MAX: Final = 1_000_000
 _SAID_MAX: Final = 20
 """A program that does so much wrong has its author's attention already."""
 
@@ -61,3 +64,12 @@ def place(frame: FrameType) -> str:
 def place_of(file: str, line: int) -> str:
     """Return `file.py:12` of a file."""
     return f"{os.path.basename(file)}:{line}"  # noqa: PTH119 - a word
+
+
+def tree_of(file: str) -> ast.Module | None:
+    """Return a file of Python, parsed; None: it cannot be read, or is none."""
+    try:
+        with Path(file).open("rb") as text:
+            return ast.parse(text.read(_SIZE_MAX))
+    except (OSError, SyntaxError, ValueError, RecursionError):
+        return None

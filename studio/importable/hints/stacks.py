@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.importable.hints.said import is_users, place, place_of
-from studio.ros.node.base import NodeBase
+from studio.ros.node.base import NodeBase, was_spun
 from studio.ros.node.executors import Executor, MultiThreadedExecutor
 from studio.ros.node.service_client import Client
 
@@ -109,7 +109,7 @@ class Stacks:
         node: Any = found.f_locals.get("self")
         if now_s - busy.since_s < CONSTRUCTING_S or not isinstance(node, NodeBase):
             return
-        if node.was_spun:  # it spins within
+        if was_spun(node):  # it spins within
             return
         inner = next((one for one in frames if is_users(one)), found)
         self._said.say(

@@ -7,11 +7,10 @@ import threading
 import time
 import weakref
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.importable.hints.said import Said, are_wanted, is_users, place
-from studio.ros.node.base import NodeBase, node_listeners
+from studio.importable.hints.said import ROOM, Said, are_wanted, is_users, place
+from studio.ros.node.base import NodeBase, node_listeners, was_spun
 from studio.ros.node.service import Service
 from studio.ros.node.subscription import Subscription
 from studio.ros.node.timer import Timer
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
 
     from studio.importable.hints.ends import Ends
 
-_ROOM: Final = str(Path(__file__).parents[2])
 _EVERY_S: Final = 0.5
 UNSPUN_S: Final = 5.0
 """So long after it was made a node of a program that goes on should be spun."""
@@ -76,12 +74,8 @@ class Watch:
         self._over.set()
         if self._node_made in node_listeners:
             node_listeners.remove(self._node_made)
-        if isinstance(error, ImportError):
-            self._say_import(error)
-        elif isinstance(error, TypeError):
-            self._say_answer(error)
-        elif isinstance(error, SyntaxError):
-            self._say_syntax(error)
+        if isinstance(error, ImportError | SyntaxError | TypeError):
+            self._say_ending(error)
         if error is None or (isinstance(error, SystemExit) and not error.code):
             for made in self._made:
                 self._note(made)
@@ -94,7 +88,7 @@ class Watch:
         at = place(frame) if frame is not None else ""
         if frame is not None:
             self._files.add(frame.f_code.co_filename)
-        name = node.token.path
+        name = node.get_fully_qualified_name()
         self._made.append(_Made(weakref.ref(node), name, type(node).__name__, at, time.monotonic()))
         node.context.on_close(self._look_at_nodes)
         if self._thread is None:
@@ -110,32 +104,20 @@ class Watch:
         node = made.node()
         if node is None:
             return
-        made.was_spun = made.was_spun or node.was_spun
+        made.was_spun = made.was_spun or was_spun(node)
         made.waiting = _waiting(node) or made.waiting
 
-    def _say_import(self, error: ImportError) -> None:
-        from studio.importable.hints.imports import import_hint  # noqa: PLC0415 - seldom needed
+    def _say_ending(self, error: BaseException) -> None:
+        from studio.importable.hints.endings import ending_hint  # noqa: PLC0415 - seldom needed
 
-        if sentence := import_hint(error):
-            self._said.say("import", sentence)
+        if sentence := ending_hint(error):
+            self._said.say("ending", sentence)
 
     def _say_uncalled(self, file: str) -> None:
-        from studio.importable.hints.uncalled import uncalled_hint  # noqa: PLC0415
+        from studio.importable.hints.endings import uncalled_hint  # noqa: PLC0415 - seldom needed
 
         if sentence := uncalled_hint(file):
-            self._said.say("uncalled", sentence)
-
-    def _say_answer(self, error: TypeError) -> None:
-        from studio.importable.hints.answers import answer_hint  # noqa: PLC0415 - seldom needed
-
-        if sentence := answer_hint(error):
-            self._said.say("answer", sentence)
-
-    def _say_syntax(self, error: SyntaxError) -> None:
-        from studio.importable.hints.syntax import syntax_hint  # noqa: PLC0415 - seldom needed
-
-        if sentence := syntax_hint(error):
-            self._said.say("syntax", sentence)
+            self._said.say("ending", sentence)
 
     def _run(self) -> None:
         """Look again and again; what is needed is imported once the program has begun."""
@@ -163,7 +145,7 @@ class Watch:
                 if self._ends is None:
                     from studio.importable.hints.ends import Ends  # noqa: PLC0415
 
-                    self._ends = Ends(self._said, node.token.zid, node.graph)
+                    self._ends = Ends(self._said, node.context.wire.zid, node.context.graph)
                 self._ends.look(frozenset(self._files))
                 return
 
@@ -200,7 +182,7 @@ def _is_in_the_studio(thread: int | None) -> bool:
     """Whether a thread waits in a function of ours, or makes a node: other hints tell of these."""
     frame = sys._current_frames().get(thread or 0)  # pyright: ignore[reportPrivateUsage]
     while frame is not None and not is_users(frame):
-        if frame.f_code.co_filename.startswith(_ROOM):
+        if frame.f_code.co_filename.startswith(ROOM):
             return True
         frame = frame.f_back
     while frame is not None:
@@ -228,10 +210,7 @@ def _waiting(node: NodeBase) -> str:
     for work in node.all_work:
         if isinstance(work, Timer):
             return "its timer's callback"
-        if isinstance(work, Subscription) and work.topic_name not in {
-            "/clock",
-            "/parameter_events",
-        }:
+        if isinstance(work, Subscription) and work.topic_name not in _OWN_TOPICS:
             return f"its callback for {work.topic_name}"
         if isinstance(work, Service):
             name = work.endpoint.token.name

@@ -1,7 +1,8 @@
-"""Actions of the graph, by rclpy's names."""
+"""The graph by rclpy's names: ends of topics, and actions."""
 
 from __future__ import annotations
 
+from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from studio.ros.graph.graph import action_names_and_types
@@ -9,6 +10,24 @@ from studio.ros.graph.graph import action_names_and_types
 if TYPE_CHECKING:
     from studio.ros.graph.graph import NamesAndTypes
     from studio.ros.node.node import Node
+
+
+class TopicEndpointTypeEnum(IntEnum):
+    """Kind of an end."""
+
+    INVALID = 0
+    PUBLISHER = 1
+    SUBSCRIPTION = 2
+
+
+class TypeHash:
+    """The hash of a type, as a text `RIHS01_...`."""
+
+    def __init__(self, text: str = "") -> None:
+        self._text = text
+
+    def __str__(self) -> str:
+        return self._text
 
 
 def get_action_names_and_types(node: Node) -> NamesAndTypes:

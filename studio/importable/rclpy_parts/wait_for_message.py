@@ -40,9 +40,8 @@ def wait_for_message(
     Returns:
         Whether one came, and the message or None.
     """
-    wire = node.wire
     check_is_type(msg_type, MessageValue, "message")
-    type_name = check_same_type(wire.types, msg_type)
+    type_name = check_same_type(node.context.wire.types, msg_type)
     endpoint = NodeBase.endpoint(node, EndpointKind.SUBSCRIPTION, type_name, topic, qos_profile)
     # Without a callback it is no work for an executor: this may be called within a callback, and
     # of a node that nothing spins.

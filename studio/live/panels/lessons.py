@@ -14,7 +14,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, Final
 
 from studio.course.demos import LESSONS, Lesson, code_of, find_demo
-from studio.course.processes import AFTER_SIGNAL_S, LEASHED, environment_for
+from studio.course.processes import AFTER_SIGNAL_S, LEASHED
 from studio.errors import CommandError
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.lessons import (
@@ -30,6 +30,8 @@ from studio.protocol.lessons import (
     StartDemo,
     StopDemo,
 )
+from studio.ros.wire.settings import environment_for
+from studio.system import python_command
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -192,7 +194,7 @@ class DemoRun:
         demo = find_demo(self.lesson.demo)
         assert demo is not None
         return await asyncio.create_subprocess_exec(
-            *(sys.executable, "-P", "-m", LEASHED, demo.module, *self.lesson.arguments),
+            *python_command(LEASHED, demo.module, *self.lesson.arguments),
             env=environment,
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,

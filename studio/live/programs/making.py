@@ -16,7 +16,6 @@ from studio.packages.edits.new_files import (
 )
 from studio.packages.edits.new_packages import (
     new_description_package,
-    new_interface_package,
     new_package,
 )
 from studio.packages.executables import executables
@@ -45,10 +44,9 @@ def edit_of_new(folder: Path, command: CreatePackage) -> PackageEdit:
         command.dependencies,
         command.node_name,
         command.library_name,
+        has_interfaces=is_interfaces,
         **given,
     )
-    if is_interfaces:
-        return new_interface_package(folder, new)
     edit = new_package(folder, new)
     node = (one.file for one in edit.new_files if Path(one.file).stem == command.node_name)
     return replace(edit, opened=next(node, edit.opened))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-import sys
 import threading
 from typing import TYPE_CHECKING, Final
 
 from studio.live.programs import planning, run_room, workspaces
 from studio.protocol.commands import Commands, Scope
+from studio.system import python_command
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
 
-_STUDIO: Final = (sys.executable, "-P", "-m", "studio")
+_STUDIO: Final = python_command("studio")
 
 
 class Programs:

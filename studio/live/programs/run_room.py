@@ -8,7 +8,6 @@ import shlex
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, Protocol
 
-from studio.course.processes import environment_for
 from studio.errors import CommandError, NotRunnableError, StudioError
 from studio.live.programs.runs import Run, Wanted
 from studio.packages.roots import is_below, package_folder_of
@@ -29,6 +28,7 @@ from studio.protocol.launching import (
     StartRunAgain,
     StopRun,
 )
+from studio.ros.wire.settings import environment_for
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

@@ -17,19 +17,38 @@ if TYPE_CHECKING:
     from studio.packages.creation.new_package import NewPackage
 
 
+def check_new(new: NewPackage) -> None:
+    """Refuse wishes for a package that cannot be.
+
+    Raises:
+        NotMadeError: Something forbids it.
+    """
+    if reasons := tuple(faults(new)):
+        raise NotMadeError(new.name, " ".join(reasons))
+
+
+def free_folder(folder: Path, name: str) -> Path:
+    """Return the folder of a new package in another one.
+
+    Raises:
+        NotMadeError: Something bears its name there.
+    """
+    target = folder / name
+    if is_there(target):
+        raise NotMadeError(
+            str(target), "there is something of that name: choose another name or folder."
+        )
+    return target
+
+
 def create_package(folder: Path, new: NewPackage) -> tuple[Path, ...]:
     """Write a package into `folder`, and return its files in the order of making.
 
     Raises:
         NotMadeError: Something forbids it, bears its name there, or the system refused.
     """
-    target = folder / new.name
-    if reasons := tuple(faults(new)):
-        raise NotMadeError(new.name, " ".join(reasons))
-    if is_there(target):
-        raise NotMadeError(
-            str(target), "there is something of that name: choose another name or folder."
-        )
+    check_new(new)
+    target = free_folder(folder, new.name)
     files = package_files(new)
     partial = folder / f".{new.name}.{os.getpid()}"
     try:

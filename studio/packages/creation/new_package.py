@@ -39,6 +39,8 @@ class NewPackage:
     maintainer_email: str = "user@todo.todo"
     package_format: int = 3
     version: str = "0.0.0"
+    has_interfaces: bool = False
+    """Whether code is to be made of messages, services and actions, of which it has none yet."""
 
     @property
     def is_python(self) -> bool:
@@ -54,6 +56,8 @@ def faults(new: NewPackage) -> Iterator[str]:
         yield f'"{new.build_type}" is no build type: choose one of {", ".join(BUILD_TYPES)}.'
     if new.package_format not in (2, 3):
         yield f"package.xml has the formats 2 and 3, not {new.package_format}."
+    if new.has_interfaces and new.build_type != "ament_cmake":
+        yield f"Of interfaces code is made in a package of ament_cmake, not of {new.build_type}."
     yield from _dependency_faults(new)
     yield from _program_faults(new)
     yield from _text_faults(new)

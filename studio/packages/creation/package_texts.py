@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 from xml.sax.saxutils import escape, quoteattr
 
 from studio.packages.creation.licenses import known_license, license_text
+from studio.packages.sources.interfaces import PACKAGE_NEEDS
 
 if TYPE_CHECKING:
     from studio.packages.creation.new_package import NewPackage
@@ -54,12 +55,19 @@ def package_xml(new: NewPackage) -> str:
         f"  <license>{escape(license_name)}</license>",
     ]
     if not new.is_python:
-        lines += ["", f"  <buildtool_depend>{new.build_type}</buildtool_depend>"]
+        lines += ["", _element("buildtool_depend", new.build_type)]
+    generators, runtime, group = (_element(*one) for one in PACKAGE_NEEDS)
+    if new.has_interfaces:
+        lines += [generators]
     if new.dependencies:
-        lines += ["", *(f"  <depend>{one}</depend>" for one in new.dependencies)]
+        lines += ["", *(_element("depend", one) for one in new.dependencies)]
+    if new.has_interfaces:
+        lines += ["", runtime]
     linters = {"ament_python": _PYTHON_LINTERS, "ament_cmake": _CMAKE_LINTERS}
     if tests := linters.get(new.build_type):
-        lines += ["", *(f"  <test_depend>{one}</test_depend>" for one in tests)]
+        lines += ["", *(_element("test_depend", one) for one in tests)]
+    if new.has_interfaces:
+        lines += ["", group]
     lines += [
         "",
         "  <export>",
@@ -68,6 +76,10 @@ def package_xml(new: NewPackage) -> str:
         "</package>",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _element(tag: str, text: str) -> str:
+    return f"  <{tag}>{text}</{tag}>"
 
 
 def _python_files(new: NewPackage) -> dict[str, str]:
@@ -202,6 +214,7 @@ def _cmake_lists(new: NewPackage) -> str:
         "  add_compile_options(-Wall -Wextra -Wpedantic)\nendif()\n",
     ]
     packages = ["ament_cmake"] if is_ament else []
+    packages += ["rosidl_default_generators"] if new.has_interfaces else []
     found = "".join(f"find_package({one} REQUIRED)\n" for one in (*packages, *new.dependencies))
     if found:
         parts.append(found)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from studio.packages.sources.interfaces import ENDINGS
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -12,7 +14,6 @@ if TYPE_CHECKING:
 
 GENERATE: Final = "rosidl_generate_interfaces"
 _GENERATE_KEYWORDS: Final = ("DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "ADD_LINTER_TESTS")
-_INTERFACE_SUFFIXES: Final = (".msg", ".srv", ".action")
 
 
 def check_whole(lists: CMakeLists) -> None:
@@ -87,7 +88,7 @@ def _listed(
     if not call.arguments:
         raise ValueError(source.file)
     holder = _holder(lists, call)
-    names = [one for one in holder.arguments if one.value.endswith(_INTERFACE_SUFFIXES)]
+    names = [one for one in holder.arguments if one.value.endswith(ENDINGS)]
     if name not in {one.value for one in names}:
         last = names[-1] if names else call.arguments[0]
         text = f'"{name}"' if last.is_quoted or not names else name
@@ -114,11 +115,11 @@ def _listed(
 
 def _holder(lists: CMakeLists, call: Call) -> Call:
     """Return the command in which interfaces are listed: the call, or `set` of its variable."""
-    if any(one.value.endswith(_INTERFACE_SUFFIXES) for one in call.arguments):
+    if any(one.value.endswith(ENDINGS) for one in call.arguments):
         return call
     variables = {one.value.strip("${}") for one in call.arguments[1:] if one.value[:1] == "$"}
     for one in lists.of("set"):
-        listed = any(each.value.endswith(_INTERFACE_SUFFIXES) for each in one.arguments)
+        listed = any(each.value.endswith(ENDINGS) for each in one.arguments)
         if listed and one.arguments[0].value in variables:
             return one
     return call

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 from xml.sax.saxutils import escape
 
-from studio.packages.sources.package_xml import DEPENDENCY_TAGS
+from studio.packages.sources.package_xml import TAGS
 
 if TYPE_CHECKING:
     from studio.packages.sources.package_xml import Element, PackageXml
@@ -20,11 +20,6 @@ _COVERS: Final = {
     "member_of_group": ("member_of_group",),
 }
 """Tags that say as much as one does."""
-_ORDER: Final = (
-    *("name", "version", "description", "maintainer", "license", "url", "author"),
-    *DEPENDENCY_TAGS,
-    *("conflict", "replace", "group_depend", "member_of_group", "export"),
-)
 
 
 def has(manifest: PackageXml, tag: str, text: str) -> bool:
@@ -70,10 +65,10 @@ def _before(manifest: PackageXml, tag: str) -> Element | None:
     same = manifest.of(tag)
     if same:
         return same[-1]
-    rank = _ORDER.index(tag) if tag in _ORDER else len(_ORDER)
+    rank = TAGS.index(tag) if tag in TAGS else len(TAGS)
     earlier = [
         one
         for one in manifest.elements
-        if one.parents == ("package",) and one.tag in _ORDER and _ORDER.index(one.tag) < rank
+        if one.parents == ("package",) and one.tag in TAGS and TAGS.index(one.tag) < rank
     ]
     return earlier[-1] if earlier else None

@@ -6,18 +6,21 @@ import keyword
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, TypeVar, get_args
 
 from studio.errors import NotMadeError
 from studio.packages.edits import cmake_edits, manifest_edits, setup_edits
 from studio.packages.edits.imports_needed import needed_packages
 from studio.packages.edits.package_edit import PackageEdit
 from studio.packages.known import Known
+from studio.packages.sources.interfaces import KIND_NAMES, PACKAGE_NEEDS, packages_of_interface
 from studio.packages.sources.python_file import PythonFile
 from studio.problems import NewFile, Replacement
 
 if TYPE_CHECKING:
+    from studio.packages.sources.cmake import CMakeLists
     from studio.packages.sources.package_source import PackageSource
+    from studio.packages.sources.setup_py import SetupPy
 
 NodeTemplate: TypeAlias = Literal[
     "publisher",
@@ -38,7 +41,6 @@ TEXT_LIMIT: Final = 100_000
 _TEMPLATES: Final = Path(__file__).parent / "node_templates"
 _MODULE: Final = re.compile(r"[a-z][a-z0-9_]{0,79}")
 _TYPE: Final = re.compile(r"[A-Z][A-Za-z0-9]{0,79}")
-_FIELD_TYPE: Final = re.compile(r"([a-z][a-z0-9_]*)/(?:msg/)?[A-Z][A-Za-z0-9]*")
 _LAUNCH: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,79}")
 _SAMPLES: Final[dict[str, str]] = {
     "msg": "# One field a line: its type, then its name.\nstring text\nint32 count\n",
@@ -49,7 +51,8 @@ _SAMPLES: Final[dict[str, str]] = {
     ),
 }
 
-_Change: TypeAlias = Callable[[], Iterable[Replacement]]
+_Edits: TypeAlias = Iterable[Replacement]
+_File = TypeVar("_File")
 
 
 class _Changes:
@@ -60,7 +63,7 @@ class _Changes:
         self.edits: list[Replacement] = []
         self.by_hand: list[str] = []
 
-    def take(self, file: str, line: str, change: _Change) -> None:
+    def take(self, file: str, line: str, change: Callable[[], _Edits]) -> None:
         """Make a change of a file, or say which line is to be written into it."""
         try:
             self.edits += change()
@@ -69,9 +72,21 @@ class _Changes:
                 f"{file} cannot be changed safely as it is: mend it first, or write by hand: {line}"
             )
 
-    def missing(self, file: str, line: str) -> None:
-        """Say that a file is not there in which a line is to stand."""
-        self.by_hand.append(f"The package has no {file}, in which this is to stand: {line}")
+    def in_setup(self, line: str, change: Callable[[SetupPy], _Edits]) -> None:
+        """Change setup.py, or say what is to stand in it."""
+        self._in_file("setup.py", self.source.setup, line, change)
+
+    def in_cmake(self, line: str, change: Callable[[CMakeLists], _Edits]) -> None:
+        """Change CMakeLists.txt, or say what is to stand in it."""
+        self._in_file("CMakeLists.txt", self.source.cmake, line, change)
+
+    def _in_file(
+        self, name: str, file: _File | None, line: str, change: Callable[[_File], _Edits]
+    ) -> None:
+        if file is None:
+            self.by_hand.append(f"The package has no {name}, in which this is to stand: {line}")
+        else:
+            self.take(name, line, lambda: change(file))
 
     def depend(self, rows: Iterable[tuple[str, str]]) -> None:
         """Say in package.xml what the package needs; rows are (tag, name)."""
@@ -109,19 +124,21 @@ def new_node(
         _check_free(source, file)
         if any(one.name == name for one in (source.setup.scripts if source.setup else ())):
             raise NotMadeError(file, f"setup.py has an executable {name} already.")
-        _add_script(changes, name, f"{below.replace('/', '.')}.{name}:main")
+        place = f"{below.replace('/', '.')}.{name}:main"
+        changes.in_setup(
+            f"'{name} = {place}' in console_scripts",
+            lambda setup: setup_edits.script_added(setup, name, place),
+        )
         new = [NewFile(source.file(file), text)]
         if not source.has(f"{below}/__init__.py"):
             new.append(NewFile(source.file(f"{below}/__init__.py"), ""))
     else:
         file = f"scripts/{name}.py"
         _check_free(source, file)
-        lists = source.cmake
-        line = f"install(PROGRAMS {file} DESTINATION lib/${{PROJECT_NAME}})"
-        if lists is None:
-            changes.missing("CMakeLists.txt", line)
-        else:
-            changes.take("CMakeLists.txt", line, lambda: cmake_edits.installed_program(lists, file))
+        changes.in_cmake(
+            f"install(PROGRAMS {file} DESTINATION lib/${{PROJECT_NAME}})",
+            lambda lists: cmake_edits.installed_program(lists, file),
+        )
         new = [NewFile(source.file(file), f"#!/usr/bin/env python3\n{text}")]
     known = known or Known()
     python = PythonFile(file, text.encode())
@@ -135,15 +152,6 @@ def node_text(name: str, template: NodeTemplate) -> str:
     text = (_TEMPLATES / f"{template}.py.in").read_text(encoding="utf-8")
     parts = "".join(part[:1].upper() + part[1:] for part in name.split("_"))
     return text.replace("@NODE@", name).replace("@CLASS@", parts)
-
-
-def _add_script(changes: _Changes, name: str, place: str) -> None:
-    setup = changes.source.setup
-    line = f"'{name} = {place}' in console_scripts"
-    if setup is None:
-        changes.missing("setup.py", line)
-    else:
-        changes.take("setup.py", line, lambda: setup_edits.script_added(setup, name, place))
 
 
 def _only_module(source: PackageSource) -> str | None:
@@ -173,6 +181,25 @@ def new_interface(
             built by setuptools, which cannot generate code.
     """
     file = f"{kind}/{name}.{kind}"
+    text = text or _SAMPLES[kind]
+    _check_interface(source, file, text, known or Known())
+    packages = packages_of_interface(text, kind, source.name)
+    changes = _Changes(source)
+    changes.in_cmake(
+        f'rosidl_generate_interfaces(${{PROJECT_NAME}} "{file}")',
+        lambda lists: cmake_edits.generated(lists, file, packages),
+    )
+    generators, *others = PACKAGE_NEEDS
+    changes.depend([generators, *(("depend", one) for one in packages), *others])
+    ended = text if text.endswith("\n") else f"{text}\n"
+    path = source.file(file)
+    return changes.edit(f"New {KIND_NAMES[kind]} {name}", path, [NewFile(path, ended)])
+
+
+def _check_interface(source: PackageSource, file: str, text: str, known: Known) -> None:
+    """Raise NotMadeError if a file of that name, with that text, defines no type."""
+    kind, _, name = file.partition("/")
+    name = name.removesuffix(f".{kind}")
     if not _TYPE.fullmatch(name):
         raise NotMadeError(
             file, "a type is named in letters and digits, a capital first: GetNowPlaying, say."
@@ -183,46 +210,11 @@ def new_interface(
             f"{source.name} is a package of ament_python, in which no code is generated of "
             f"interfaces: make a package for them, {source.name}_interfaces.",
         )
-    text = text or _SAMPLES[kind]
-    known = known or Known()
     _check_free(source, file)
     if len(text) > TEXT_LIMIT:
         raise NotMadeError(file, f"its text has more than {TEXT_LIMIT} characters.")
     if fault := known.type_fault(f"{source.name}/{kind}/{name}", text):
         raise NotMadeError(file, fault.sentence)
-    packages = packages_of_interface(text, kind, source.name)
-    changes = _Changes(source)
-    lists = source.cmake
-    line = f'rosidl_generate_interfaces(${{PROJECT_NAME}} "{file}")'
-    if lists is None:
-        changes.missing("CMakeLists.txt", line)
-    else:
-        changes.take("CMakeLists.txt", line, lambda: cmake_edits.generated(lists, file, packages))
-    changes.depend([("buildtool_depend", "rosidl_default_generators")])
-    changes.depend([("depend", one) for one in packages])
-    changes.depend([("exec_depend", "rosidl_default_runtime")])
-    changes.depend([("member_of_group", "rosidl_interface_packages")])
-    ended = text if text.endswith("\n") else f"{text}\n"
-    path = source.file(file)
-    return changes.edit(f"New {_KIND_NAMES[kind]} {name}", path, [NewFile(path, ended)])
-
-
-_KIND_NAMES: Final = {"msg": "message", "srv": "service", "action": "action"}
-
-
-def packages_of_interface(text: str, kind: str, own: str) -> tuple[str, ...]:
-    """Return the packages whose types an interface is made of, those of its actions too."""
-    found: dict[str, None] = {}
-    for line in text.splitlines():
-        words = line.partition("#")[0].split()
-        named = _FIELD_TYPE.match(words[0]) if words else None
-        if named and named[1] != own:
-            found[named[1]] = None
-        elif words and words[0].partition("[")[0] == "Header":
-            found["std_msgs"] = None
-    if kind == "action":
-        found["action_msgs"] = None
-    return tuple(found)
 
 
 def new_launch_file(
@@ -243,7 +235,7 @@ def new_launch_file(
     _check_free(source, file)
     changes = _Changes(source)
     rows = list(nodes)
-    install_folder(changes, "launch", f"*.launch.{form}")
+    _install_folder(changes, "launch", f"*.launch.{form}")
     tags = ["launch", "launch_ros"] + [f"launch_{form}"] * (form != "py")
     packages = dict.fromkeys(package for package, _ in rows if package != source.name)
     changes.depend(("exec_depend", one) for one in (*tags, *packages))
@@ -252,32 +244,18 @@ def new_launch_file(
     return changes.edit(f"New launch file {stem}", path, [NewFile(path, text)])
 
 
-def install_folder(changes: _Changes, folder: str, pattern: str) -> None:
+def _install_folder(changes: _Changes, folder: str, pattern: str) -> None:
     """Have a folder of the package installed into its share folder."""
-    source = changes.source
-    setup, lists = source.setup, source.cmake
-    if source.is_python:
-        line = f"('share/' + package_name + '/{folder}', glob('{folder}/{pattern}'))"
-        if setup is None:
-            changes.missing("setup.py", line)
-        else:
-            rows = [(folder, pattern)]
-            changes.take("setup.py", line, lambda: setup_edits.data_files_added(setup, rows))
+    if changes.source.is_python:
+        changes.in_setup(
+            f"('share/' + package_name + '/{folder}', glob('{folder}/{pattern}'))",
+            lambda setup: setup_edits.data_files_added(setup, [(folder, pattern)]),
+        )
     else:
-        line = f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})"
-        if lists is None:
-            changes.missing("CMakeLists.txt", line)
-        else:
-            changes.take(
-                "CMakeLists.txt", line, lambda: cmake_edits.installed_folder(lists, folder)
-            )
-
-
-def installing_edit(source: PackageSource, folder: str, pattern: str) -> PackageEdit:
-    """Return the edit that has the build install a folder of the package."""
-    changes = _Changes(source)
-    install_folder(changes, folder, pattern)
-    return changes.edit(f"Install {folder}", "", ())
+        changes.in_cmake(
+            f"install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}})",
+            lambda lists: cmake_edits.installed_folder(lists, folder),
+        )
 
 
 def launch_text(form: LaunchFormat, nodes: Iterable[tuple[str, str]]) -> str:

@@ -1,12 +1,11 @@
-"""New packages beside others, as edits: for interfaces, for a robot's description, or any other."""
+"""New packages beside others, as edits: around a robot's description, or any other."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from studio.errors import NotMadeError
-from studio.files import is_there
-from studio.packages.creation.new_package import NewPackage, faults
+from studio.packages.creation.making import check_new, free_folder
 from studio.packages.creation.package_texts import package_files
 from studio.packages.edits.package_edit import PackageEdit
 from studio.packages.skeleton import description_files, name_fault, robot_of, template_text
@@ -15,6 +14,7 @@ from studio.problems import NewFile
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from studio.packages.creation.new_package import NewPackage
     from studio.packages.skeleton import Template
 
 
@@ -24,35 +24,8 @@ def new_package(folder: Path, new: NewPackage) -> PackageEdit:
     Raises:
         NotMadeError: Something forbids it, or bears its name there.
     """
-    if reasons := tuple(faults(new)):
-        raise NotMadeError(new.name, " ".join(reasons))
+    check_new(new)
     return _edit(folder, new.name, package_files(new), "package.xml")
-
-
-def new_interface_package(folder: Path, new: NewPackage) -> PackageEdit:
-    """Return the edit that makes a package of interfaces, none of which is in it yet.
-
-    Raises:
-        NotMadeError: Something forbids it, or bears its name there.
-    """
-    if reasons := tuple(faults(new)):
-        raise NotMadeError(new.name, " ".join(reasons))
-    files = package_files(new)
-    files["package.xml"] = files["package.xml"].replace(
-        "  <buildtool_depend>ament_cmake</buildtool_depend>\n",
-        "  <buildtool_depend>ament_cmake</buildtool_depend>\n"
-        "  <buildtool_depend>rosidl_default_generators</buildtool_depend>\n\n"
-        "  <exec_depend>rosidl_default_runtime</exec_depend>\n",
-    )
-    files["package.xml"] = files["package.xml"].replace(
-        "\n  <export>\n",
-        "\n  <member_of_group>rosidl_interface_packages</member_of_group>\n\n  <export>\n",
-    )
-    files["CMakeLists.txt"] = files["CMakeLists.txt"].replace(
-        "find_package(ament_cmake REQUIRED)\n",
-        "find_package(ament_cmake REQUIRED)\nfind_package(rosidl_default_generators REQUIRED)\n",
-    )
-    return _edit(folder, new.name, files, "package.xml")
 
 
 def new_description_package(
@@ -77,10 +50,6 @@ def new_description_package(
 
 
 def _edit(folder: Path, name: str, files: dict[str, str], opened: str) -> PackageEdit:
-    target = folder / name
-    if is_there(target):
-        raise NotMadeError(
-            str(target), "there is something of that name: choose another name or folder."
-        )
+    target = free_folder(folder, name)
     new = tuple(NewFile(str(target / one), text) for one, text in files.items())
     return PackageEdit(f"New package {name}", str(target / opened), new)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -12,19 +13,35 @@ if TYPE_CHECKING:
 
 def import_added(python: PythonFile, line: str) -> Replacement:
     """Put an import before the first one of the file, or behind its docstring."""
-    tree = python.tree
     source = python.source
-    body = tree.body if tree else []
-    later = [
-        one
-        for one in body
-        if not (isinstance(one, ast.Expr) and isinstance(one.value, ast.Constant))
-        and not (isinstance(one, ast.ImportFrom) and one.module == "__future__")
-    ]
-    if not later:
-        return source.put_in(len(source.data), f"{source.line_break}{line}{source.line_break}")
-    first = later[0]
+    eol = source.line_break
+    body = python.tree.body if python.tree else []
+    first = next((one for one in body if not _stays_first(one)), None)
+    if first is None:
+        return source.put_in(len(source.data), f"{eol}{line}{eol}")
     decorators = getattr(first, "decorator_list", [])
     at = source.line_start(python.span(decorators[0] if decorators else first)[0])
-    gap = "" if isinstance(first, ast.Import | ast.ImportFrom) else source.line_break * 2
-    return source.put_in(at, f"{line}{source.line_break}{gap}")
+    return source.put_in(at, f"{line}{eol}{eol * _lines_between(line, first)}")
+
+
+def _stays_first(node: ast.stmt) -> bool:
+    """Whether it is the docstring, or an import of the future."""
+    if isinstance(node, ast.ImportFrom):
+        return node.module == "__future__"
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+
+
+def _lines_between(line: str, first: ast.stmt) -> int:
+    """Count the blank lines behind an import: Python's own modules stand apart from others."""
+    match first:
+        case ast.Import(names=[alias, *_]):
+            module = alias.name
+        case ast.ImportFrom(module=named):
+            module = named or ""
+        case _:
+            return 2
+    return int(_is_pythons(line.split()[1]) != _is_pythons(module))
+
+
+def _is_pythons(module: str) -> bool:
+    return module.partition(".")[0] in sys.stdlib_module_names

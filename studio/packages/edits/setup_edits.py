@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
+from studio.packages.edits.python_edits import import_added
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -51,7 +53,6 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
     """Return the changes that install files: of each row the folder and a pattern of its files.
 
     Rows whose files are installed already are left out; `glob` is imported where it is not.
-    A row of the folder "" names a file of the package's root.
 
     Raises:
         ValueError: The file is broken, or computes what it installs.
@@ -61,16 +62,10 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
     wanted = [one for one in rows if "/".join(filter(None, one)) not in known]
     if not wanted:
         return ()
-    name = "package_name" if "package_name" in setup.constants else repr(setup.text("name") or "")
-    if name == "''":
-        raise ValueError(setup.source.file)
-    items = [
-        f"('share/' + {name} + '/{folder}', glob('{folder}/{pattern}'))"
-        if folder
-        else f"('share/' + {name}, [{pattern!r}])"
-        for folder, pattern in wanted
-    ]
-    imported = glob_imported(setup) if any(folder for folder, _ in wanted) else ()
+    items = [data_files_row(setup, *one) for one in wanted]
+    imported: tuple[Replacement, ...] = ()
+    if any(map(_has_wildcard, (pattern for _, pattern in wanted))) and not imports_glob(setup):
+        imported = (import_added(setup.python, "from glob import glob"),)
     listed = setup.data_files_list
     if listed is None:
         if setup.keyword("data_files") is not None:
@@ -80,27 +75,37 @@ def data_files_added(setup: SetupPy, rows: Iterable[tuple[str, str]]) -> tuple[R
     return (*imported, list_items_added(setup, listed, items))
 
 
-def glob_imported(setup: SetupPy) -> tuple[Replacement, ...]:
-    """Return the change that imports `glob` at the top of the file; none if it is imported."""
-    tree = setup.python.tree
-    if setup.imports("glob", "glob") or tree is None:
-        return ()
-    eol = setup.source.line_break
-    first = next(
-        (one for one in tree.body if not _is_docstring(one) and not _is_future(one)), tree.body[0]
-    )
-    at = setup.source.line_start(setup.python.span(first)[0])
-    is_import = isinstance(first, ast.Import | ast.ImportFrom)
-    gap = "" if is_import and getattr(first, "module", "") not in {"setuptools"} else eol
-    return (setup.source.put_in(at, f"from glob import glob{eol}{gap}"),)
+def data_files_row(setup: SetupPy, folder: str, pattern: str) -> str:
+    """Return the row of `data_files` that installs files of a folder, as the file would have it.
+
+    Args:
+        setup: The file.
+        folder: Below the package; empty: its root.
+        pattern: Of the names of files in it, or one name.
+
+    Raises:
+        ValueError: The name of the package is computed.
+    """
+    below = f"/{folder}" if folder else ""
+    if "package_name" in setup.constants:
+        share = "'share/' + package_name" + (f" + '{below}'" if below else "")
+    elif name := setup.text("name"):
+        share = f"'share/{name}{below}'"
+    else:
+        raise ValueError(setup.source.file)
+    files = repr(f"{folder}/{pattern}" if folder else pattern)
+    if not _has_wildcard(pattern):
+        return f"({share}, [{files}])"
+    return f"({share}, {'glob.glob' if setup.imports('glob') else 'glob'}({files}))"
 
 
-def _is_docstring(node: ast.stmt) -> bool:
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+def imports_glob(setup: SetupPy) -> bool:
+    """Whether a row with `glob` needs no import."""
+    return setup.imports("glob") or setup.imports("glob", "glob")
 
 
-def _is_future(node: ast.stmt) -> bool:
-    return isinstance(node, ast.ImportFrom) and node.module == "__future__"
+def _has_wildcard(pattern: str) -> bool:
+    return any(letter in pattern for letter in "*?[")
 
 
 def list_items_added(

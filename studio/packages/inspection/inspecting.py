@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.discovery import FOLDER_LIMIT, Origin, Package, discover
-from studio.packages.entry_points import entry_points
 from studio.packages.executables import executables
 from studio.packages.folder_memory import FolderMemory
 from studio.packages.inspection.dependencies import dependency_graph
@@ -24,9 +23,11 @@ from studio.packages.inspection.inspected import (
     RobotFile,
 )
 from studio.packages.known import Known
+from studio.packages.robot_files import robot_candidates
 from studio.packages.roots import ServedRoots
 from studio.packages.ros_packages import is_system_key
-from studio.packages.shares import installs
+from studio.packages.shares import left_out
+from studio.packages.sources.interfaces import ENDINGS, interface_files
 from studio.packages.sources.package_source import PackageSource
 
 if TYPE_CHECKING:
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 PACKAGES_MAX: Final = 300
 INTERFACES_MAX: Final = 500
-KINDS: Final = ("msg", "srv", "action")
 LAUNCH_SUFFIXES: Final = {
     ".launch.py": "python",
     ".launch.xml": "xml",
@@ -194,23 +194,15 @@ def interfaces(source: PackageSource, known: Known) -> tuple[InterfaceFile, ...]
     """Return the messages, services and actions that a package defines."""
     listed = generated_names(source)
     found: list[InterfaceFile] = []
-    for kind in KINDS:
-        for name in source.below(kind, f".{kind}"):
-            if name.count("/") != 1 or len(found) >= INTERFACES_MAX:
-                continue
-            full = f"{source.name}/{name.removesuffix(f'.{kind}')}"
-            text = source.text(name)
-            fault = known.type_fault(full, text.text) if text else None
-            found.append(
-                InterfaceFile(
-                    full,
-                    kind,
-                    source.path(name),
-                    name in listed,
-                    fault.sentence if fault else "",
-                    fault.line if fault else 0,
-                )
-            )
+    for kind, name in interface_files(source):
+        if name.count("/") != 1 or len(found) >= INTERFACES_MAX:
+            continue
+        full = f"{source.name}/{name.removesuffix(f'.{kind}')}"
+        text = source.text(name)
+        fault = known.type_fault(full, text.text) if text else None
+        sentence, line = (fault.sentence, fault.line) if fault else ("", 0)
+        path = source.path(name)
+        found.append(InterfaceFile(full, kind, path, name in listed, sentence, line))
     return tuple(found)
 
 
@@ -219,18 +211,11 @@ def generated_names(source: PackageSource) -> frozenset[str]:
     lists = source.cmake
     if lists is None:
         return frozenset()
-    values = {
-        one
-        for call in lists.of("rosidl_generate_interfaces", "set")
-        for one in call.values
-        if one.endswith(tuple(f".{kind}" for kind in KINDS))
-    }
+    calls = lists.of("rosidl_generate_interfaces", "set")
+    values = {one for call in calls for one in call.values if one.endswith(ENDINGS)}
     globbed = {one for call in lists.of("file") for one in call.values if "*" in one}
     matched = {
-        name
-        for kind in KINDS
-        for name in source.below(kind, f".{kind}")
-        if any(f"{kind}/" in one for one in globbed)
+        name for kind, name in interface_files(source) if any(f"{kind}/" in one for one in globbed)
     }
     return frozenset(values | matched)
 
@@ -246,9 +231,10 @@ def launch_format(name: str) -> str:
 
 
 def _launch_files(source: PackageSource) -> Iterator[LaunchFile]:
-    for name in source.names:
-        if form := launch_format(name):
-            yield LaunchFile(source.path(name), form, installs(source, name) is not False)
+    files = {one: form for one in source.names if (form := launch_format(one))}
+    left = left_out(source, files)
+    for name, form in files.items():
+        yield LaunchFile(source.path(name), form, name not in left)
 
 
 def _parameter_files(source: PackageSource) -> Iterator[ParameterFile]:
@@ -280,7 +266,7 @@ def parameter_nodes(data: bytes) -> tuple[str, ...]:
 def _robots_by_package(found: PackagesFound) -> dict[Path, tuple[RobotFile, ...]]:
     by_folder: dict[Path, list[RobotFile]] = defaultdict(list)
     folders = sorted(found.sources, key=lambda one: -len(one.parts))
-    for point in entry_points(found.root, found.roots, memory=found.memory):
+    for point in robot_candidates(found.root, found.roots, memory=found.memory):
         if point.kind == "urdf" and not point.openable and not point.path.name.endswith(".urdf"):
             continue
         parents = set(point.path.parents)

@@ -6,10 +6,10 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.edits import cmake_edits
-from studio.packages.edits.new_files import packages_of_interface
 from studio.packages.inspection.inspecting import generated_names
-from studio.packages.lint.checked import ERROR, KINDS, WARNING, edit, found, meant, safely
-from studio.packages.shares import installs
+from studio.packages.lint.checked import ERROR, WARNING, edit, found, meant, safely
+from studio.packages.lint.installed_files import FOLDERS
+from studio.packages.sources.interfaces import ENDINGS, interface_files, packages_of_interface
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 _ESCAPED: Final = re.compile(rb"\\\$\{[A-Za-z_]+\}")
 _PLACEHOLDER: Final = re.compile(rb"<[a-z]+(?:[_ -][a-z]+)+>")
-_FOLDERS: Final = ("launch", "urdf", "config", "rviz", "meshes", "worlds", "maps")
 _LIBRARY_FOLDERS: Final = frozenset({"lib", "bin", "share", "include"})
 
 
@@ -129,7 +128,7 @@ def _not_found(lists: CMakeLists, package: str, call: Call, why: str) -> Problem
 
 def _interfaces(checked: CheckedPackage, lists: CMakeLists) -> Iterator[Problem]:
     source = checked.source
-    files = [(kind, one) for kind in KINDS for one in source.below(kind, f".{kind}")]
+    files = interface_files(source)
     calls = lists.of(cmake_edits.GENERATE)
     early = [one for one in calls if len(one.arguments) < 2]
     for one in early:
@@ -152,7 +151,7 @@ def _interfaces(checked: CheckedPackage, lists: CMakeLists) -> Iterator[Problem]
     for call in calls:
         depends = {one.value for one in call.after("DEPENDENCIES", "LIBRARY_NAME")}
         for one in call.arguments[1:]:
-            if one.value.endswith(tuple(f".{kind}" for kind in KINDS)) and "$" not in one.value:
+            if one.value.endswith(ENDINGS) and "$" not in one.value:
                 if source.has(one.value):
                     continue
                 right = meant(one.value, [name for _, name in files], 0.6)
@@ -221,8 +220,6 @@ def _installs(checked: CheckedPackage, lists: CMakeLists) -> Iterator[Problem]:
     for call in lists.of("install"):
         yield from _installed_folders(checked, lists, call)
         yield from _destination(lists, call)
-    if not lists.fault and checked.source.build_type == "ament_cmake":
-        yield from _not_installed(checked, lists)
 
 
 def _installed_folders(checked: CheckedPackage, lists: CMakeLists, call: Call) -> Iterator[Problem]:
@@ -243,7 +240,7 @@ def _destination(lists: CMakeLists, call: Call) -> Iterator[Problem]:
     at = destination.start
     parts = destination.value.strip("/").split("/")
     if parts[0] == "share" and len(parts) > 2 and len(parts[2]) <= 3:
-        folders = [one for one in _FOLDERS if one.startswith(parts[2]) and one != parts[2]]
+        folders = [one for one in FOLDERS if one.startswith(parts[2]) and one != parts[2]]
         if len(folders) == 1:
             right = "/".join([*parts[:2], folders[0], *parts[3:]])
             mend = edit(f"Write {right}", lists.source.replaced(at, destination.end, right))
@@ -255,22 +252,6 @@ def _destination(lists: CMakeLists, call: Call) -> Iterator[Problem]:
             "share/${PROJECT_NAME}, say."
         )
         yield found(WARNING, "install-destination", sentence, lists.source, at)
-
-
-def _not_installed(checked: CheckedPackage, lists: CMakeLists) -> Iterator[Problem]:
-    source = checked.source
-    for folder in _FOLDERS:
-        left = [one for one in source.below(folder) if installs(source, one) is False]
-        if left:
-            mend = safely(
-                f"Install {folder}",
-                lambda folder=folder: cmake_edits.installed_folder(lists, folder),
-            )
-            sentence = (
-                f"{left[0]} is not installed: install(DIRECTORY {folder} DESTINATION "
-                "share/${PROJECT_NAME}) is missing, so ROS does not find it after the build."
-            )
-            yield found(WARNING, "cmake-folder-not-installed", sentence, lists.source, 0, mend)
 
 
 _STOPS: Final = {
@@ -307,11 +288,6 @@ WHY: Final = {
     "install-destination": {
         "en": "ROS looks in share/<package> and lib/<package>; elsewhere nothing is found.",
         "de": "ROS sucht in share/<Paket> und lib/<Paket>; anderswo wird nichts gefunden.",
-    },
-    "cmake-folder-not-installed": {
-        "en": "ros2 launch and get_package_share_directory see what was installed, not the source.",
-        "de": "ros2 launch und get_package_share_directory sehen das Installierte, nicht die "
-        "Quellen.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Final
 
 from studio.packages.edits import manifest_edits
 from studio.packages.edits.imports_needed import needed_packages, satisfying
-from studio.packages.edits.new_files import packages_of_interface
-from studio.packages.lint.checked import INFO, KINDS, WARNING, edit, found, meant, safely
+from studio.packages.lint.checked import INFO, WARNING, edit, found, meant, safely
 from studio.packages.ros_packages import PACKAGES, is_system_key
+from studio.packages.sources.interfaces import PACKAGE_NEEDS, interface_files, packages_of_interface
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 
 _LETTERS_OFF_MAX: Final = 2
 """A name that is longer by more means another package."""
+_WHY_NEEDED: Final = {
+    "buildtool_depend": "which makes code of interfaces",
+    "exec_depend": "which is needed to use them",
+    "member_of_group": "the group to which every package of interfaces belongs",
+}
 
 
 def findings(checked: CheckedPackage) -> Iterator[Problem]:
@@ -87,22 +92,12 @@ def _imported(checked: CheckedPackage) -> Iterator[Problem]:
 def _of_interfaces(checked: CheckedPackage) -> Iterator[Problem]:
     source = checked.source
     named = {one.text for one in source.manifest.dependencies()}
-    files = [(kind, one) for kind in KINDS for one in source.below(kind, f".{kind}")]
+    files = interface_files(source)
     if not files or source.is_python:
         return
-    for tag, name, why in (
-        ("buildtool_depend", "rosidl_default_generators", "makes code of interfaces"),
-        ("exec_depend", "rosidl_default_runtime", "is needed to use them"),
-    ):
-        if name not in named:
-            yield _lacks(checked, tag, name, f"{name}, which {why}")
-    if "rosidl_interface_packages" not in source.manifest.groups():
-        yield _lacks(
-            checked,
-            "member_of_group",
-            "rosidl_interface_packages",
-            "the group rosidl_interface_packages, to which every package of interfaces belongs",
-        )
+    for tag, name in PACKAGE_NEEDS:
+        if name not in named and name not in source.manifest.groups():
+            yield _lacks(checked, tag, name, f"{name}, {_WHY_NEEDED[tag]}")
     for kind, name in files:
         text = source.text(name)
         for package in packages_of_interface(text.text, kind, source.name) if text else ():

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
-from studio.packages.lint.checked import ERROR, KINDS, edit, found
+from studio.packages.lint.checked import ERROR, edit, found
+from studio.packages.sources.interfaces import interface_files
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,21 +26,20 @@ _SNAKE: Final = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 def findings(checked: CheckedPackage) -> Iterator[Problem]:
     """Yield what keeps each file from being a type."""
     source = checked.source
-    for kind in KINDS:
-        for name in source.below(kind, f".{kind}"):
-            text = source.text(name)
-            if text is None or name.count("/") != 1:
-                continue
-            stem = name.rpartition("/")[2].removesuffix(f".{kind}")
-            if not _CAMEL.fullmatch(stem):
-                yield _badly_named(text, stem, kind)
-                continue
-            special = [*_lines(text), *_parts(text, kind)]
-            yield from special
-            fault = checked.known.type_fault(f"{source.name}/{kind}/{stem}", text.text)
-            if fault is not None and not special:
-                at = text.offset(fault.line) if fault.line else 0
-                yield found(ERROR, "interface-text", fault.sentence, text, at)
+    for kind, name in interface_files(source):
+        text = source.text(name)
+        if text is None or name.count("/") != 1:
+            continue
+        stem = name.rpartition("/")[2].removesuffix(f".{kind}")
+        if not _CAMEL.fullmatch(stem):
+            yield _badly_named(text, stem, kind)
+            continue
+        special = [*_lines(text), *_parts(text, kind)]
+        yield from special
+        fault = checked.known.type_fault(f"{source.name}/{kind}/{stem}", text.text)
+        if fault is not None and not special:
+            at = text.offset(fault.line) if fault.line else 0
+            yield found(ERROR, "interface-text", fault.sentence, text, at)
 
 
 def _badly_named(text: SourceText, stem: str, kind: str) -> Problem:

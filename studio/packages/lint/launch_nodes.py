@@ -11,6 +11,7 @@ from studio.packages.executables import executables
 from studio.packages.inspection.inspecting import launch_format
 from studio.packages.lint.checked import ERROR, WARNING, edit, found, meant, safely
 from studio.packages.ros_packages import EXECUTABLES, PACKAGES
+from studio.packages.sources.python_file import last_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -68,10 +69,7 @@ def _of_python(checked: CheckedPackage, name: str) -> Iterator[tuple[_Word | Non
     for node in python.nodes if python else ():
         if not isinstance(node, ast.Call) or python is None:
             continue
-        if getattr(node.func, "id", getattr(node.func, "attr", "")) not in {
-            "Node",
-            "LifecycleNode",
-        }:
+        if last_name(node.func) not in {"Node", "LifecycleNode"}:
             continue
         words: dict[str, _Word] = {}
         for one in node.keywords:

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.lint.checked import ERROR, INFO, WARNING, edit, found, meant
-from studio.packages.sources.package_xml import DEPENDENCY_TAGS
+from studio.packages.sources.package_xml import DEPENDENCY_TAGS, TAGS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,11 +15,6 @@ if TYPE_CHECKING:
     from studio.packages.sources.package_xml import PackageXml
     from studio.problems import Problem
 
-_TAGS: Final = (
-    *("name", "version", "description", "maintainer", "license", "url", "author"),
-    *DEPENDENCY_TAGS,
-    *("conflict", "replace", "group_depend", "member_of_group", "export"),
-)
 _UNOPENED: Final = re.compile(
     rb"(?m)^[ \t]*(?:<(?P<open>[a-z_]+)>)?[ \t]*<?(?P<text>[A-Za-z][\w.-]*)/(?P<tag>[a-z_]+)>"
 )
@@ -68,7 +63,7 @@ def _broken(manifest: PackageXml) -> Iterator[Problem]:
         )
     for one in _UNOPENED.finditer(source.data):
         tag, opened = one["tag"].decode(), (one["open"] or one["tag"]).decode()
-        if tag in _TAGS and tag == opened:
+        if tag in TAGS and tag == opened:
             start = one.start() + _blanks(one[0])
             yield _unopened(manifest, start, one.end(), one["text"].decode(), tag)
 
@@ -127,8 +122,8 @@ def _elements(manifest: PackageXml) -> Iterator[Problem]:
     for one in manifest.elements:
         if one.parents != ("package",):
             continue
-        if one.tag not in _TAGS:
-            right = meant(one.tag, _TAGS, 0.75)
+        if one.tag not in TAGS:
+            right = meant(one.tag, TAGS, 0.75)
             text = source.slice(one.start, one.end)
             mend = None
             if right and one.text and not one.attributes and text.startswith(f"<{one.tag}>"):

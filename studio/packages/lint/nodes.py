@@ -8,7 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.packages.edits.python_edits import import_added
-from studio.packages.lint.checked import ERROR, KINDS, WARNING, edit, found
+from studio.packages.lint.checked import ERROR, WARNING, edit, found
+from studio.packages.sources.interfaces import KINDS
+from studio.packages.sources.python_file import last_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -42,8 +44,7 @@ class _Nodes:
         return tuple(
             one
             for one in self.python.nodes
-            if isinstance(one, ast.ClassDef)
-            and any(getattr(base, "id", getattr(base, "attr", "")) in names for base in one.bases)
+            if isinstance(one, ast.ClassDef) and any(last_name(base) in names for base in one.bases)
         )
 
     @cached_property
@@ -58,8 +59,7 @@ class _Nodes:
     @cached_property
     def names(self) -> frozenset[str]:
         """Every name and attribute of the file."""
-        words = (getattr(one, "attr", getattr(one, "id", "")) for one in self.python.nodes)
-        return frozenset(one for one in words if isinstance(one, str))
+        return frozenset(filter(None, map(last_name, self.python.nodes)))
 
     @cached_property
     def callbacks(self) -> dict[str, tuple[str, ast.Call]]:
@@ -72,16 +72,15 @@ class _Nodes:
                 given = next((one.value for one in call.keywords if one.arg == keyword), None)
                 if given is None and len(call.args) > place:
                     given = call.args[place]
-                name = getattr(given, "attr", getattr(given, "id", ""))
-                if isinstance(name, str) and name in self.functions:
+                name = last_name(given)
+                if name in self.functions:
                     found[name] = (what, call)
         return found
 
 
 def called(call: ast.Call) -> str:
     """Return the last word of what is called."""
-    name = getattr(call.func, "attr", getattr(call.func, "id", ""))
-    return name if isinstance(name, str) else ""
+    return last_name(call.func)
 
 
 def findings(checked: CheckedPackage) -> Iterator[Problem]:
@@ -272,7 +271,7 @@ def _blocking(nodes: _Nodes) -> Iterator[Problem]:
     python = nodes.python
     threads = "MultiThreadedExecutor" in nodes.names
     clients = {
-        getattr(one.targets[0], "attr", getattr(one.targets[0], "id", ""))
+        last_name(one.targets[0])
         for one in python.nodes
         if isinstance(one, ast.Assign)
         and isinstance(one.value, ast.Call)
@@ -284,8 +283,7 @@ def _blocking(nodes: _Nodes) -> Iterator[Problem]:
         for one in _own(function):
             if not isinstance(one, ast.Call):
                 continue
-            owner = getattr(one.func, "value", None)
-            word = getattr(owner, "attr", getattr(owner, "id", ""))
+            word = last_name(getattr(one.func, "value", None))
             at = python.span(one)[0]
             if called(one) in _SPINS and word == "rclpy":
                 sentence = (

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.packages import lint
 from studio.packages.known import Known
-from studio.packages.lint.checked import CheckedPackage
+from studio.packages.lint.checked import CheckedPackage, CheckedWorkspace
 from studio.problems import Problem, Severity, modules_of
 
 if TYPE_CHECKING:
@@ -34,14 +34,14 @@ def check_packages(
         names: Check these alone; the others are still what they may need.
     """
     by_name = {one.name: packages.sources[one.folder] for one in reversed(packages.packages)}
-    known = known or Known()
+    workspace = CheckedWorkspace(by_name, known or Known())
     wanted = set(names)
     counts = Counter[str]()
     listed: list[Problem] = []
     for one in packages.packages:
         if wanted and one.name not in wanted:
             continue
-        checked = CheckedPackage(packages.sources[one.folder], by_name, known)
+        checked = CheckedPackage(packages.sources[one.folder], workspace)
         if checked.source.build_type in _NOT_BUILT:
             continue
         listed += sorted(package_findings(checked), key=_rank)

@@ -8,9 +8,10 @@ import sys
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.edits.python_edits import import_added
-from studio.packages.lint.checked import ERROR, KINDS, WARNING, edit, found, meant
+from studio.packages.lint.checked import ERROR, WARNING, edit, found, meant
 from studio.packages.lint.rclpy_names import CALL_PARTS, HOMES, NODE_NAMES, RCLPY_NAMES
-from studio.packages.sources.python_file import bound_names
+from studio.packages.sources.interfaces import KINDS
+from studio.packages.sources.python_file import bound_names, last_name, names_bound_by
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -122,15 +123,13 @@ def _unknown_names(checked: CheckedPackage, python: PythonFile) -> Iterator[Prob
 
 
 def _made_anywhere(python: PythonFile) -> Iterator[str]:
-    yield from bound_names(python.nodes)
     for node in python.nodes:
+        yield from names_bound_by(node)
         match node:
             case ast.arg(arg=name):
                 yield name
             case ast.Global(names=names) | ast.Nonlocal(names=names):
                 yield from names
-            case ast.ExceptHandler(name=str(name)):
-                yield name
             case _:
                 pass
 
@@ -218,7 +217,7 @@ def _action_server(python: PythonFile, node: ast.Attribute, sentence: str) -> Pr
 
 
 def _is_node(node: ast.ClassDef) -> bool:
-    names = {getattr(one, "id", getattr(one, "attr", "")) for one in node.bases}
+    names = set(map(last_name, node.bases))
     return len(names) == 1 and names <= {"Node", "LifecycleNode"}
 
 

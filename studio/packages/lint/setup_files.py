@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.packages.edits import manifest_edits, setup_edits
-from studio.packages.inspection.inspecting import KINDS, launch_format
+from studio.packages.edits import manifest_edits
 from studio.packages.lint.checked import ERROR, WARNING, edit, found, safely
-from studio.packages.shares import installs
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,8 +13,6 @@ if TYPE_CHECKING:
     from studio.packages.lint.checked import CheckedPackage
     from studio.packages.sources.setup_py import SetupPy
     from studio.problems import Problem
-
-_FOLDERS: Final = ("launch", "urdf", "config", "rviz", "meshes", "worlds", "maps", "params")
 
 
 def findings(checked: CheckedPackage) -> Iterator[Problem]:
@@ -92,46 +88,6 @@ def _data_files(checked: CheckedPackage, setup: SetupPy) -> Iterator[Problem]:
     if not is_there and not setup.computes_data_files:
         sentence = "data_files does not install package.xml: ros2 knows nothing of the package."
         yield found(WARNING, "manifest-not-installed", sentence, setup.source, at)
-    for folder in (*_FOLDERS, *KINDS):
-        left = [one for one in source.below(folder) if installs(source, one) is False]
-        if left and any(
-            (folder != "launch" or launch_format(one))
-            and not one.endswith((".pyc", "/__init__.py"))
-            for one in left
-        ):
-            yield _not_installed(setup, folder, left)
-    for name in source.names:
-        if "/" not in name and launch_format(name) and installs(source, name) is False:
-            yield _launch_not_installed(setup, name)
-
-
-def _launch_not_installed(setup: SetupPy, name: str) -> Problem:
-    """Say that a launch file of the package's root is not installed."""
-    rows = [("", name)]
-    mend = safely(f"Install {name}", lambda: setup_edits.data_files_added(setup, rows))
-    sentence = f"{name} is not installed: data_files has to name it, else ROS does not find it."
-    node = setup.keyword("data_files")
-    at = setup.python.span(node)[0] if node else 0
-    return found(WARNING, "launch-not-installed", sentence, setup.source, at, mend)
-
-
-def _not_installed(setup: SetupPy, folder: str, left: list[str]) -> Problem:
-    deep = max(one.count("/") for one in left)
-    endings = {one[one.index(".") :] if "." in one else "" for one in left}
-    if folder == "launch":
-        endings = {f".launch{one.rpartition('.launch')[2]}" for one in left if ".launch." in one}
-    pattern = f"*{endings.pop()}" if len(endings) == 1 and folder == "launch" else "*"
-    mend = None
-    if deep == 1:
-        rows = [(folder, pattern)]
-        mend = safely(f"Install {folder}", lambda: setup_edits.data_files_added(setup, rows))
-    sentence = (
-        f"{left[0]} is not installed: data_files has to name the folder {folder}, "
-        "else ROS does not find it after the build."
-    )
-    node = setup.keyword("data_files")
-    at = setup.python.span(node)[0] if node else 0
-    return found(WARNING, "folder-not-installed", sentence, setup.source, at, mend)
 
 
 WHY: Final = {
@@ -154,15 +110,6 @@ WHY: Final = {
     "manifest-not-installed": {
         "en": "ros2 pkg xml, and tools that look for dependencies, do not find the package.xml.",
         "de": "ros2 pkg xml und Werkzeuge, die Abhängigkeiten suchen, finden package.xml nicht.",
-    },
-    "launch-not-installed": {
-        "en": "ros2 launch sees what was installed, not the source.",
-        "de": "ros2 launch sieht das Installierte, nicht die Quellen.",
-    },
-    "folder-not-installed": {
-        "en": "ros2 launch and get_package_share_directory see what was installed, not the source.",
-        "de": "ros2 launch und get_package_share_directory sehen das Installierte, nicht die "
-        "Quellen.",
     },
 }
 """By code and language: why a finding matters, as the page explains it."""

@@ -12,7 +12,7 @@ from studio.packages.sources.spans import SourceText
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["DEPENDENCY_TAGS", "FILE_NAME", "SIZE_LIMIT_BYTES", "Element", "PackageXml"]
+__all__ = ["DEPENDENCY_TAGS", "FILE_NAME", "SIZE_LIMIT_BYTES", "TAGS", "Element", "PackageXml"]
 
 DEPENDENCY_TAGS: Final = (
     "buildtool_depend",
@@ -26,6 +26,12 @@ DEPENDENCY_TAGS: Final = (
     "doc_depend",
 )
 """Source: REP 149 (package format 3); `run_depend` is of format 1."""
+TAGS: Final = (
+    *("name", "version", "description", "maintainer", "license", "url", "author"),
+    *DEPENDENCY_TAGS,
+    *("conflict", "replace", "group_depend", "member_of_group", "export"),
+)
+"""Of what stands right below `package`, in the order in which it is written."""
 ELEMENTS_MAX: Final = 5_000
 _DEPTH_MAX: Final = 50
 

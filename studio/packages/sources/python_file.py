@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import warnings
 from functools import cached_property
+from itertools import islice
 from typing import TYPE_CHECKING, Final
 
 from studio.packages.sources.spans import SourceText
@@ -23,6 +24,8 @@ class PythonFile:
     def __init__(self, file: str, data: bytes) -> None:
         self.source = SourceText(file, data)
         self.tree: ast.Module | None = None
+        self.nodes: tuple[ast.AST, ...] = ()
+        """Every node of the tree."""
         self.fault = ""
         """As the end of a sentence."""
         self.fault_line = 0
@@ -39,10 +42,11 @@ class PythonFile:
             reason = "is nested too deeply" if isinstance(error, RecursionError) else str(error)
             self.fault, self.fault_line = reason or "cannot be read", 1
         else:
-            if sum(1 for _ in ast.walk(tree)) > NODES_MAX:
+            nodes = tuple(islice(ast.walk(tree), NODES_MAX + 1))
+            if len(nodes) > NODES_MAX:
                 self.fault, self.fault_line = "is too large to be looked at", 1
             else:
-                self.tree = tree
+                self.tree, self.nodes = tree, nodes
 
     def span(self, node: ast.expr | ast.stmt | ast.alias | ast.keyword) -> tuple[int, int]:
         """Return the first byte of a node, and the one behind it."""
@@ -54,11 +58,6 @@ class PythonFile:
         """Return the byte of a place as the parser counts; a mark at the file's start is extra."""
         mark = 3 if line == 1 and self.source.data.startswith(b"\xef\xbb\xbf") else 0
         return self.source.offset(line, column_bytes + mark)
-
-    @cached_property
-    def nodes(self) -> tuple[ast.AST, ...]:
-        """Every node of the tree."""
-        return tuple(ast.walk(self.tree)) if self.tree else ()
 
     @cached_property
     def imports(self) -> tuple[Import, ...]:
@@ -80,6 +79,13 @@ class PythonFile:
         """Whether its module has a name; True also where that cannot be told without running it."""
         names = self.top_level_names
         return self.tree is None or not names.isdisjoint({name, "*", "__getattr__"})
+
+
+def last_name(node: ast.AST | None) -> str:
+    """Return the last word of a dotted name: `join` of `os.path.join`; empty: it is no name."""
+    if isinstance(node, ast.Name):
+        return node.id
+    return node.attr if isinstance(node, ast.Attribute) else ""
 
 
 class Import:
@@ -113,7 +119,11 @@ def _imports(nodes: tuple[ast.AST, ...]) -> Iterator[Import]:
             yield from (Import(node, one, module) for one in node.names)
 
 
-_INNER: Final = (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
+_INNER: Final = (
+    *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),
+    *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
+)
+"""What is inside them is bound in a scope of its own."""
 
 
 def bound_names(nodes: Iterable[ast.AST]) -> Iterator[str]:
@@ -121,25 +131,27 @@ def bound_names(nodes: Iterable[ast.AST]) -> Iterator[str]:
     waiting = list(nodes)  # no recursion: a sum of a thousand parts is a thousand levels deep
     while waiting:
         node = waiting.pop()
-        match node:
-            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
-                yield name
-            case ast.ClassDef(name=name):
-                yield name
-            case ast.Import(names=names) | ast.ImportFrom(names=names):
-                yield from (one.asname or one.name.partition(".")[0] for one in names)
-            case ast.Name(id=name, ctx=ast.Store()):
-                yield name
-            case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
-                yield name
-                waiting += ast.iter_child_nodes(node)
-            case ast.MatchMapping(rest=str(name)):
-                yield name
-                waiting += ast.iter_child_nodes(node)
-            case ast.ExceptHandler(name=str(name)):
-                yield name
-                waiting += ast.iter_child_nodes(node)
-            case _ if not isinstance(node, _INNER):
-                waiting += ast.iter_child_nodes(node)
-            case _:
-                pass
+        yield from names_bound_by(node)
+        if not isinstance(node, _INNER):
+            waiting += ast.iter_child_nodes(node)
+
+
+def names_bound_by(node: ast.AST) -> Iterator[str]:
+    """Yield each name that a node itself binds, without those inside it."""
+    match node:
+        case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
+            yield name
+        case ast.ClassDef(name=name):
+            yield name
+        case ast.Import(names=names) | ast.ImportFrom(names=names):
+            yield from (one.asname or one.name.partition(".")[0] for one in names)
+        case ast.Name(id=name, ctx=ast.Store()):
+            yield name
+        case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
+            yield name
+        case ast.MatchMapping(rest=str(name)):
+            yield name
+        case ast.ExceptHandler(name=str(name)):
+            yield name
+        case _:
+            pass

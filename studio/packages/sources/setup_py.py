@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
-from studio.packages.sources.python_file import PythonFile
+from studio.packages.sources.python_file import PythonFile, last_name
 from studio.packages.sources.scripts import GROUP, Script
 
 if TYPE_CHECKING:
@@ -93,9 +93,9 @@ class SetupPy:
                 return self._joined(values, "", depth)
             case ast.FormattedValue(value=value, conversion=-1, format_spec=None):
                 return self.string(value, depth + 1)
-            case ast.Call(func=func, args=args) if called(func) == "join":
+            case ast.Call(func=func, args=args) if last_name(func) == "join":
                 return self._joined(args, "/", depth)
-            case ast.Call(func=func, args=[value]) if called(func) in {"str", "Path"}:
+            case ast.Call(func=func, args=[value]) if last_name(func) in {"str", "Path"}:
                 return self.string(value, depth + 1)
             case _:
                 return None
@@ -144,7 +144,7 @@ class SetupPy:
     def finds_packages(self) -> bool:
         """Whether it has setuptools find its packages: folders with an `__init__.py`."""
         value = self._keywords.get("packages")
-        return isinstance(value, ast.Call) and called(value.func) == "find_packages"
+        return isinstance(value, ast.Call) and last_name(value.func) == "find_packages"
 
     @cached_property
     def package_dir(self) -> dict[str, str]:
@@ -222,7 +222,7 @@ class SetupPy:
 
     def _source(self, node: ast.expr) -> str | None:
         """Return a file or a pattern; None for what is computed."""
-        if isinstance(node, ast.Call) and node.args and called(node.func) in {"glob", "iglob"}:
+        if isinstance(node, ast.Call) and node.args and last_name(node.func) in {"glob", "iglob"}:
             return self.string(node.args[0])
         return self.string(node)
 
@@ -256,14 +256,7 @@ class SetupPy:
 
     @staticmethod
     def _is_setup(call: ast.Call) -> bool:
-        return called(call.func) == "setup"
-
-
-def called(func: ast.expr) -> str:
-    """Return the last name of what is called: `join` of `os.path.join`; empty if it has none."""
-    if isinstance(func, ast.Name):
-        return func.id
-    return func.attr if isinstance(func, ast.Attribute) else ""
+        return last_name(call.func) == "setup"
 
 
 def _rows(node: ast.AST) -> tuple[list[ast.expr | None], list[ast.expr]]:

@@ -108,11 +108,6 @@ class NodeBase:
             before.remove_node(self)
 
     @property
-    def was_spun(self) -> bool:
-        """Whether an executor ever carried out its work."""
-        return self._was_spun
-
-    @property
     def default_callback_group(self) -> CallbackGroup:
         """The group of all that names none: one piece at a time."""
         return self._default_group
@@ -382,6 +377,11 @@ class NodeBase:
 
     def _count(self, kind: EndpointKind, name: str) -> int:
         return self._context.graph.count(kind, self.resolve_topic_name(name))
+
+
+def was_spun(node: NodeBase) -> bool:
+    """Whether an executor ever had a node; no property of it, which users could not set."""
+    return node._was_spun  # pyright: ignore[reportPrivateUsage]
 
 
 class Endpoint:

@@ -267,6 +267,13 @@ class Clock:
         return TimeJump(change, Duration(nanoseconds=delta_ns))
 
 
+class ROSClock(Clock):
+    """A clock of ROS's time, which /clock may set."""
+
+    def __init__(self) -> None:
+        super().__init__(clock_type=ClockType.ROS_TIME)
+
+
 class ClockChange(IntEnum):
     """What a jump changed besides the time."""
 

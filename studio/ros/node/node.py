@@ -223,7 +223,7 @@ class Node(NodeBase, NodeParameters):
             self, EndpointKind.SERVICE, srv_type.name, srv_name, qos_profile
         )
         service = Service(endpoint, srv_type, callback, callback_group or self._default_group)
-        service.given_name = srv_name if strictness.is_begun() else ""
+        service.given_name = srv_name
         self.add_work(service)
         return service
 
@@ -248,7 +248,7 @@ class Node(NodeBase, NodeParameters):
         )
         group = callback_group or self._default_group
         client = Client(endpoint, srv_type, group, self, timeout_s)
-        client.given_name = srv_name if strictness.is_begun() else ""
+        client.given_name = srv_name
         self.add_work(client)
         return client
 

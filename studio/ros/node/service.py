@@ -15,7 +15,7 @@ from studio.errors import AttachmentError, CdrError
 from studio.ros.attachment import Attachment, packed, unpack
 from studio.ros.cdr import check_kind, codec_of
 from studio.ros.node.logger import get_logger
-from studio.ros.node.work import Work
+from studio.ros.node.service_end import ServiceEnd
 from studio.ros.qos import DEPTH_DEFAULT
 from studio.ros.types.classes import definition_of
 from studio.ros.wire.zenoh import ZError, declare_queryable
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
     from studio.ros.node.base import Endpoint
     from studio.ros.node.work import CallbackGroup
-    from studio.ros.qos import QoSProfile
     from studio.ros.types.library import ServiceKind
     from studio.ros.wire.zenoh import Incoming, Query
 
@@ -48,7 +47,7 @@ class _Request:
         return self.attachment.gid, self.attachment.sequence
 
 
-class Service(Work):
+class Service(ServiceEnd):
     """Serves one service; the callback takes a request and a response, and returns the response.
 
     The last `depth` requests wait; older ones are dropped, and their clients get an error at once.
@@ -61,9 +60,7 @@ class Service(Work):
         callback: Callable[[Any, Any], object],
         group: CallbackGroup,
     ) -> None:
-        super().__init__(group)
-        self.endpoint = endpoint
-        self.srv_type = srv_type
+        super().__init__(endpoint, srv_type, group)
         self.callback = callback
         self.refused = 0
         self.reason: str | None = None
@@ -72,7 +69,6 @@ class Service(Work):
         self._response = definition_of(srv_type.Response)
         self._depth = endpoint.token.qos.depth or DEPTH_DEFAULT
         self._waiting: deque[_Request] = deque()
-        self.given_name = ""
         self._pending: dict[tuple[bytes, int], _Request] = {}
         self._askers: Counter[bytes] = Counter()
         self._lock = threading.Lock()
@@ -80,37 +76,6 @@ class Service(Work):
             endpoint.wire.zenoh, endpoint.key, max(_RING, self._depth)
         )
         endpoint.show()
-
-    def configure_introspection(
-        self, clock: object, service_event_qos_profile: object, introspection_state: int
-    ) -> None:
-        """Refuse but to be off: events of calls are not published here.
-
-        Raises:
-            NotImplementedError: The state is METADATA or CONTENTS.
-        """
-        del clock, service_event_qos_profile
-        if not introspection_state:
-            return
-        raise NotImplementedError(
-            f"The studio publishes no events of the service of {self.service_name}: leave out "
-            "configure_introspection, or run it where ROS is installed."
-        )
-
-    @property
-    def service_name(self) -> str:
-        """The full name of the service."""
-        return self.endpoint.token.name
-
-    @property
-    def srv_name(self) -> str:
-        """The name as it was given in a user's program, as rclpy has it; else the full one."""
-        return self.given_name or self.endpoint.token.name
-
-    @property
-    def qos_profile(self) -> QoSProfile:
-        """The profile asked for."""
-        return self.endpoint.token.qos
 
     @property
     def is_ready(self) -> bool:

@@ -22,8 +22,8 @@ from studio.errors import (
 from studio.ros import strictness
 from studio.ros.attachment import packed, unpack
 from studio.ros.cdr import check_kind, codec_of
+from studio.ros.node.service_end import ServiceEnd
 from studio.ros.node.task import Future
-from studio.ros.node.work import Work
 from studio.ros.types.classes import definition_of
 from studio.ros.wire.zenoh import (
     REPLIES_WAITING_MAX,
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
 
     from studio.ros.node.base import Endpoint, NodeBase
     from studio.ros.node.work import CallbackGroup
-    from studio.ros.qos import QoSProfile
     from studio.ros.types.classes import MessageValue
     from studio.ros.types.library import ServiceKind
     from studio.ros.wire.zenoh import Querier
@@ -65,7 +64,7 @@ class _Call:
     failure: WireError | None = None
 
 
-class Client(Work):
+class Client(ServiceEnd):
     """One service's client.
 
     A future ends with the first response; with NotServedError when nobody serves the service,
@@ -81,9 +80,7 @@ class Client(Work):
         node: NodeBase,
         timeout_s: float = SERVICE_TIMEOUT_S,
     ) -> None:
-        super().__init__(group)
-        self.endpoint = endpoint
-        self.srv_type = srv_type
+        super().__init__(endpoint, srv_type, group)
         self._node = node
         self._timeout_s = timeout_s
         self._codecs = codec_of(srv_type.Request), codec_of(srv_type.Response)
@@ -91,7 +88,6 @@ class Client(Work):
         self._sequence = 0
         self._warned_of_several = self._warned_of_silence = False
         self._check_at_s = 0.0
-        self.given_name = ""
         self._lock = threading.Lock()
         self._calls: dict[int, _Call] = {}
         self._done: deque[tuple[_Call, bytes | WireError]] = deque()
@@ -99,37 +95,6 @@ class Client(Work):
             endpoint.wire.zenoh, endpoint.key, timeout_s
         )
         endpoint.show()
-
-    def configure_introspection(
-        self, clock: object, service_event_qos_profile: object, introspection_state: int
-    ) -> None:
-        """Refuse but to be off: events of calls are not published here.
-
-        Raises:
-            NotImplementedError: The state is METADATA or CONTENTS.
-        """
-        del clock, service_event_qos_profile
-        if not introspection_state:
-            return
-        raise NotImplementedError(
-            f"The studio publishes no events of the client of {self.service_name}: leave out "
-            "configure_introspection, or run it where ROS is installed."
-        )
-
-    @property
-    def service_name(self) -> str:
-        """The full name of the service."""
-        return self.endpoint.token.name
-
-    @property
-    def srv_name(self) -> str:
-        """The name as it was given in a user's program, as rclpy has it; else the full one."""
-        return self.given_name or self.endpoint.token.name
-
-    @property
-    def qos_profile(self) -> QoSProfile:
-        """The profile asked for."""
-        return self.endpoint.token.qos
 
     @property
     def is_ready(self) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
@@ -21,6 +22,7 @@ DOMAIN_MAX = 232
 LEASE_MS = 60_000
 """rmw_zenoh's limit for a silent peer: a busy machine, or a debugger, ends nobody."""
 _CONNECT = "connect/endpoints"
+_OVERRIDE = "ZENOH_CONFIG_OVERRIDE"
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +63,7 @@ def wire_settings(
     """
     named = environment.get("ROS_DOMAIN_ID", "").strip()
     config_file = environment.get("ZENOH_SESSION_CONFIG_URI", "").strip() or None
-    overrides = _pairs(environment.get("ZENOH_CONFIG_OVERRIDE", ""))
+    overrides = _pairs(environment.get(_OVERRIDE, ""))
     routers = _endpoints(overrides.pop(_CONNECT, "[]"))
     return WireSettings(
         connect=connect or routers or (() if config_file else (ROUTER_ENDPOINT,)),
@@ -71,6 +73,21 @@ def wire_settings(
         overrides=overrides,
         router_config_file=environment.get("ZENOH_ROUTER_CONFIG_URI", "").strip() or None,
     )
+
+
+def environment_for(
+    settings: WireSettings, environment: Mapping[str, str] = os.environ
+) -> dict[str, str]:
+    """Return an environment in which nodes join the same routers and domain, as the same ROS."""
+    routers = f"{_CONNECT}={json.dumps(settings.connect)}"
+    override = environment.get(_OVERRIDE, "")
+    return {
+        **environment,
+        "ROS_DOMAIN_ID": str(settings.domain),
+        "ROS_DISTRO": settings.profile.distro,
+        _OVERRIDE: f"{override};{routers}" if override else routers,
+        "PYTHONUNBUFFERED": "1",  # what is printed is seen at once, also through a pipe
+    }
 
 
 def _domain(text: str) -> int:

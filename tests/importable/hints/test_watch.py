@@ -227,6 +227,33 @@ def test_two_nodes_of_one_name_are_named(endpoint: str, tmp_path: Path):
         process.wait_for(f"{HINT}2 nodes are called /twin: ")
 
 
+FREELY_NAMED = """\
+class Mine(Node):
+    token = "a word"
+
+    def __init__(self):
+        super().__init__("mine")
+        self.was_spun, self.graph, self.wire = False, None, None
+        self.create_publisher(String, "/chat", 1)
+        self.create_subscription(
+            String, "/chat", print,
+            QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE),
+        )
+        self.create_publisher(
+            String, "/chat", QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        )
+
+
+spin(Mine)
+"""
+
+
+def test_attributes_of_a_node_may_have_the_names_of_the_studio(endpoint: str, tmp_path: Path):
+    with running(endpoint, tmp_path, FREELY_NAMED) as process:
+        process.wait_for(f"{HINT}ROS 2 on DDS would deliver nothing on /chat")
+        assert "Error" not in process.printed
+
+
 @pytest.mark.parametrize(
     ("line", "said"),
     [

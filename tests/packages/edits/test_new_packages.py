@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -9,7 +10,6 @@ from studio.packages.creation.new_package import NewPackage
 from studio.packages.edits.new_files import new_interface
 from studio.packages.edits.new_packages import (
     new_description_package,
-    new_interface_package,
     new_package,
 )
 from studio.packages.edits.writing import write_edit
@@ -34,7 +34,7 @@ def test_packages_of_each_kind_have_no_fault(tmp_path: Path):
 
 def test_a_package_of_interfaces_takes_its_first_one(tmp_path: Path):
     roots = ServedRoots([tmp_path])
-    write_edit(new_interface_package(tmp_path, MINE), roots)
+    write_edit(new_package(tmp_path, replace(MINE, has_interfaces=True)), roots)
     source = PackageSource(tmp_path / "mine")
     write_edit(new_interface(source, "msg", "Quote", "", KNOWN), roots)
     assert codes(tmp_path) == set()
@@ -45,7 +45,8 @@ def test_a_package_of_interfaces_takes_its_first_one(tmp_path: Path):
 def test_names_are_checked(tmp_path: Path):
     for make in (
         lambda: new_description_package(tmp_path, "../x"),
-        lambda: new_interface_package(tmp_path, NewPackage("A")),
+        lambda: new_package(tmp_path, NewPackage("A")),
+        lambda: new_package(tmp_path, replace(MINE, build_type="cmake", has_interfaces=True)),
     ):
         with pytest.raises(NotMadeError):
             make()

@@ -105,3 +105,10 @@ def test_files_are_installed_and_all_else_stays(rows: str, imports: str, eol: st
 def test_what_is_broken_or_computed_is_left_alone(text: str):
     with pytest.raises(ValueError, match=r"setup\.py"):
         script_added(setup_of(text), "a", "p.a:main")
+
+
+def test_glob_is_called_as_the_file_imports_it():
+    text = "import glob\nfrom setuptools import setup\nsetup(name='p', data_files=[])\n"
+    made = with_replacements(text.encode(), data_files_added(setup_of(text), [("launch", "*")]))
+    assert b"('share/p/launch', glob.glob('launch/*'))" in made
+    assert made.count(b"import glob") == 1

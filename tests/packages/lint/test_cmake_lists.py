@@ -112,16 +112,6 @@ def test_types_of_other_packages_are_dependencies_of_the_interfaces(tmp_path: Pa
     assert codes(tmp_path) == set()
 
 
-def test_folders_are_installed(tmp_path: Path):
-    package = sound(tmp_path, build_type="ament_cmake")
-    written(package, "urdf/a.urdf", "<robot name='a'><link name='b'/></robot>")
-    mended(tmp_path, "cmake-folder-not-installed", "CMakeLists.txt")
-    assert codes(tmp_path) == set()
-    (package / "urdf" / "a.urdf").unlink()
-    (package / "urdf").rmdir()
-    finding(tmp_path, "install-folder-missing", "CMakeLists.txt")
-
-
 def test_what_every_list_has_is_missed(tmp_path: Path):
     package = sound(tmp_path, build_type="ament_cmake")
     changed(package, "CMakeLists.txt", "\nament_package()\n", "")

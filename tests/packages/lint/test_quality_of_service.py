@@ -5,10 +5,16 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.packages.edits.new_files import node_text
+from studio.packages.lint import checked
+from studio.packages.sources.topic_ends import topic_ends
 from tests.support.seeded_packages import codes, finding, sound, written
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
+
+    from studio.packages.sources.python_file import PythonFile
+    from studio.packages.sources.topic_ends import TopicEnd
 
 IMPORT = (
     "from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy\n"
@@ -32,3 +38,20 @@ def test_what_is_asked_must_be_offered(tmp_path: Path, offered: str, asked: str,
         assert codes(tmp_path) == set()
     else:
         assert "talker.py" in finding(tmp_path, "qos-mismatch", "hear.py").sentence
+
+
+def test_the_files_of_a_workspace_are_read_once_for_all_its_packages(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    for number in range(4):
+        package = sound(tmp_path, f"my_pkg_{number}")
+        written(package, f"my_pkg_{number}/hear.py", node_text("hear", "subscriber"))
+    read: list[str] = []
+
+    def noted(python: PythonFile) -> Iterator[TopicEnd]:
+        read.append(python.source.file)
+        return topic_ends(python)
+
+    monkeypatch.setattr(checked, "topic_ends", noted)
+    assert codes(tmp_path) == set()
+    assert len(read) == len(set(read)) > 4

@@ -2,9 +2,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import pytest
-
-from tests.support.seeded_packages import changed, codes, finding, mended, sound, written
+from tests.support.seeded_packages import changed, codes, finding, mended, sound
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,27 +36,6 @@ def test_a_build_type_that_is_not_said_is_said(tmp_path: Path):
 def test_without_its_file_nothing_is_built(tmp_path: Path):
     (sound(tmp_path) / "setup.py").unlink()
     finding(tmp_path, "build-file-missing", "package.xml")
-
-
-@pytest.mark.parametrize(
-    "file", ["launch/up.launch.py", "urdf/r2d2.urdf.xml", "config/params.yaml", "srv/Old.srv"]
-)
-def test_a_folder_that_is_not_installed_is(tmp_path: Path, file: str):
-    # A listing of the course, S0, S3:335
-    package = sound(tmp_path)
-    written(
-        package, file, "def generate_launch_description():\n    pass\n" if ".py" in file else "\n"
-    )
-    mended(tmp_path, "folder-not-installed", "setup.py")
-    assert "folder-not-installed" not in codes(tmp_path)
-
-
-def test_a_launch_file_in_the_root_that_is_not_installed_is(tmp_path: Path):
-    package = sound(tmp_path)
-    written(package, "up.launch.py", "def generate_launch_description():\n    pass\n")
-    mended(tmp_path, "launch-not-installed", "setup.py")
-    assert "('share/' + package_name, ['up.launch.py'])" in (package / "setup.py").read_text()
-    assert codes(tmp_path) == set()
 
 
 def test_a_file_that_is_to_be_installed_and_is_not_there_is_told(tmp_path: Path):

@@ -3,7 +3,8 @@ from __future__ import annotations
 import pytest
 
 from studio.errors import WireSettingsError
-from studio.ros.wire.settings import ROUTER_ENDPOINT, wire_settings
+from studio.ros.profiles import profile_named
+from studio.ros.wire.settings import ROUTER_ENDPOINT, WireSettings, environment_for, wire_settings
 
 FAR = "tcp/192.0.2.7:7447"
 
@@ -60,3 +61,15 @@ def test_files_of_configuration_are_those_of_the_environment():
     found = wire_settings(environment=environment)
     assert (found.config_file, found.router_config_file) == ("/sessions.json5", "/router.json5")
     assert wire_settings(environment={}).router_config_file is None
+
+
+def test_nodes_join_the_same_routers_and_domain_and_keep_the_rest_of_the_environment():
+    settings = WireSettings(
+        connect=("tcp/127.0.0.1:1", "tcp/127.0.0.1:2"), domain=7, profile=profile_named("humble")
+    )
+    environment = environment_for(settings, {"A": "b", "ZENOH_CONFIG_OVERRIDE": "x=1;y=2"})
+    found = wire_settings(environment=environment)
+    assert (found.connect, found.domain) == (settings.connect, settings.domain)
+    assert found.overrides == {"x": "1", "y": "2"}
+    assert environment["A"] == "b"
+    assert found.profile == settings.profile

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from studio.packages.entry_points import read_outline
+from studio.packages.robot_files import read_outline
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 

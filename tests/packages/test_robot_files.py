@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.packages.entry_points import EntryPoint, entry_points
+from studio.packages.robot_files import Candidate, robot_candidates
 from studio.packages.roots import ServedRoots
 from tests.support.corpus import corpus
 from tests.support.packages import write_package
@@ -20,9 +20,9 @@ MACROS = f'{HEAD}><xacro:macro name="m"><link name="a"/></xacro:macro></robot>'
 CALLS = f'{HEAD} name="rover"><xacro:m/></robot>'
 
 
-def found(folder: Path) -> dict[str, EntryPoint]:
+def found(folder: Path) -> dict[str, Candidate]:
     """Entry points by file name, in their order."""
-    return {one.path.name: one for one in entry_points(folder, ServedRoots([folder]))}
+    return {one.path.name: one for one in robot_candidates(folder, ServedRoots([folder]))}
 
 
 def write(folder: Path, files: dict[str, str]) -> Path:
@@ -147,7 +147,7 @@ def test_the_best_file_comes_first(tmp_path: Path):
             "urdf/macros.xacro": MACROS,
         },
     )
-    points = entry_points(tmp_path, ServedRoots([tmp_path]))
+    points = robot_candidates(tmp_path, ServedRoots([tmp_path]))
     names = [str(one.path.relative_to(tmp_path / "rover_description")) for one in points]
     assert names[0] == "urdf/rover.urdf.xacro"
     assert names[1] == "rover.urdf"
@@ -157,7 +157,7 @@ def test_the_best_file_comes_first(tmp_path: Path):
 def test_a_description_package_comes_before_others(tmp_path: Path):
     write_package(tmp_path / "a_bringup", files={"a.urdf.xacro": CALLS})
     write_package(tmp_path / "z_description", files={"b/c/other.urdf.xacro": CALLS})
-    points = entry_points(tmp_path, ServedRoots([tmp_path]))
+    points = robot_candidates(tmp_path, ServedRoots([tmp_path]))
     assert points[0].package == "z_description"
 
 
@@ -186,7 +186,7 @@ def test_pipes_and_links_that_lead_outside_are_not_readable(tmp_path: Path):
 def test_progress_is_told(tmp_path: Path):
     write(tmp_path, {"a.xacro": CALLS, "b.xacro": MACROS})
     told: list[tuple[int, int]] = []
-    entry_points(tmp_path, ServedRoots([tmp_path]), lambda done, of: told.append((done, of)))
+    robot_candidates(tmp_path, ServedRoots([tmp_path]), lambda done, of: told.append((done, of)))
     assert told == [(1, 2), (2, 2)]
 
 
@@ -216,7 +216,7 @@ def test_every_real_repository_offers_a_robot_first():
     missing = [
         one.name
         for one in sorted(folder.iterdir())
-        if one.is_dir() and not entry_points(one, ServedRoots([one]))[0].openable
+        if one.is_dir() and not robot_candidates(one, ServedRoots([one]))[0].openable
     ]
     assert missing == []
 
@@ -225,12 +225,12 @@ def test_every_real_repository_offers_a_robot_first():
 @pytest.mark.parametrize("repository", FIRST_OF_REPOSITORY)
 def test_the_first_robot_of_a_real_repository_is_the_one_a_person_would_open(repository: str):
     folder = corpus() / repository
-    best = entry_points(folder, ServedRoots([folder]))[0]
+    best = robot_candidates(folder, ServedRoots([folder]))[0]
     assert str(best.path.relative_to(folder)) == FIRST_OF_REPOSITORY[repository]
 
 
 @pytest.mark.corpus
 def test_the_robots_of_the_corpus_are_counted():
     folder = corpus()
-    points = entry_points(folder, ServedRoots([folder]))
+    points = robot_candidates(folder, ServedRoots([folder]))
     assert (sum(one.openable for one in points), len(points)) == (109, 537)

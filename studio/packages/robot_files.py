@@ -232,7 +232,7 @@ class Includes:
 
 
 @dataclass(frozen=True, slots=True)
-class EntryPoint:
+class Candidate:
     """A file that is, or might be taken for, a robot description."""
 
     path: Path
@@ -250,12 +250,12 @@ class EntryPoint:
     """Found files that include it, themselves perhaps no robots."""
 
 
-def entry_points(
+def robot_candidates(
     folder: Path,
     roots: ServedRoots,
     progress: Callable[[int, int], None] | None = None,
     memory: FolderMemory | None = None,
-) -> list[EntryPoint]:
+) -> list[Candidate]:
     """Return every file below a folder that seems to be a robot description, the best first.
 
     At most FILE_LIMIT files are read. `progress` is called with (files read, files to read);
@@ -267,7 +267,7 @@ def entry_points(
 
 def survey(
     files: Iterable[Path], roots: ServedRoots, progress: Callable[[int, int], None] | None = None
-) -> list[EntryPoint]:
+) -> list[Candidate]:
     """Judge these files, each in the light of the others."""
     return _Survey(roots).run(list(files), progress)
 
@@ -280,7 +280,7 @@ class _Survey:
 
     def run(
         self, files: list[Path], progress: Callable[[int, int], None] | None
-    ) -> list[EntryPoint]:
+    ) -> list[Candidate]:
         outlines: dict[Path, Outline] = {}
         for done, path in enumerate(files, start=1):
             outlines[path] = self._outline(path)
@@ -316,10 +316,10 @@ class _Survey:
         except PackageError:
             return None
 
-    def _judge(self, path: Path, outline: Outline, includes: Includes) -> EntryPoint:
+    def _judge(self, path: Path, outline: Outline, includes: Includes) -> Candidate:
         reason = _why_not(path, outline, includes)
         name = outline.name
-        return EntryPoint(
+        return Candidate(
             path=path,
             kind="xacro" if outline.is_xacro else "urdf",
             title=path.name if not name or "$" in name else name,
@@ -330,7 +330,7 @@ class _Survey:
             included_by=tuple(includes.includers(path)),
         )
 
-    def _rank(self, point: EntryPoint, includes: Includes) -> tuple[bool | int | str, ...]:
+    def _rank(self, point: Candidate, includes: Includes) -> tuple[bool | int | str, ...]:
         """Openable first; then what a person would try first."""
         _, package_folder = self._package_of(point.path.parent)
         inside = point.path.relative_to(package_folder) if package_folder else point.path
@@ -378,7 +378,7 @@ def _without_content(outline: Outline) -> str:
     return "holds no link and calls no macro"
 
 
-def _is_named_like(point: EntryPoint, *, start: bool) -> bool:
+def _is_named_like(point: Candidate, *, start: bool) -> bool:
     """Whether the file has the name of its package, or at least begins with it."""
     file = _ALL_SUFFIXES.sub("", point.path.name)
     base = _PACKAGE_ENDINGS.sub("", _PACKAGE_ENDINGS.sub("", point.package))

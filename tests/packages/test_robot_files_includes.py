@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from studio.packages.entry_points import Includes, Outline
+from studio.packages.robot_files import Includes, Outline
 
 ROVER = ("rover", Path("/ws/rover"))
 
