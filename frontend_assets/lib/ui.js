@@ -11,6 +11,7 @@ import {
   useRef,
 } from "vendor/preact.js";
 
+/** @import { Problem } from "../types/wire.d.ts" */
 /** @import { ComponentChildren } from "vendor/preact.js" */
 
 /** @typedef {[string, Record<string, string>][]} Shapes SVG tag and attributes of each */
@@ -79,6 +80,15 @@ export function SearchBox({ label, value, first, onInput }) {
 export function Switch({ label, checked, disabled, onChange }) {
   return html`<button type="button" role="switch" class="switch" aria-checked=${checked} aria-label=${label}
     disabled=${disabled} onClick=${() => onChange(!checked)}><span class="knob"></span></button>`;
+}
+
+/** @type {Record<Problem["severity"], string>} */
+export const SEVERITY_ICONS = { error: "error", warning: "alert", info: "info" };
+
+/** @param {readonly Problem[]} problems @returns {"red" | "amber" | "calm"} of the badge that counts them, by the worst */
+export function badgeTone(problems) {
+  const weights = new Set(problems.map(({ severity }) => severity));
+  return weights.has("error") ? "red" : weights.has("warning") ? "amber" : "calm";
 }
 
 /** @param {{icon: string, title: string, children?: ComponentChildren}} props what is missing, and what to do */

@@ -9,11 +9,13 @@ import { commandById } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
 import { baseName, shortPath } from "../../lib/paths.js";
 import {
+  badgeTone,
   EmptyState,
   Icon,
   IconButton,
   MenuButton,
   ProgressBar,
+  SEVERITY_ICONS,
   SearchBox,
   Switch,
 } from "../../lib/ui.js";
@@ -164,15 +166,17 @@ export const problemsOf = (problems, one) =>
 function Package({ one, workspace }) {
   const isOpen = chosenPackage.value === one.folder || packages.value.length === 1;
   const found = problemsOf(workspace.problems, one);
+  const { faults, notes } = byWeight(found);
+  const counted = faults.length > 0 ? faults : notes;
   const toggle = () => {
     chosenPackage.value = isOpen ? "" : one.folder;
   };
   return html`<article class=${`packages-package ${isOpen ? "open" : ""}`}>
     <header><button type="button" class="packages-name" aria-expanded=${isOpen} title=${one.folder} onClick=${toggle}>
         <${Icon} name=${isOpen ? "chevronDown" : "chevronRight"} size=${14} /><${Icon} name="package" size=${15} /><strong>${one.name}</strong><span class="muted">${one.build_type}</span>
-        ${found.length > 0 && html`<span class="badge amber" title=${t("packages.findings", { count: found.length })}>${found.length}</span>`}</button>
+        ${counted.length > 0 && html`<span class=${`badge ${badgeTone(counted)}`} title=${countWords(counted)}>${counted.length}</span>`}</button>
       ${one.may_run && html`<${MenuButton} label=${t("packages.add", { name: one.name })} items=${() => addItems(one)}><${Icon} name="plus" /><//>`}</header>
-    ${isOpen && html`<${Details} one=${one} found=${found} graph=${workspace.graph} />`}
+    ${isOpen && html`<${Details} one=${one} faults=${faults} notes=${notes} graph=${workspace.graph} />`}
   </article>`;
 }
 
@@ -180,22 +184,40 @@ function Package({ one, workspace }) {
 const Section = ({ title, children }) =>
   html`<section class="packages-section" aria-label=${title}><h3>${title}</h3>${children}</section>`;
 
-/** @param {{one: PackageView, found: readonly Problem[], graph: WorkspaceView["graph"]}} props */
-function Details({ one, found, graph }) {
+/** @param {readonly Problem[]} found @returns {{faults: Problem[], notes: Problem[]}} `notes`: nothing fails for them, as in a package that was just made */
+function byWeight(found) {
+  const isNote = (/** @type {Problem} */ { severity }) => severity === "info";
+  return { faults: found.filter((one) => !isNote(one)), notes: found.filter(isNote) };
+}
+
+/** @param {readonly Problem[]} found all faults, or all notes */
+const countWords = (found) =>
+  t(found[0]?.severity === "info" ? "packages.notes" : "packages.findings", {
+    count: found.length,
+  });
+
+/** @param {{found: readonly Problem[]}} props */
+const Findings = ({ found }) =>
+  found.length > 0 &&
+  html`<${Section} title=${countWords(found)}><ul>${found.map((problem, at) => html`<${Finding} key=${at} problem=${problem} />`)}</ul><//>`;
+
+/** @param {{one: PackageView, faults: readonly Problem[], notes: readonly Problem[], graph: WorkspaceView["graph"]}} props */
+function Details({ one, faults, notes, graph }) {
   return html`<div class="packages-details">
     ${one.description && html`<p class="note">${one.description}</p>`}
     ${one.fault && html`<p class="note bad">${one.fault}</p>`}
     ${one.is_nested && html`<p class="note">${t("packages.nested")}</p>`}
-    ${found.length > 0 && html`<${Section} title=${t("packages.findings", { count: found.length })}><ul>${found.map((problem, at) => html`<${Finding} key=${at} problem=${problem} />`)}</ul><//>`}
+    <${Findings} found=${faults} />
     ${one.executables.length > 0 && html`<${Section} title=${t("packages.executables")}><ul>${one.executables.map((each) => html`<${Executable} key=${each.name} one=${one} each=${each} />`)}</ul><//>`}
     <${Files} one=${one} />
     ${one.dependencies.length > 0 && html`<${Dependencies} one=${one} graph=${graph} />`}
+    <${Findings} found=${notes} />
   </div>`;
 }
 
 /** @param {{problem: Problem}} props */
 function Finding({ problem }) {
-  return html`<li class=${`packages-finding ${problem.severity}`}><${Icon} name=${problem.severity === "error" ? "error" : "alert"} size=${14} />
+  return html`<li class=${`packages-finding ${problem.severity}`}><${Icon} name=${SEVERITY_ICONS[problem.severity]} size=${14} />
     <span class="packages-row-name">${problem.sentence}</span><${PlaceLink} place=${problem.place} />
     ${problem.fix && mayRun.value && html`<button type="button" class="button small" onClick=${() => mendPackage(problem)}>${problem.fix.label}</button>`}</li>`;
 }
