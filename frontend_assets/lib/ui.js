@@ -9,6 +9,7 @@ import {
   useId,
   useLayoutEffect,
   useRef,
+  useSignal,
 } from "vendor/preact.js";
 
 /** @import { Problem } from "../types/wire.d.ts" */
@@ -74,6 +75,45 @@ export function SearchBox({ label, value, first, onInput }) {
     <input type="search" placeholder=${label} aria-label=${label} value=${value} spellcheck=${false} data-first=${first || null}
       onInput=${(/** @type {any} */ event) => onInput(event.currentTarget.value)} onKeyDown=${clearOnEscape} />
   </label>`;
+}
+
+/**
+ * For a button that is off while what it began is under way.
+ *
+ * @returns {{busy: boolean, during: (work: () => Promise<unknown>) => () => Promise<void>}}
+ */
+export function useBusy() {
+  const busy = useSignal(false);
+  const during = (/** @type {() => Promise<unknown>} */ work) => async () => {
+    busy.value = true;
+    await work();
+    busy.value = false;
+  };
+  return { busy: busy.value, during };
+}
+
+/** So far from its end a list still counts as scrolled to it. */
+const END_PX = 4;
+
+/** @param {HTMLElement} list that scrolls @returns {boolean} */
+export const isAtEnd = ({ scrollHeight, scrollTop, clientHeight }) =>
+  scrollHeight - scrollTop - clientHeight <= END_PX;
+
+/**
+ * For a list of lines that stays at its end while lines come, until somebody scrolls back in it.
+ *
+ * @param {readonly unknown[]} changes of what is shown
+ */
+export function useEnd(changes) {
+  const list = useRef(/** @type {HTMLElement | null} */ (null));
+  const follows = useSignal(true);
+  useLayoutEffect(() => {
+    if (follows.value) list.current?.scrollTo({ top: list.current.scrollHeight });
+  }, [...changes, follows.value]);
+  const onScroll = () => {
+    if (list.current) follows.value = isAtEnd(list.current);
+  };
+  return { list, follows, onScroll };
 }
 
 /** @param {{label: string, checked: boolean, disabled?: boolean, onChange: (checked: boolean) => void}} props */

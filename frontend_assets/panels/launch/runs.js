@@ -3,11 +3,11 @@
 /** @import { OutputLine, ProcessView, RunView } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
+import { html, useEffect, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
 import { t } from "../../lib/i18n.js";
 import { secondsSince, shortTime, useNow } from "../../lib/times.js";
-import { EmptyState, Icon, IconButton, SearchBox, Switch } from "../../lib/ui.js";
+import { EmptyState, Icon, IconButton, SearchBox, useBusy, useEnd } from "../../lib/ui.js";
 import {
   chosenRun,
   endProcess,
@@ -16,7 +16,6 @@ import {
   isUnderWay,
   output,
   restartProcess,
-  runAgainOnSave,
   runs,
   runsToldAt_ms,
   showOutput,
@@ -24,9 +23,8 @@ import {
   stopRun,
 } from "../../model/programs.js";
 import { notify } from "../../model/view.js";
+import { AgainOnSave, hasFailed, StateDot } from "../program-parts.js";
 
-/** So far from its end a list still counts as scrolled to it. */
-const END_PX = 4;
 /** Of more lines the oldest are not drawn. */
 const DRAWN_MAX = 1000;
 
@@ -53,12 +51,9 @@ function Choice({ all, run }) {
     (one) =>
       html`<li key=${one.run}><button type="button" class="launching-run" aria-pressed=${one.run === run.run} onClick=${() => {
         chosenRun.value = one.run;
-      }}><span class=${`launching-dot ${dotOf(one)}`}></span><span class="launching-run-name">${titleOf(one)}</span><span class="muted">${one.run}</span></button></li>`,
+      }}><${StateDot} of=${one} /><span class="launching-run-name">${titleOf(one)}</span><span class="muted">${one.run}</span></button></li>`,
   )}</ul>`;
 }
-
-/** @param {Pick<RunView, "state" | "code">} run */
-const dotOf = ({ state, code }) => (state === "ended" && code !== 0 ? "failed" : state);
 
 /** @param {{run: RunView}} props */
 function OneRun({ run }) {
@@ -71,22 +66,17 @@ function OneRun({ run }) {
 
 /** @param {{run: RunView}} props */
 function Head({ run }) {
-  const busy = useSignal(false);
+  const { busy, during } = useBusy();
   const since_s = secondsSince(runsToldAt_ms.value, useNow());
-  const during = (/** @type {() => Promise<unknown>} */ work) => async () => {
-    busy.value = true;
-    await work();
-    busy.value = false;
-  };
   const isOver = !isUnderWay(run);
   return html`<header class="launching-head">
-    <p><span class=${`launching-dot ${dotOf(run)}`}></span><code title=${run.file}>${run.line}</code></p>
-    <p class=${`launching-state ${isOver && run.code !== 0 ? "bad" : ""}`} role="status">${stateWords(run, since_s)}${run.again > 0 && ` · ${t("launching.again.count", { count: run.again })}`}</p>
+    <p><${StateDot} of=${run} /><code title=${run.file}>${run.line}</code></p>
+    <p class=${`launching-state ${hasFailed(run) ? "bad" : ""}`} role="status">${stateWords(run, since_s)}${run.again > 0 && ` · ${t("launching.again.count", { count: run.again })}`}</p>
     <div class="launching-buttons">
-      ${!isOver && html`<button type="button" class="button small" disabled=${busy.value || run.state === "stopping"} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${13} />${t("launching.stop")}</button>`}
-      <button type="button" class="button small" disabled=${busy.value} onClick=${during(() => startRunAgain(run.run))}><${Icon} name="reload" size=${13} />${t("launching.start_again")}</button>
+      ${!isOver && html`<button type="button" class="button small" disabled=${busy || run.state === "stopping"} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${13} />${t("launching.stop")}</button>`}
+      <button type="button" class="button small" disabled=${busy} onClick=${during(() => startRunAgain(run.run))}><${Icon} name="reload" size=${13} />${t("launching.start_again")}</button>
       ${isOver && html`<${IconButton} icon="trash" size=${14} label=${t("launching.forget")} onClick=${() => forgetRun(run.run)} />`}
-      <label class="launching-again"><${Switch} label=${t("launching.again")} checked=${run.again_on_save} onChange=${(/** @type {boolean} */ on) => runAgainOnSave(run.run, on)} /><span aria-hidden="true">${t("launching.again")}</span></label>
+      <${AgainOnSave} run=${run} />
     </div></header>`;
 }
 
@@ -110,7 +100,7 @@ function Processes({ run, process }) {
     )}
     ${run.not_started.map(
       (one) =>
-        html`<li key=${`not ${one.id}`} class="launching-process off"><span class="launching-dot"></span><span class="launching-process-name">${one.name || one.executable}<small>${t("launching.not_started", { reason: one.reason })}</small></span></li>`,
+        html`<li key=${`not ${one.id}`} class="launching-process off"><${StateDot} /><span class="launching-process-name">${one.name || one.executable}<small>${t("launching.not_started", { reason: one.reason })}</small></span></li>`,
     )}</ul>`;
 }
 
@@ -126,7 +116,7 @@ function ProcessRow({ run, one, process }) {
   ].filter(Boolean);
   const isDone = !isUnderWay(run);
   return html`<li class="launching-process"><button type="button" class="launching-process-button" aria-pressed=${isChosen} title=${one.command} onClick=${choose}>
-      <span class=${`launching-dot ${one.state === "ended" && one.code !== 0 ? "failed" : one.state}`}></span>
+      <${StateDot} of=${one} />
       <span class="launching-process-name">${one.node || one.name}<small>${words.join(" · ")}</small></span></button>
     <${IconButton} icon="reload" size=${13} label=${t("launching.restart", { name: one.name })} disabled=${isDone} onClick=${() => restartProcess(run.run, one.id)} />
     <${IconButton} icon="stop" size=${13} label=${t("launching.end", { name: one.name })} disabled=${isDone || one.state === "ended"} onClick=${() => endProcess(run.run, one.id)} /></li>`;
@@ -136,18 +126,10 @@ function ProcessRow({ run, one, process }) {
 function Output({ run, process }) {
   const words = useSignal("");
   const errors = useSignal(false);
-  const follows = useSignal(true);
-  const list = useRef(/** @type {HTMLElement | null} */ (null));
   const { lines, dropped } = output.value;
   const filter = { words: words.value, process: process.value, errors: errors.value };
   const shown = lines.filter((line) => isShown(line, filter)).slice(-DRAWN_MAX);
-  useLayoutEffect(() => {
-    if (follows.value) list.current?.scrollTo({ top: list.current.scrollHeight });
-  }, [lines, follows.value, words.value, process.value, errors.value]);
-  const onScroll = () => {
-    const { scrollHeight = 0, scrollTop = 0, clientHeight = 0 } = list.current ?? {};
-    follows.value = scrollHeight - scrollTop - clientHeight <= END_PX;
-  };
+  const { list, follows, onScroll } = useEnd([lines, words.value, process.value, errors.value]);
   const names = new Map(run.processes.map((one) => [one.id, one.name]));
   const copy = async () => {
     const done = await copyText(shown.map(({ text }) => text).join("\n"));

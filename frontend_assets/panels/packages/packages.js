@@ -17,22 +17,20 @@ import {
   ProgressBar,
   SEVERITY_ICONS,
   SearchBox,
-  Switch,
+  useBusy,
 } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayManage } from "../../model/connection.js";
 import { showInterface } from "../../model/interfaces.js";
 import {
   chosenPackage,
-  followRuns,
-  followWorkspaces,
+  followPrograms,
   isUnderWay,
   lastEdit,
   mayRun,
   mendPackage,
   openLaunch,
   packages,
-  runAgainOnSave,
   runs,
   showRun,
   startNode,
@@ -46,19 +44,11 @@ import { openConfigFile } from "../../model/rviz-configs.js";
 import { showSource } from "../../model/source.js";
 import { dialog } from "../../model/view.js";
 import { PlaceLink } from "../parts.js";
-import { NoRuns } from "../program-parts.js";
+import { AgainOnSave, hasFailed, NoRuns, StateDot } from "../program-parts.js";
 import { PackageGraph } from "./package-graph.js";
 
-/** Keep packages and runs true while somebody looks; gives the end of looking. */
-function follow() {
-  const ends = [followWorkspaces(), followRuns()];
-  return () => {
-    for (const end of ends) end();
-  };
-}
-
 export function PackagesPanel() {
-  const { panel } = useLooking(follow);
+  const { panel } = useLooking(followPrograms);
   return html`<section ref=${panel} class="panel-body packages" aria-label=${t("panel.packages")}>
     ${mayManage.value ? html`<${Content} />` : html`<${EmptyState} icon="package" title=${t("packages.owner")} />`}
   </section>`;
@@ -233,7 +223,7 @@ function Executable({ one, each }) {
   const run = runOf(one, each);
   const { file } = each;
   return html`<li class="packages-executable"><div class="packages-row">
-      <span class=${`packages-dot ${dotOf(run)}`}></span>
+      <${StateDot} of=${run} />
       ${file ? html`<button type="button" class="text-button packages-row-name" title=${file} onClick=${() => showSource(file, 1)}>${each.name}</button>` : html`<span class="packages-row-name">${each.name}</span>`}
       <span class="muted">${each.language}</span>
       ${run && html`<${IconButton} icon="log" size=${14} label=${t("packages.output", { name: each.name })} onClick=${() => showRun(run.run)} />`}
@@ -242,37 +232,20 @@ function Executable({ one, each }) {
     ${run && html`<${HowItRuns} each=${each} run=${run} />`}</li>`;
 }
 
-/** @param {RunView | undefined} run @returns {string} */
-function dotOf(run) {
-  if (!run) return "";
-  if (isUnderWay(run)) return run.state;
-  return run.code === 0 ? "ended" : "failed";
-}
-
 /** @param {{one: PackageView, each: ExecutableView, run: RunView | undefined}} props */
 function RunButton({ one, each, run }) {
-  const busy = useSignal(false);
-  const during = (/** @type {() => Promise<unknown>} */ work) => async () => {
-    busy.value = true;
-    await work();
-    busy.value = false;
-  };
+  const { busy, during } = useBusy();
   if (run && isUnderWay(run))
-    return html`<button type="button" class="button small" disabled=${busy.value} aria-label=${t("packages.stop.of", { name: each.name })} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${12} />${t("launching.stop")}</button>`;
-  return html`<button type="button" class="button small primary" disabled=${busy.value} aria-label=${t("packages.run.of", { name: each.name })} onClick=${during(() => startNode(one.name, each.name))}><${Icon} name="animate" size=${12} />${t("packages.run")}</button>`;
+    return html`<button type="button" class="button small" disabled=${busy} aria-label=${t("packages.stop.of", { name: each.name })} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${12} />${t("launching.stop")}</button>`;
+  return html`<button type="button" class="button small primary" disabled=${busy} aria-label=${t("packages.run.of", { name: each.name })} onClick=${during(() => startNode(one.name, each.name))}><${Icon} name="animate" size=${12} />${t("packages.run")}</button>`;
 }
 
 /** @param {{each: ExecutableView, run: RunView}} props */
 function HowItRuns({ each, run }) {
-  if (isUnderWay(run) || run.again_on_save)
-    return html`<label class="packages-again"><${Switch} label=${t("packages.again.of", { name: each.name })} checked=${run.again_on_save} onChange=${(/** @type {boolean} */ on) => runAgainOnSave(run.run, on)} /><span aria-hidden="true">${t("launching.again")}</span></label>
-      ${dotOf(run) === "failed" && html`<${Failed} run=${run} />`}`;
-  return dotOf(run) === "failed" ? html`<${Failed} run=${run} />` : null;
+  const isOffered = isUnderWay(run) || run.again_on_save;
+  return html`${isOffered && html`<${AgainOnSave} run=${run} label=${t("packages.again.of", { name: each.name })} />`}
+    ${hasFailed(run) && html`<p class="note bad">${t("packages.failed", { code: run.code, reason: run.trouble })}</p>`}`;
 }
-
-/** @param {{run: RunView}} props */
-const Failed = ({ run }) =>
-  html`<p class="note bad">${t("packages.failed", { code: run.code, reason: run.trouble })}</p>`;
 
 /** @param {{one: PackageView}} props what opens in other panels */
 function Files({ one }) {
