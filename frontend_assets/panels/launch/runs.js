@@ -25,7 +25,7 @@ import {
 import { notify } from "../../model/view.js";
 import { AgainOnSave, hasFailed, StateDot } from "../program-parts.js";
 
-/** Of more lines the oldest are not drawn. */
+/** Of more lines the oldest are not drawn, which is said. */
 const DRAWN_MAX = 1000;
 
 export function RunsView() {
@@ -128,11 +128,12 @@ function Output({ run, process }) {
   const errors = useSignal(false);
   const { lines, dropped } = output.value;
   const filter = { words: words.value, process: process.value, errors: errors.value };
-  const shown = lines.filter((line) => isShown(line, filter)).slice(-DRAWN_MAX);
+  const found = lines.filter((line) => isShown(line, filter));
+  const shown = found.slice(-DRAWN_MAX);
   const { list, follows, onScroll } = useEnd([lines, words.value, process.value, errors.value]);
   const names = new Map(run.processes.map((one) => [one.id, one.name]));
   const copy = async () => {
-    const done = await copyText(shown.map(({ text }) => text).join("\n"));
+    const done = await copyText(found.map(({ text }) => text).join("\n"));
     notify(done ? t("copied") : t("copy.failed"), { bad: !done });
   };
   return html`<section class="launching-output" aria-label=${t("launching.output")}>
@@ -150,6 +151,7 @@ function Output({ run, process }) {
       <${IconButton} icon="copy" label=${t("launching.copy")} disabled=${shown.length === 0} onClick=${copy} /></div>
     <div ref=${list} class="scroll launching-lines" tabindex="0" role="log" aria-live="off" aria-label=${t("launching.output")} onScroll=${onScroll}>
       ${dropped > 0 && html`<p class="note">${t("launching.dropped", { count: dropped })}</p>`}
+      ${found.length > shown.length && html`<p class="note">${t("launching.older", { count: found.length - shown.length })}</p>`}
       ${shown.length === 0 && html`<p class="note">${t(lines.length > 0 ? "launching.filtered" : "launching.output.none")}</p>`}
       ${shown.map((line) => html`<${Line} key=${line.number} line=${line} name=${names.get(line.process) ?? ""} isNamed=${run.kind === "launch" && process.value === null} />`)}
     </div></section>`;
