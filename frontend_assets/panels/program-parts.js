@@ -3,6 +3,7 @@
 /** @import { ProcessView, RunView } from "../types/wire.d.ts" */
 
 import { html } from "vendor/preact.js";
+import { CodeLine } from "../app/code-line.js";
 import { t } from "../lib/i18n.js";
 import { EmptyState, Switch } from "../lib/ui.js";
 import { documentState } from "../model/document.js";
@@ -13,7 +14,7 @@ export function NoRuns({ icon }) {
   const folder = documentState.value?.root ?? "FOLDER";
   return html`<${EmptyState} icon=${icon} title=${t("programs.off")}>
     <p>${t("programs.off.hint")}</p>
-    <p><code>${`studio open ${folder} --allow-run ${folder}`}</code></p><//>`;
+    <${CodeLine} code=${`studio open ${folder} --allow-run ${folder}`} /><//>`;
 }
 
 /** @param {{of: Pick<RunView | ProcessView, "state" | "code"> | undefined}} props a run or a process of one; undefined: it was never started */

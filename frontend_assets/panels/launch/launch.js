@@ -143,7 +143,7 @@ function given() {
 
 function Parts() {
   const count = runs.value?.filter(isUnderWay).length ?? 0;
-  return html`<div class="segments launching-parts" role="group" aria-label=${t("launching.part")}>${PARTS.map(
+  return html`<div class="segments words launching-parts" role="group" aria-label=${t("launching.part")}>${PARTS.map(
     (one) =>
       html`<button key=${one} type="button" class="segment" aria-pressed=${launchPart.value === one} onClick=${() => {
         launchPart.value = one;

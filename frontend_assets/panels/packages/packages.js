@@ -106,7 +106,7 @@ function Bar({ words, asGraph }) {
     ) => {
       words.value = now;
     }} />
-    <div class="segments" role="group" aria-label=${t("packages.view")}>
+    <div class="segments words" role="group" aria-label=${t("packages.view")}>
       <button type="button" class="segment" aria-pressed=${!asGraph.value} onClick=${show(false)}>${t("packages.list")}</button>
       <button type="button" class="segment" aria-pressed=${asGraph.value} onClick=${show(true)}>${t("packages.graph")}</button></div>
     ${mayRun.value && html`<button type="button" class="button small" onClick=${newPackage}><${Icon} name="plus" size=${13} />${t("packages.new")}</button>`}

@@ -56,7 +56,7 @@ function Bar({ text, onlyChanges, changes, find }) {
     onlyChanges.value = only;
   };
   return html`<div class="panel-bar row urdf-bar">
-    <div class="segments" role="group" aria-label=${t("urdf.view")}>
+    <div class="segments words" role="group" aria-label=${t("urdf.view")}>
       <button type="button" class="segment" aria-pressed=${!onlyChanges.value} onClick=${choose(false)}>${t("urdf.all")}</button>
       <button type="button" class="segment" aria-pressed=${onlyChanges.value} onClick=${choose(true)}>${t("urdf.changes")}</button>
     </div>
