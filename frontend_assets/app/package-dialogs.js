@@ -94,8 +94,8 @@ export function NewPackageDialog({ onClose }) {
         ]} onChange=${(/** @type {PackageForm["contents"]} */ contents) => set({ contents })} />
         ${value.contents === "nodes" && html`<${NodeRows} value=${value} set=${set} />`}
         ${value.contents !== "description" && html`<${AboutRows} value=${value} set=${set} />`}
+        <div class="form-line"><${CodeLine} code=${createLine(value)} /></div>
       </div>
-      <div class="form-line"><${CodeLine} code=${createLine(value)} /></div>
       <footer><span class="push"></span>
         <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
         <button type="submit" class="button primary" disabled=${busy.value || value.name === "" || fault !== ""}>${t("packages.make")}</button></footer>
