@@ -49,7 +49,7 @@ const titleOf = (run) =>
 function Choice({ all, run }) {
   return html`<ul class="launching-runs" aria-label=${t("launching.part.runs")}>${all.map(
     (one) =>
-      html`<li key=${one.run}><button type="button" class="launching-run" aria-pressed=${one.run === run.run} onClick=${() => {
+      html`<li key=${one.run}><button type="button" class="row-button launching-run" aria-pressed=${one.run === run.run} onClick=${() => {
         chosenRun.value = one.run;
       }}><${StateDot} of=${one} /><span class="launching-run-name">${titleOf(one)}</span><span class="muted">${one.run}</span></button></li>`,
   )}</ul>`;
@@ -115,7 +115,7 @@ function ProcessRow({ run, one, process }) {
     one.starts > 1 && t("launching.process.starts", { count: one.starts }),
   ].filter(Boolean);
   const isDone = !isUnderWay(run);
-  return html`<li class="launching-process"><button type="button" class="launching-process-button" aria-pressed=${isChosen} title=${one.command} onClick=${choose}>
+  return html`<li class="launching-process"><button type="button" class="row-button launching-process-button" aria-pressed=${isChosen} title=${one.command} onClick=${choose}>
       <${StateDot} of=${one} />
       <span class="launching-process-name">${one.node || one.name}<small>${words.join(" · ")}</small></span></button>
     <${IconButton} icon="reload" size=${13} label=${t("launching.restart", { name: one.name })} disabled=${isDone} onClick=${() => restartProcess(run.run, one.id)} />
@@ -153,7 +153,7 @@ function Output({ run, process }) {
       ${dropped > 0 && html`<p class="note">${t("launching.dropped", { count: dropped })}</p>`}
       ${found.length > shown.length && html`<p class="note">${t("launching.older", { count: found.length - shown.length })}</p>`}
       ${shown.length === 0 && html`<p class="note">${t(lines.length > 0 ? "launching.filtered" : "launching.output.none")}</p>`}
-      ${shown.map((line) => html`<${Line} key=${line.number} line=${line} name=${names.get(line.process) ?? ""} isNamed=${run.kind === "launch" && process.value === null} />`)}
+      ${shown.map((line) => html`<${Line} key=${line.number} line=${line} name=${names.get(line.process) ?? ""} isNamed=${run.processes.length > 1 && process.value === null} />`)}
     </div></section>`;
 }
 

@@ -162,7 +162,7 @@ function Package({ one, workspace }) {
     chosenPackage.value = isOpen ? "" : one.folder;
   };
   return html`<article class=${`packages-package ${isOpen ? "open" : ""}`}>
-    <header><button type="button" class="packages-name" aria-expanded=${isOpen} title=${one.folder} onClick=${toggle}>
+    <header><button type="button" class="row-button packages-name" aria-expanded=${isOpen} title=${one.folder} onClick=${toggle}>
         <${Icon} name=${isOpen ? "chevronDown" : "chevronRight"} size=${14} /><${Icon} name="package" size=${15} /><strong>${one.name}</strong><span class="muted">${one.build_type}</span>
         ${counted.length > 0 && html`<span class=${`badge ${badgeTone(counted)}`} title=${countWords(counted)}>${counted.length}</span>`}</button>
       ${one.may_run && html`<${MenuButton} label=${t("packages.add", { name: one.name })} items=${() => addItems(one)}><${Icon} name="plus" /><//>`}</header>
