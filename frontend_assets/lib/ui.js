@@ -13,7 +13,7 @@ import {
 } from "vendor/preact.js";
 
 /** @import { Problem } from "../types/wire.d.ts" */
-/** @import { ComponentChildren } from "vendor/preact.js" */
+/** @import { ComponentChildren, Signal } from "vendor/preact.js" */
 
 /** @typedef {[string, Record<string, string>][]} Shapes SVG tag and attributes of each */
 
@@ -129,6 +129,17 @@ export const SEVERITY_ICONS = { error: "error", warning: "alert", info: "info" }
 export function badgeTone(problems) {
   const weights = new Set(problems.map(({ severity }) => severity));
   return weights.has("error") ? "red" : weights.has("warning") ? "amber" : "calm";
+}
+
+/** @param {{label: string, chosen: Signal<any>, of: readonly (readonly [any, ComponentChildren])[]}} props values with their words, of which one is chosen */
+export function Segments({ label, chosen, of }) {
+  const choose = (/** @type {any} */ value) => () => {
+    chosen.value = value;
+  };
+  return html`<div class="segments words" role="group" aria-label=${label}>${of.map(
+    ([value, words]) =>
+      html`<button key=${String(value)} type="button" class="segment" aria-pressed=${chosen.value === value} onClick=${choose(value)}>${words}</button>`,
+  )}</div>`;
 }
 
 /** @param {{icon: string, title: string, children?: ComponentChildren}} props what is missing, and what to do */

@@ -6,7 +6,7 @@
 import { html, signal, useEffect } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { baseName } from "../../lib/paths.js";
-import { EmptyState, Icon, ProgressBar, useBusy } from "../../lib/ui.js";
+import { EmptyState, Icon, ProgressBar, Segments, useBusy } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayManage } from "../../model/connection.js";
 import {
@@ -143,12 +143,12 @@ function given() {
 
 function Parts() {
   const count = runs.value?.filter(isUnderWay).length ?? 0;
-  return html`<div class="segments words launching-parts" role="group" aria-label=${t("launching.part")}>${PARTS.map(
-    (one) =>
-      html`<button key=${one} type="button" class="segment" aria-pressed=${launchPart.value === one} onClick=${() => {
-        launchPart.value = one;
-      }}>${t(`launching.part.${one}`)}${one === "runs" && count > 0 && html` <span class="badge calm">${count}</span>`}</button>`,
-  )}</div>`;
+  const badge = count > 0 && html` <span class="badge calm">${count}</span>`;
+  const of = PARTS.map((one) => [
+    one,
+    html`${t(`launching.part.${one}`)}${one === "runs" && badge}`,
+  ]);
+  return html`<${Segments} label=${t("launching.part")} chosen=${launchPart} of=${of} />`;
 }
 
 /** Plan the file whenever it, or what is given, changes. @param {string} file empty: none */

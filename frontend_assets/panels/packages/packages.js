@@ -17,6 +17,7 @@ import {
   ProgressBar,
   SEVERITY_ICONS,
   SearchBox,
+  Segments,
   useBusy,
 } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
@@ -97,18 +98,16 @@ const addItems = (one) =>
 
 /** @param {{words: {value: string}, asGraph: {value: boolean}}} props */
 function Bar({ words, asGraph }) {
-  const show = (/** @type {boolean} */ graph) => () => {
-    asGraph.value = graph;
-  };
   return html`<div class="panel-bar packages-bar">
     <${SearchBox} label=${t("packages.search")} value=${words.value} onInput=${(
       /** @type {string} */ now,
     ) => {
       words.value = now;
     }} />
-    <div class="segments words" role="group" aria-label=${t("packages.view")}>
-      <button type="button" class="segment" aria-pressed=${!asGraph.value} onClick=${show(false)}>${t("packages.list")}</button>
-      <button type="button" class="segment" aria-pressed=${asGraph.value} onClick=${show(true)}>${t("packages.graph")}</button></div>
+    <${Segments} label=${t("packages.view")} chosen=${asGraph} of=${[
+      [false, t("packages.list")],
+      [true, t("packages.graph")],
+    ]} />
     ${mayRun.value && html`<button type="button" class="button small" onClick=${newPackage}><${Icon} name="plus" size=${13} />${t("packages.new")}</button>`}
   </div>
   ${
