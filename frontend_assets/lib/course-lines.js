@@ -176,7 +176,7 @@ export function distance(a, b) {
 }
 
 /** @param {string} word @returns {string} as a shell takes it for one word */
-function quoted(word) {
+export function quoted(word) {
   if (/^[\w@%+=:,./~<>-]+$/.test(word)) return word;
   return word.includes('"') ? `'${word}'` : `"${word}"`;
 }

@@ -4,6 +4,7 @@
 
 import { html } from "vendor/preact.js";
 import { CodeLine } from "../app/code-line.js";
+import { quoted } from "../lib/course-lines.js";
 import { t } from "../lib/i18n.js";
 import { EmptyState, Switch } from "../lib/ui.js";
 import { documentState } from "../model/document.js";
@@ -11,7 +12,7 @@ import { runAgainOnSave } from "../model/programs.js";
 
 /** @param {{icon: string}} props what stands where nothing may be run, and what to do */
 export function NoRuns({ icon }) {
-  const folder = documentState.value?.root ?? "FOLDER";
+  const folder = quoted(documentState.value?.root ?? "FOLDER");
   return html`<${EmptyState} icon=${icon} title=${t("programs.off")}>
     <p>${t("programs.off.hint")}</p>
     <${CodeLine} code=${`studio open ${folder} --allow-run ${folder}`} /><//>`;
