@@ -11,7 +11,7 @@
 import { computed, effect, signal, untracked } from "vendor/preact.js";
 import { readArrangement } from "../lib/arrangement.js";
 import { recall, remember, remembered } from "../lib/remembered.js";
-import { mayManage } from "../model/connection.js";
+import { documentId, mayManage } from "../model/connection.js";
 import { documentState } from "../model/document.js";
 import { layoutControl, size } from "../model/view.js";
 
@@ -124,16 +124,31 @@ const storeName = (kind) => `layout.${VERSION}.${kind}${isBare.peek() ? ".worksp
  * @returns {{keep: () => void}} to be called when a person moved something
  */
 export function followSize(dock, element, panels) {
+  /** The document has not come, which may ask for other panels than stand here now. */
+  let isWaiting = documentId.peek() !== "";
+  /** A person moved or opened something meanwhile. */
+  let isTouched = false;
+  /** What stood in front before that. @type {string[]} */
+  let given = [];
+  const keep = () => {
+    isTouched = true;
+    if (size.peek() !== "phone" && !isWaiting) remember(storeName(size.peek()), dock.arrangement());
+  };
   const arrange = () => {
     const kind = size.value;
     isBare.value;
     mayRunHere.value;
     // The words of a panel come with it: they must not arrange all anew.
     untracked(() => {
+      const opened = isWaiting ? frontsOf(dock.arrangement()).filter(isOpened) : [];
       dock.setSingle(kind === "phone");
       dock.arrange(arrangementFor(kind, element, panels));
+      given = frontsOf(dock.arrangement());
+      for (const id of opened) dock.show(id);
+      isTouched ||= opened.length > 0;
     });
   };
+  const isOpened = (/** @type {string} */ id) => given.length > 0 && !given.includes(id);
   const measure = () => {
     size.value = sizeOf(innerWidth, innerHeight);
   };
@@ -141,12 +156,24 @@ export function followSize(dock, element, panels) {
   addEventListener("resize", measure);
   effect(arrange);
   effect(dock.nameAll);
+  effect(() => {
+    if (!isWaiting || !documentState.value) return;
+    // After `arrange`, which hears of it, too.
+    queueMicrotask(() => {
+      isWaiting = false;
+      if (isTouched) keep();
+    });
+  });
   layoutControl.value = controlFor(dock, arrange);
-  return {
-    keep() {
-      if (size.peek() !== "phone") remember(storeName(size.peek()), dock.arrangement());
-    },
-  };
+  return { keep };
+}
+
+/** @param {Arrangement} arrangement @returns {string[]} the panels that are seen in it */
+function frontsOf({ parts, floating = [] }) {
+  /** @param {Split} part @returns {string[]} */
+  const fronts = (part) =>
+    "split" in part ? part.split.flatMap(fronts) : [part.shown ?? part.tabs[0] ?? ""];
+  return [...parts, ...floating.map((one) => ({ ...one, size: 0 }))].flatMap(fronts);
 }
 
 /** @param {"wide" | "medium" | "phone"} kind @param {HTMLElement} element @param {PlacedPanels} panels @returns {Arrangement} */

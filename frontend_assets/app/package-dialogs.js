@@ -8,6 +8,7 @@ import { Dialog, Icon } from "../lib/ui.js";
 import { chosenPackage, tellEdited, workspaces } from "../model/programs.js";
 import { ask } from "../model/requests.js";
 import { showSource } from "../model/source.js";
+import { CodeLine } from "./code-line.js";
 import { nameFault } from "./place-form.js";
 
 /** @typedef {import("../types/wire.d.ts").PackageEdited} PackageEdited */
@@ -93,8 +94,8 @@ export function NewPackageDialog({ onClose }) {
         ]} onChange=${(/** @type {PackageForm["contents"]} */ contents) => set({ contents })} />
         ${value.contents === "nodes" && html`<${NodeRows} value=${value} set=${set} />`}
         ${value.contents !== "description" && html`<${AboutRows} value=${value} set=${set} />`}
+        <div class="form-line"><${CodeLine} code=${createLine(value)} /></div>
       </div>
-      <p class="form-hint"><${Icon} name="info" size=${14} /><code>${createLine(value)}</code></p>
       <footer><span class="push"></span>
         <button type="button" class="button" onClick=${onClose}>${t("cancel")}</button>
         <button type="submit" class="button primary" disabled=${busy.value || value.name === "" || fault !== ""}>${t("packages.make")}</button></footer>
@@ -205,7 +206,7 @@ export function AddToPackageDialog({ what, folder, name: of, onClose }) {
         }
         ${
           isInterface &&
-          html`<label class="form-row"><span>${t("packages.form.fields")}</span>
+          html`<label class="form-row tall"><span>${t("packages.form.fields")}</span>
           <textarea class="box packages-fields" rows="7" spellcheck=${false} placeholder=${t(`packages.add.${what}.sample`)} value=${text.value} onInput=${(
             /** @type {any} */ event,
           ) => {

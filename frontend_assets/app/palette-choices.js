@@ -9,6 +9,7 @@ import { commandById, commandLabel, commands, onMac, shortcutText } from "../lib
 import { shownText } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { baseName, placeText, shortPath } from "../lib/paths.js";
+import { SEVERITY_ICONS } from "../lib/ui.js";
 import { mayEdit, mayManage } from "../model/connection.js";
 import { allSites, documentState, movable, problems, robot, siteOrder } from "../model/document.js";
 import { applyPose, poses } from "../model/poses.js";
@@ -236,7 +237,7 @@ export function problemChoices() {
   return problems.value.map((problem, at) => ({
     rank: "problem",
     key: `problem ${at}`,
-    icon: problem.severity === "error" ? "error" : "alert",
+    icon: SEVERITY_ICONS[problem.severity],
     label: problem.sentence,
     words: problem.code,
     hint: placeText(problem.place),

@@ -4,6 +4,7 @@
 
 import { t } from "../lib/i18n.js";
 import { baseName } from "../lib/paths.js";
+import { bareCommand, shellWords } from "../lib/ros2-lines.js";
 import { mayRun, openLaunch, packages, showRun, startNode } from "../model/programs.js";
 
 /** @param {string} name of a package @param {string} executable @param {readonly string[]} words behind it */
@@ -18,11 +19,8 @@ async function run(name, executable, words) {
  */
 export function programChoices(text) {
   if (!mayRun.value) return [];
-  const [first, verb, name = "", what = "", ...words] = text
-    .trim()
-    .replace(/^[$>]\s+/, "")
-    .split(/\s+/);
-  if ((first !== "ros2" && first !== "studio") || name === "") return [];
+  const [first, verb, name = "", what = "", ...words] = shellWords(bareCommand(text)) ?? [];
+  if (first !== "ros2" || name === "") return [];
   const meant = packages.value.filter((one) => one.may_run && one.name.startsWith(name));
   if (verb === "run")
     return meant.flatMap((one) =>

@@ -10,7 +10,7 @@
 import { html, render, useEffect, useRef, useState } from "vendor/preact.js";
 import { t } from "../lib/i18n.js";
 import { courtesyMs, until, untilIdle, untilViewFetched } from "../lib/loading.js";
-import { addIcons, Icon, ProgressBar } from "../lib/ui.js";
+import { addIcons, badgeTone, Icon, ProgressBar } from "../lib/ui.js";
 import { asking } from "../model/class.js";
 import { role } from "../model/connection.js";
 import { changedCount, problems, robot } from "../model/document.js";
@@ -94,12 +94,10 @@ function changedBadge() {
 function problemsBadge() {
   const count = problems.value.length;
   if (count === 0) return null;
-  const weights = new Set(problems.value.map(({ severity }) => severity));
-  const bad = !heldBack.value && weights.has("error");
-  const onlyNotes = !weights.has("error") && !weights.has("warning");
+  const tone = badgeTone(problems.value);
   return {
     text: String(count),
-    tone: bad ? "red" : onlyNotes ? "calm" : "amber",
+    tone: tone === "red" && heldBack.value ? "amber" : tone,
     label: t("problems.count", { count }),
   };
 }

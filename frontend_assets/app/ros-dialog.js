@@ -8,9 +8,8 @@
 /** @import { ComponentChildren, Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
-import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
-import { Dialog, Icon, IconButton } from "../lib/ui.js";
+import { Dialog, Icon } from "../lib/ui.js";
 import { mayManage } from "../model/connection.js";
 import {
   connectAt,
@@ -24,7 +23,7 @@ import {
   recentPlaces,
   ros,
 } from "../model/ros.js";
-import { notify } from "../model/view.js";
+import { CodeLine } from "./code-line.js";
 
 /** @returns {Place} where the studio is, or looks */
 const placeNow = () => ({
@@ -199,19 +198,6 @@ function Recipe({ name, lines }) {
     ${lines.map((code) => html`<${CodeLine} key=${code} code=${code} />`)}
     <p class="ros-hint">${t(`ros.recipe.${name}.then`)}</p>
   </section>`;
-}
-
-/**
- * A command, or several, to be copied into a terminal.
- *
- * @param {{code: string}} props
- */
-function CodeLine({ code }) {
-  const copy = async () => {
-    const done = await copyText(code);
-    notify(done ? t("copied") : t("copy.failed"), { bad: !done });
-  };
-  return html`<div class="code-line"><code>${code}</code><${IconButton} icon="copy" label=${t("copy.command")} size=${14} onClick=${copy} /></div>`;
 }
 
 const NAMED = 3;

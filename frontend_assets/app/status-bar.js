@@ -53,7 +53,7 @@ function Evaluator() {
 
 /** How much of a robot it is. */
 function Size() {
-  if (!robot.value) return null;
+  if (!robot.value || documentState.value?.is_bare) return null;
   const [links, joints] = [robot.value.links.length, robot.value.joints.length];
   return html`<span class="wide-only"><b>${links}</b> ${t("links", { count: links })} · <b>${joints}</b> ${t("joints", { count: joints })}</span>`;
 }

@@ -3,7 +3,7 @@
  * is misspelt.
  */
 
-import { COMMAND_VERBS, shellWords } from "./ros2-lines.js";
+import { bareCommand, COMMAND_VERBS, KINDS, shellWords } from "./ros2-lines.js";
 
 /**
  * @typedef {object} ToldLine
@@ -68,16 +68,6 @@ export function commandsOf(text) {
     .filter((command) => command !== "");
 }
 
-/** @param {string} command @returns {string} without prompt, comment sign, `sudo`, and with `ros2` for `studio` */
-export function bareCommand(command) {
-  return command
-    .trim()
-    .replace(/^([$>#]\s*)+/, "")
-    .replace(/^sudo\s+(-\w\s+)*/, "")
-    .replace(/^studio\b/, "ros2")
-    .trim();
-}
-
 /**
  * Pasted text as one line: what goes on in the next line is joined, other lines stand behind `&&`.
  *
@@ -93,16 +83,6 @@ export function oneLine(text) {
     .replace(/&&\s*&&/g, "&&");
 }
 
-const FOLDERS = /** @type {Record<string, string>} */ ({
-  service: "srv",
-  topic: "msg",
-  action: "action",
-});
-const NEEDS_TYPE = /** @type {Record<string, string>} */ ({
-  service: "call",
-  topic: "pub",
-  action: "send_goal",
-});
 const TYPE_ENDING = /\.(srv|msg|action)$/;
 const TYPE = /^[a-zA-Z]\w*([./]\w+){1,2}$/;
 
@@ -136,10 +116,10 @@ function mendedWords([ros2 = "", command = "", ...after], typeOf) {
   if (verbs.length === 0 || after.length === 0) return [ros2, known, ...after];
   const [first = "", ...rest] = after;
   const verb = nearest(first, verbs);
-  if (!FOLDERS[known]) return [ros2, known, verb, ...rest];
+  if (!KINDS[known]?.folder) return [ros2, known, verb, ...rest];
   const names = verb === first ? rest : rest.map((one) => (one.startsWith("/") ? tidy(one) : one));
   const tidied = names.map(tidyType);
-  const whole = verb === NEEDS_TYPE[known] ? withType(tidied, known, typeOf) : tidied;
+  const whole = verb === KINDS[known].verb ? withType(tidied, known, typeOf) : tidied;
   return [ros2, known, verb, ...whole];
 }
 
@@ -196,7 +176,7 @@ export function distance(a, b) {
 }
 
 /** @param {string} word @returns {string} as a shell takes it for one word */
-function quoted(word) {
+export function quoted(word) {
   if (/^[\w@%+=:,./~<>-]+$/.test(word)) return word;
   return word.includes('"') ? `'${word}'` : `"${word}"`;
 }

@@ -11,41 +11,6 @@
  * @property {"topic" | "service" | "action"} [form] its words are the name and the type of a message to be filled in
  */
 
-/** @param {string} panel @param {string} command @param {string} verbs @param {Ros2Line["about"]} [about] @returns {Ros2Line[]} */
-const verbsOf = (panel, command, verbs, about) =>
-  verbs
-    .split(" ")
-    .map((verb) => ({ line: `ros2 ${command} ${verb}`, panel, ...(about && { about }) }));
-
-/** @type {readonly Ros2Line[]} */
-export const ROS2_LINES = [
-  ...verbsOf("topics", "topic", "list echo hz bw delay info type find", "topic"),
-  { line: "ros2 topic pub", panel: "publish", form: "topic" },
-  ...verbsOf("services", "service", "list type find info"),
-  { line: "ros2 service call", panel: "services", form: "service" },
-  ...verbsOf("actions", "action", "list info type"),
-  { line: "ros2 action send_goal", panel: "actions", form: "action" },
-  ...verbsOf("parameters", "param", "list get set describe dump load delete", "node"),
-  ...verbsOf("graph", "node", "list info"),
-  ...verbsOf("interfaces", "interface", "list show package packages proto", "interface"),
-  ...verbsOf("lifecycle", "lifecycle", "nodes get set list"),
-  { line: "ros2 run", panel: "lessons", about: "demo" },
-  { line: "ros2 run rviz2 rviz2", panel: "scene" },
-  { line: "ros2 run rqt_graph rqt_graph", panel: "graph" },
-  { line: "ros2 run turtlesim turtlesim_node", panel: "turtlesim" },
-  { line: "ros2 run turtlesim turtle_teleop_key", panel: "teleop" },
-  { line: "ros2 run joint_state_publisher_gui joint_state_publisher_gui", panel: "joints" },
-  { line: "ros2 run tf2_tools view_frames", panel: "frames" },
-  { line: "ros2 run tf2_ros tf2_echo", panel: "frames" },
-  { line: "ros2 launch", panel: "launch" },
-  { line: "ros2 doctor", panel: "doctor" },
-  { line: "rqt_graph", panel: "graph" },
-  { line: "rqt_plot", panel: "plot" },
-  { line: "rqt_console", panel: "log" },
-  { line: "rqt_image_view", panel: "image" },
-  { line: "rviz2", panel: "scene" },
-];
-
 /** The commands of `ros2` and their verbs; those without verbs take arguments at once. @type {Record<string, readonly string[]>} */
 export const COMMAND_VERBS = {
   topic: ["list", "echo", "hz", "bw", "delay", "info", "type", "find", "pub"],
@@ -64,6 +29,49 @@ export const COMMAND_VERBS = {
   wtf: [],
 };
 
+/** The verbs that take values, and the folder of the types of these; none: a parameter's. @type {Record<string, {verb: string, folder: string}>} */
+export const KINDS = {
+  service: { verb: "call", folder: "srv" },
+  action: { verb: "send_goal", folder: "action" },
+  topic: { verb: "pub", folder: "msg" },
+  param: { verb: "set", folder: "" },
+};
+
+/** @param {string} panel @param {string} command @param {Ros2Line["about"]} [about] @returns {Ros2Line[]} of all its verbs but the one with a form */
+const verbsOf = (panel, command, about) =>
+  (COMMAND_VERBS[command] ?? [])
+    .filter((verb) => !KINDS[command]?.folder || verb !== KINDS[command].verb)
+    .map((verb) => ({ line: `ros2 ${command} ${verb}`, panel, ...(about && { about }) }));
+
+/** @type {readonly Ros2Line[]} */
+export const ROS2_LINES = [
+  ...verbsOf("topics", "topic", "topic"),
+  { line: "ros2 topic pub", panel: "publish", form: "topic" },
+  ...verbsOf("services", "service"),
+  { line: "ros2 service call", panel: "services", form: "service" },
+  ...verbsOf("actions", "action"),
+  { line: "ros2 action send_goal", panel: "actions", form: "action" },
+  ...verbsOf("parameters", "param", "node"),
+  ...verbsOf("graph", "node"),
+  ...verbsOf("interfaces", "interface", "interface"),
+  ...verbsOf("lifecycle", "lifecycle"),
+  { line: "ros2 run", panel: "lessons", about: "demo" },
+  { line: "ros2 run rviz2 rviz2", panel: "scene" },
+  { line: "ros2 run rqt_graph rqt_graph", panel: "graph" },
+  { line: "ros2 run turtlesim turtlesim_node", panel: "turtlesim" },
+  { line: "ros2 run turtlesim turtle_teleop_key", panel: "teleop" },
+  { line: "ros2 run joint_state_publisher_gui joint_state_publisher_gui", panel: "joints" },
+  { line: "ros2 run tf2_tools view_frames", panel: "frames" },
+  { line: "ros2 run tf2_ros tf2_echo", panel: "frames" },
+  { line: "ros2 launch", panel: "launch" },
+  { line: "ros2 doctor", panel: "doctor" },
+  { line: "rqt_graph", panel: "graph" },
+  { line: "rqt_plot", panel: "plot" },
+  { line: "rqt_console", panel: "log" },
+  { line: "rqt_image_view", panel: "image" },
+  { line: "rviz2", panel: "scene" },
+];
+
 /**
  * The lines that somebody who typed this may mean.
  *
@@ -71,11 +79,7 @@ export const COMMAND_VERBS = {
  * @returns {readonly {line: Ros2Line, rest: readonly string[]}[]} `rest`: the words behind the line; longest line first
  */
 export function ros2LinesFor(text) {
-  const typed = withoutHelp(
-    (shellWords(unprompted(text)) ?? text.trim().split(/\s+/)).map((word, at) =>
-      at === 0 && word === "studio" ? "ros2" : word,
-    ),
-  );
+  const typed = withoutHelp(shellWords(bareCommand(text)) ?? bareCommand(text).split(/\s+/));
   const whole = ROS2_LINES.flatMap((line) => {
     const words = line.line.split(" ");
     const isWhole = words.every((word, at) => typed[at] === word);
@@ -91,8 +95,15 @@ export function ros2LinesFor(text) {
   }));
 }
 
-/** @param {string} text @returns {string} without the sign of a prompt, or of a comment, before it */
-const unprompted = (text) => text.trim().replace(/^([$>#]\s+)+/, "");
+/** @param {string} command @returns {string} without prompt, comment sign, `sudo`, and with `ros2` for `studio` */
+export function bareCommand(command) {
+  return command
+    .trim()
+    .replace(/^([$>#]\s*)+/, "")
+    .replace(/^sudo\s+(-\w\s+)*/, "")
+    .replace(/^studio\b/, "ros2")
+    .trim();
+}
 
 /** @param {string[]} words @returns {string[]} `ros2 topic -h` asks for the verbs: what begins so is offered */
 function withoutHelp(words) {
@@ -109,13 +120,6 @@ function withoutHelp(words) {
  * @property {{reliability?: string, durability?: string, depth?: number}} qos
  */
 
-/** @type {Record<string, {verb: string, folder: string}>} */
-const KINDS = {
-  service: { verb: "call", folder: "srv" },
-  action: { verb: "send_goal", folder: "action" },
-  topic: { verb: "pub", folder: "msg" },
-  param: { verb: "set", folder: "" },
-};
 /** Options that take a value of their own. */
 const VALUED =
   /^(-r|--rate|-t|--times|-p|--print|-w|--wait-matching-subscriptions|-n|--node-name|--keep-alive|--timeout|--max-wait-time-secs|--qos-\w[\w-]*|--spin-time|--connect|--domain|--router|--distro)$/;
@@ -124,8 +128,8 @@ const RATE_HZ = 1;
 
 /** @param {string} text @returns {PastedLine | null} null: it is no such line */
 export function readLine(text) {
-  const words = shellWords(unprompted(text));
-  if (!words || !/^(ros2|studio)$/.test(words[0] ?? "")) return null;
+  const words = shellWords(bareCommand(text));
+  if (words?.[0] !== "ros2") return null;
   const kind = words[1] ?? "";
   const known = Object.hasOwn(KINDS, kind) ? KINDS[kind] : undefined;
   if (!known || words[2] !== known.verb) return null;

@@ -9,9 +9,11 @@ import {
   useId,
   useLayoutEffect,
   useRef,
+  useSignal,
 } from "vendor/preact.js";
 
-/** @import { ComponentChildren } from "vendor/preact.js" */
+/** @import { Problem } from "../types/wire.d.ts" */
+/** @import { ComponentChildren, Signal } from "vendor/preact.js" */
 
 /** @typedef {[string, Record<string, string>][]} Shapes SVG tag and attributes of each */
 
@@ -75,10 +77,69 @@ export function SearchBox({ label, value, first, onInput }) {
   </label>`;
 }
 
+/**
+ * For a button that is off while what it began is under way.
+ *
+ * @returns {{busy: boolean, during: (work: () => Promise<unknown>) => () => Promise<void>}}
+ */
+export function useBusy() {
+  const busy = useSignal(false);
+  const during = (/** @type {() => Promise<unknown>} */ work) => async () => {
+    busy.value = true;
+    await work();
+    busy.value = false;
+  };
+  return { busy: busy.value, during };
+}
+
+/** So far from its end a list still counts as scrolled to it. */
+const END_PX = 4;
+
+/** @param {HTMLElement} list that scrolls @returns {boolean} */
+export const isAtEnd = ({ scrollHeight, scrollTop, clientHeight }) =>
+  scrollHeight - scrollTop - clientHeight <= END_PX;
+
+/**
+ * For a list of lines that stays at its end while lines come, until somebody scrolls back in it.
+ *
+ * @param {readonly unknown[]} changes of what is shown
+ */
+export function useEnd(changes) {
+  const list = useRef(/** @type {HTMLElement | null} */ (null));
+  const follows = useSignal(true);
+  useLayoutEffect(() => {
+    if (follows.value) list.current?.scrollTo({ top: list.current.scrollHeight });
+  }, [...changes, follows.value]);
+  const onScroll = () => {
+    if (list.current) follows.value = isAtEnd(list.current);
+  };
+  return { list, follows, onScroll };
+}
+
 /** @param {{label: string, checked: boolean, disabled?: boolean, onChange: (checked: boolean) => void}} props */
 export function Switch({ label, checked, disabled, onChange }) {
   return html`<button type="button" role="switch" class="switch" aria-checked=${checked} aria-label=${label}
     disabled=${disabled} onClick=${() => onChange(!checked)}><span class="knob"></span></button>`;
+}
+
+/** @type {Record<Problem["severity"], string>} */
+export const SEVERITY_ICONS = { error: "error", warning: "alert", info: "info" };
+
+/** @param {readonly Problem[]} problems @returns {"red" | "amber" | "calm"} of the badge that counts them, by the worst */
+export function badgeTone(problems) {
+  const weights = new Set(problems.map(({ severity }) => severity));
+  return weights.has("error") ? "red" : weights.has("warning") ? "amber" : "calm";
+}
+
+/** @param {{label: string, chosen: Signal<any>, of: readonly (readonly [any, ComponentChildren])[]}} props values with their words, of which one is chosen */
+export function Segments({ label, chosen, of }) {
+  const choose = (/** @type {any} */ value) => () => {
+    chosen.value = value;
+  };
+  return html`<div class="segments words" role="group" aria-label=${label}>${of.map(
+    ([value, words]) =>
+      html`<button key=${String(value)} type="button" class="segment" aria-pressed=${chosen.value === value} onClick=${choose(value)}>${words}</button>`,
+  )}</div>`;
 }
 
 /** @param {{icon: string, title: string, children?: ComponentChildren}} props what is missing, and what to do */

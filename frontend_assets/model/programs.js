@@ -77,7 +77,7 @@ export async function askWorkspaces() {
 export const followWorkspaces = askedWhenChanged(askWorkspaces, "workspaces");
 
 /** Keep what runs true while somebody looks; gives the end of looking. */
-export const followRuns = askedWhenChanged(async () => {
+const followRuns = askedWhenChanged(async () => {
   if (!mayManage.peek()) return false;
   const answer = await askOrKeepWhy({ type: "get_runs" }, runsRefused);
   if (answer?.type === "runs") {
@@ -87,6 +87,14 @@ export const followRuns = askedWhenChanged(async () => {
   }
   return askOutput();
 }, "runs");
+
+/** Keep both true while somebody looks; gives the end of looking. */
+export function followPrograms() {
+  const ends = [followWorkspaces(), followRuns()];
+  return () => {
+    for (const end of ends) end();
+  };
+}
 
 /** @returns {Promise<boolean>} there is more to be asked for at once */
 async function askOutput() {

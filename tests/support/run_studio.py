@@ -71,6 +71,10 @@ ROBOT = """<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="length" default="0.4"/>
   <link name="base"><visual><geometry><box size="$(arg length) 0.3 0.1"/></geometry>
     <material name="blue"><color rgba="0.2 0.4 0.8 1"/></material></visual></link>
+  <link name="mast"><visual><geometry><cylinder radius="0.01" length="0.3"/></geometry></visual>
+  </link>
+  <joint name="mast_joint" type="fixed"><parent link="base"/><child link="mast"/>
+    <origin xyz="0 0 0.2"/></joint>
 </robot>
 """
 VIEW = """Visualization Manager:

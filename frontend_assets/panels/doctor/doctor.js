@@ -5,6 +5,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, signal, useSignal } from "vendor/preact.js";
+import { CodeLine } from "../../app/code-line.js";
 import { copyText } from "../../lib/clipboard.js";
 import { commandById } from "../../lib/commands.js";
 import { saveAsFile } from "../../lib/files.js";
@@ -188,13 +189,10 @@ function mayCarryOut({ type }) {
 function Evidence({ finding: { code, evidence, line } }) {
   const why = whyOf(code);
   if (!why && evidence.length === 0 && !line) return null;
-  const copy = async () => {
-    if (await copyText(line)) notify(t("copied"));
-  };
   return html`<details class="doctor-evidence"><summary>${t("doctor.evidence")}</summary>
     ${why && html`<p>${why}</p>`}
     ${evidence.length > 0 && html`<ul>${evidence.map((one, at) => html`<li key=${at}>${one}</li>`)}</ul>`}
-    ${line && html`<p class="doctor-line"><code>${line}</code><${IconButton} icon="copy" size=${14} label=${t("doctor.line")} onClick=${copy} /></p>`}
+    ${line && html`<${CodeLine} code=${line} label=${t("doctor.line")} />`}
   </details>`;
 }
 

@@ -3,16 +3,15 @@
 /** @import { Plan } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html, signal, useEffect, useSignal } from "vendor/preact.js";
+import { html, signal, useEffect } from "vendor/preact.js";
 import { t } from "../../lib/i18n.js";
 import { baseName } from "../../lib/paths.js";
-import { EmptyState, Icon, ProgressBar } from "../../lib/ui.js";
+import { EmptyState, Icon, ProgressBar, Segments, useBusy } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayManage } from "../../model/connection.js";
 import {
   chosenLaunch,
-  followRuns,
-  followWorkspaces,
+  followPrograms,
   isUnderWay,
   launchPart,
   launchValues,
@@ -39,16 +38,8 @@ const trouble = signal("");
 const isPlanning = signal(false);
 const PLAN_AFTER_MS = 250;
 
-/** Keep packages and runs true while somebody looks; gives the end of looking. */
-function follow() {
-  const ends = [followWorkspaces(), followRuns()];
-  return () => {
-    for (const end of ends) end();
-  };
-}
-
 export function LaunchPanel() {
-  const { panel, looking } = useLooking(follow);
+  const { panel, looking } = useLooking(followPrograms);
   return html`<section ref=${panel} class="panel-body launching" aria-label=${t("panel.launch")}>
     ${mayManage.value ? html`<${Content} looking=${looking} />` : html`<${EmptyState} icon="launch" title=${t("launching.owner")} />`}
   </section>`;
@@ -100,7 +91,7 @@ function NoFiles() {
 
 /** @param {{all: ReturnType<typeof launchFiles>, file: string}} props */
 function Bar({ all, file }) {
-  const busy = useSignal(false);
+  const { busy, during } = useBusy();
   const running = runs.value?.find(
     (one) => one.kind === "launch" && one.file === file && isUnderWay(one),
   );
@@ -110,11 +101,6 @@ function Bar({ all, file }) {
     launchValues.value = {};
     // What another file does says nothing of this one.
     if (launchPart.value === "runs") launchPart.value = "plan";
-  };
-  const during = (/** @type {() => Promise<unknown>} */ run) => async () => {
-    busy.value = true;
-    await run();
-    busy.value = false;
   };
   const start = during(async () => {
     launchPart.value = "runs";
@@ -134,10 +120,10 @@ function Bar({ all, file }) {
     </select>
     ${
       running
-        ? html`<button type="button" class="button small" disabled=${busy.value} onClick=${during(() => stopRun(running.run))}>
+        ? html`<button type="button" class="button small" disabled=${busy} onClick=${during(() => stopRun(running.run))}>
             <${Icon} name="stop" size=${13} />${t("launching.stop")}</button>`
-        : html`<button type="button" class="button small primary" disabled=${busy.value || file === "" || isLacking()} onClick=${start}>
-            ${busy.value ? html`<span class="spinner"></span>` : html`<${Icon} name="animate" size=${13} />`}${t("launching.start")}</button>`
+        : html`<button type="button" class="button small primary" disabled=${busy || file === "" || isLacking()} onClick=${start}>
+            ${busy ? html`<span class="spinner"></span>` : html`<${Icon} name="animate" size=${13} />`}${t("launching.start")}</button>`
     }
     ${file && html`<button type="button" class="icon-button" aria-label=${t("launching.source")} title=${t("launching.source")} onClick=${() => showSource(file, 1)}><${Icon} name="source" /></button>`}
   </div>`;
@@ -157,12 +143,12 @@ function given() {
 
 function Parts() {
   const count = runs.value?.filter(isUnderWay).length ?? 0;
-  return html`<div class="segments launching-parts" role="group" aria-label=${t("launching.part")}>${PARTS.map(
-    (one) =>
-      html`<button key=${one} type="button" class="segment" aria-pressed=${launchPart.value === one} onClick=${() => {
-        launchPart.value = one;
-      }}>${t(`launching.part.${one}`)}${one === "runs" && count > 0 && html` <span class="badge calm">${count}</span>`}</button>`,
-  )}</div>`;
+  const badge = count > 0 && html` <span class="badge calm">${count}</span>`;
+  const of = PARTS.map((one) => [
+    one,
+    html`${t(`launching.part.${one}`)}${one === "runs" && badge}`,
+  ]);
+  return html`<${Segments} label=${t("launching.part")} chosen=${launchPart} of=${of} />`;
 }
 
 /** Plan the file whenever it, or what is given, changes. @param {string} file empty: none */

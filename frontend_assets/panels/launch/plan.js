@@ -50,20 +50,20 @@ function Arguments({ plan, values, write }) {
   if (plan.arguments.length === 0)
     return html`<section aria-label=${t("launching.arguments")}><h3>${t("launching.arguments")}</h3><p class="note">${t("launching.arguments.none")}</p></section>`;
   return html`<section aria-label=${t("launching.arguments")}><h3>${t("launching.arguments")}</h3>
-    <div class="launching-arguments">${plan.arguments.map(
+    ${plan.arguments.map(
       (one) =>
         html`<${Argument} key=${`${one.include} ${one.name}`} one=${one} value=${values[one.name]} write=${write} />`,
-    )}</div></section>`;
+    )}</section>`;
 }
 
-/** @param {{one: PlannedArgument, value: string | undefined, write: Write}} props */
+/** @param {{one: PlannedArgument, value: string | undefined, write: Write}} props a row as in the form of a robot's arguments */
 function Argument({ one, value, write }) {
   const isOff = one.condition?.holds === false;
-  return html`<div class=${`launching-argument ${value === undefined ? "" : "set"} ${isOff ? "off" : ""}`} role="group" aria-label=${one.name}>
-    <div class="launching-name"><span>${one.name}</span>${one.description && html`<small>${one.description}</small>`}
+  return html`<div class=${`launch-row ${value === undefined ? "" : "set"} ${isOff ? "off" : ""}`} role="group" aria-label=${one.name}>
+    <div class="launch-name"><span>${one.name}</span>${one.description && html`<small>${one.description}</small>`}
       ${isOff && html`<small>${t("launching.only_if", { condition: one.condition?.text ?? "" })}</small>`}</div>
-    <${Field} one=${one} value=${value} write=${write} />
-    <${IconButton} icon="reset" size=${14} label=${t("launching.reset", { name: one.name })} disabled=${value === undefined} onClick=${() => write(one.name, null)} />
+    <div class="launch-value"><${Field} one=${one} value=${value} write=${write} /></div>
+    <${IconButton} icon="reset" label=${t("launching.reset", { name: one.name })} disabled=${value === undefined} onClick=${() => write(one.name, null)} />
   </div>`;
 }
 

@@ -3,11 +3,11 @@
 /** @import { OutputLine, ProcessView, RunView } from "../../types/wire.d.ts" */
 /** @import { Signal } from "vendor/preact.js" */
 
-import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
+import { html, useEffect, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
 import { t } from "../../lib/i18n.js";
 import { secondsSince, shortTime, useNow } from "../../lib/times.js";
-import { EmptyState, Icon, IconButton, SearchBox, Switch } from "../../lib/ui.js";
+import { EmptyState, Icon, IconButton, SearchBox, useBusy, useEnd } from "../../lib/ui.js";
 import {
   chosenRun,
   endProcess,
@@ -16,7 +16,6 @@ import {
   isUnderWay,
   output,
   restartProcess,
-  runAgainOnSave,
   runs,
   runsToldAt_ms,
   showOutput,
@@ -24,10 +23,9 @@ import {
   stopRun,
 } from "../../model/programs.js";
 import { notify } from "../../model/view.js";
+import { AgainOnSave, hasFailed, StateDot } from "../program-parts.js";
 
-/** So far from its end a list still counts as scrolled to it. */
-const END_PX = 4;
-/** Of more lines the oldest are not drawn. */
+/** Of more lines the oldest are not drawn, which is said. */
 const DRAWN_MAX = 1000;
 
 export function RunsView() {
@@ -51,14 +49,11 @@ const titleOf = (run) =>
 function Choice({ all, run }) {
   return html`<ul class="launching-runs" aria-label=${t("launching.part.runs")}>${all.map(
     (one) =>
-      html`<li key=${one.run}><button type="button" class="launching-run" aria-pressed=${one.run === run.run} onClick=${() => {
+      html`<li key=${one.run}><button type="button" class="row-button launching-run" aria-pressed=${one.run === run.run} onClick=${() => {
         chosenRun.value = one.run;
-      }}><span class=${`launching-dot ${dotOf(one)}`}></span><span class="launching-run-name">${titleOf(one)}</span><span class="muted">${one.run}</span></button></li>`,
+      }}><${StateDot} of=${one} /><span class="launching-run-name">${titleOf(one)}</span><span class="muted">${one.run}</span></button></li>`,
   )}</ul>`;
 }
-
-/** @param {Pick<RunView, "state" | "code">} run */
-const dotOf = ({ state, code }) => (state === "ended" && code !== 0 ? "failed" : state);
 
 /** @param {{run: RunView}} props */
 function OneRun({ run }) {
@@ -71,22 +66,17 @@ function OneRun({ run }) {
 
 /** @param {{run: RunView}} props */
 function Head({ run }) {
-  const busy = useSignal(false);
+  const { busy, during } = useBusy();
   const since_s = secondsSince(runsToldAt_ms.value, useNow());
-  const during = (/** @type {() => Promise<unknown>} */ work) => async () => {
-    busy.value = true;
-    await work();
-    busy.value = false;
-  };
   const isOver = !isUnderWay(run);
   return html`<header class="launching-head">
-    <p><span class=${`launching-dot ${dotOf(run)}`}></span><code title=${run.file}>${run.line}</code></p>
-    <p class=${`launching-state ${isOver && run.code !== 0 ? "bad" : ""}`} role="status">${stateWords(run, since_s)}${run.again > 0 && ` · ${t("launching.again.count", { count: run.again })}`}</p>
+    <p><${StateDot} of=${run} /><code title=${run.file}>${run.line}</code></p>
+    <p class=${`launching-state ${hasFailed(run) ? "bad" : ""}`} role="status">${stateWords(run, since_s)}${run.again > 0 && ` · ${t("launching.again.count", { count: run.again })}`}</p>
     <div class="launching-buttons">
-      ${!isOver && html`<button type="button" class="button small" disabled=${busy.value || run.state === "stopping"} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${13} />${t("launching.stop")}</button>`}
-      <button type="button" class="button small" disabled=${busy.value} onClick=${during(() => startRunAgain(run.run))}><${Icon} name="reload" size=${13} />${t("launching.start_again")}</button>
+      ${!isOver && html`<button type="button" class="button small" disabled=${busy || run.state === "stopping"} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${13} />${t("launching.stop")}</button>`}
+      <button type="button" class="button small" disabled=${busy} onClick=${during(() => startRunAgain(run.run))}><${Icon} name="reload" size=${13} />${t("launching.start_again")}</button>
       ${isOver && html`<${IconButton} icon="trash" size=${14} label=${t("launching.forget")} onClick=${() => forgetRun(run.run)} />`}
-      <label class="launching-again"><${Switch} label=${t("launching.again")} checked=${run.again_on_save} onChange=${(/** @type {boolean} */ on) => runAgainOnSave(run.run, on)} /><span aria-hidden="true">${t("launching.again")}</span></label>
+      <${AgainOnSave} run=${run} />
     </div></header>`;
 }
 
@@ -110,7 +100,7 @@ function Processes({ run, process }) {
     )}
     ${run.not_started.map(
       (one) =>
-        html`<li key=${`not ${one.id}`} class="launching-process off"><span class="launching-dot"></span><span class="launching-process-name">${one.name || one.executable}<small>${t("launching.not_started", { reason: one.reason })}</small></span></li>`,
+        html`<li key=${`not ${one.id}`} class="launching-process off"><${StateDot} /><span class="launching-process-name">${one.name || one.executable}<small>${t("launching.not_started", { reason: one.reason })}</small></span></li>`,
     )}</ul>`;
 }
 
@@ -125,8 +115,8 @@ function ProcessRow({ run, one, process }) {
     one.starts > 1 && t("launching.process.starts", { count: one.starts }),
   ].filter(Boolean);
   const isDone = !isUnderWay(run);
-  return html`<li class="launching-process"><button type="button" class="launching-process-button" aria-pressed=${isChosen} title=${one.command} onClick=${choose}>
-      <span class=${`launching-dot ${one.state === "ended" && one.code !== 0 ? "failed" : one.state}`}></span>
+  return html`<li class="launching-process"><button type="button" class="row-button launching-process-button" aria-pressed=${isChosen} title=${one.command} onClick=${choose}>
+      <${StateDot} of=${one} />
       <span class="launching-process-name">${one.node || one.name}<small>${words.join(" · ")}</small></span></button>
     <${IconButton} icon="reload" size=${13} label=${t("launching.restart", { name: one.name })} disabled=${isDone} onClick=${() => restartProcess(run.run, one.id)} />
     <${IconButton} icon="stop" size=${13} label=${t("launching.end", { name: one.name })} disabled=${isDone || one.state === "ended"} onClick=${() => endProcess(run.run, one.id)} /></li>`;
@@ -136,21 +126,14 @@ function ProcessRow({ run, one, process }) {
 function Output({ run, process }) {
   const words = useSignal("");
   const errors = useSignal(false);
-  const follows = useSignal(true);
-  const list = useRef(/** @type {HTMLElement | null} */ (null));
   const { lines, dropped } = output.value;
   const filter = { words: words.value, process: process.value, errors: errors.value };
-  const shown = lines.filter((line) => isShown(line, filter)).slice(-DRAWN_MAX);
-  useLayoutEffect(() => {
-    if (follows.value) list.current?.scrollTo({ top: list.current.scrollHeight });
-  }, [lines, follows.value, words.value, process.value, errors.value]);
-  const onScroll = () => {
-    const { scrollHeight = 0, scrollTop = 0, clientHeight = 0 } = list.current ?? {};
-    follows.value = scrollHeight - scrollTop - clientHeight <= END_PX;
-  };
+  const found = lines.filter((line) => isShown(line, filter));
+  const shown = found.slice(-DRAWN_MAX);
+  const { list, follows, onScroll } = useEnd([lines, words.value, process.value, errors.value]);
   const names = new Map(run.processes.map((one) => [one.id, one.name]));
   const copy = async () => {
-    const done = await copyText(shown.map(({ text }) => text).join("\n"));
+    const done = await copyText(found.map(({ text }) => text).join("\n"));
     notify(done ? t("copied") : t("copy.failed"), { bad: !done });
   };
   return html`<section class="launching-output" aria-label=${t("launching.output")}>
@@ -168,8 +151,9 @@ function Output({ run, process }) {
       <${IconButton} icon="copy" label=${t("launching.copy")} disabled=${shown.length === 0} onClick=${copy} /></div>
     <div ref=${list} class="scroll launching-lines" tabindex="0" role="log" aria-live="off" aria-label=${t("launching.output")} onScroll=${onScroll}>
       ${dropped > 0 && html`<p class="note">${t("launching.dropped", { count: dropped })}</p>`}
+      ${found.length > shown.length && html`<p class="note">${t("launching.older", { count: found.length - shown.length })}</p>`}
       ${shown.length === 0 && html`<p class="note">${t(lines.length > 0 ? "launching.filtered" : "launching.output.none")}</p>`}
-      ${shown.map((line) => html`<${Line} key=${line.number} line=${line} name=${names.get(line.process) ?? ""} isNamed=${run.kind === "launch" && process.value === null} />`)}
+      ${shown.map((line) => html`<${Line} key=${line.number} line=${line} name=${names.get(line.process) ?? ""} isNamed=${run.processes.length > 1 && process.value === null} />`)}
     </div></section>`;
 }
 

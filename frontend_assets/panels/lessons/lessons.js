@@ -2,12 +2,20 @@
 
 /** @import { CodeFile, DemoView, LessonView, PressKey } from "../../types/wire.d.ts" */
 
-import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { drawnBlock } from "../../app/help-drawing.js";
 import { copyText } from "../../lib/clipboard.js";
 import { language, t } from "../../lib/i18n.js";
 import { secondsSince, shortTime, useNow } from "../../lib/times.js";
-import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
+import {
+  EmptyState,
+  Icon,
+  IconButton,
+  ProgressBar,
+  SearchBox,
+  useBusy,
+  useEnd,
+} from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayAct, mayManage } from "../../model/connection.js";
 import { deleteLesson, readOn, steps } from "../../model/lesson-steps.js";
@@ -104,7 +112,7 @@ function List({ all, onNew }) {
 function RunningNow() {
   const count = underWay.value.length;
   if (count === 0) return null;
-  return html`<div class="lessons-now" role="status"><span class="lessons-dot"></span><span>${t("lessons.now", { count })}</span>
+  return html`<div class="lessons-now" role="status"><span class="state-dot running"></span><span>${t("lessons.now", { count })}</span>
     ${mayManage.value && html`<button type="button" class="button small" onClick=${stopAllDemos}><${Icon} name="stop" size=${12} />${t("lessons.stop_all")}</button>`}</div>`;
 }
 
@@ -116,13 +124,10 @@ function Row({ lesson: { name, node, done, steps: count } }) {
   };
   return html`<li><button type="button" class="offer" data-demo=${name} aria-pressed=${chosenLesson.value === name} onClick=${choose}>
     <span class="lessons-title">${lessonTexts.value.get(name)?.title || name}</span>
-    ${runs && html`<span class=${`lessons-dot ${demos.value.get(name)?.state ?? ""}`} role="img" aria-label=${t("lessons.runs")} title=${t("lessons.runs")}></span>`}
+    ${runs && html`<span class=${`state-dot ${demos.value.get(name)?.state ?? ""}`} role="img" aria-label=${t("lessons.runs")} title=${t("lessons.runs")}></span>`}
     ${done > 0 && html`<span class=${`lessons-done ${done === count ? "all" : ""}`} title=${t("lessons.progress", { done, count })}>${done === count ? html`<${Icon} name="check" size=${13} />` : `${done}/${count}`}</span>`}
     <span class="offer-type">${name}</span></button></li>`;
 }
-
-/** So far from its end a list still counts as scrolled to it. */
-const END_PX = 4;
 
 /**
  * One lesson: its demo and those that it needs, what it says, and what they print.
@@ -195,12 +200,8 @@ function CodeOfFile({ file: { name, text } }) {
 /** What one of them printed: that of the lesson itself, until another is chosen. @param {{own: string, parts: readonly LessonView[]}} props */
 function Output({ own, parts }) {
   const chosen = useSignal("");
-  const list = useRef(/** @type {HTMLElement | null} */ (null));
-  const follows = useRef(true);
   const { lines } = output.value;
-  useLayoutEffect(() => {
-    if (follows.current) list.current?.scrollTo({ top: list.current.scrollHeight });
-  }, [lines]);
+  const { list, onScroll } = useEnd([lines]);
   const started = parts.map(({ name }) => name).filter((name) => demos.value.has(name));
   const shown = [chosen.value, own].find((demo) => started.includes(demo)) ?? started[0] ?? "";
   useEffect(() => {
@@ -208,10 +209,6 @@ function Output({ own, parts }) {
     return () => showOutput("");
   }, [shown]);
   if (started.length === 0) return null;
-  const onScroll = () => {
-    const { scrollHeight = 0, scrollTop = 0, clientHeight = 0 } = list.current ?? {};
-    follows.current = scrollHeight - scrollTop - clientHeight <= END_PX;
-  };
   return html`<section class="lesson-output" aria-label=${t("lessons.output")}>
     <header><h4>${t("lessons.output")}</h4>
       ${
@@ -283,17 +280,12 @@ function Run({ lesson }) {
 
 /** @param {{demo: string}} props */
 function Buttons({ demo }) {
-  const busy = useSignal(false);
+  const { busy, during } = useBusy();
   if (!mayManage.value) return null;
-  const during = (/** @type {() => Promise<unknown>} */ run) => async () => {
-    busy.value = true;
-    await run();
-    busy.value = false;
-  };
   if (isUnderWay(demo))
-    return html`<button type="button" class="button small" disabled=${busy.value} aria-label=${t("lessons.stop.of", { demo })} onClick=${during(() => stopDemo(demo))}>
+    return html`<button type="button" class="button small" disabled=${busy} aria-label=${t("lessons.stop.of", { demo })} onClick=${during(() => stopDemo(demo))}>
       <${Icon} name="stop" size=${12} />${t("lessons.stop")}</button>`;
-  return html`<button type="button" class="button small primary" disabled=${busy.value || isUnconnected()} aria-label=${t("lessons.start.of", { demo })} onClick=${during(() => startDemos([demo]))}>
+  return html`<button type="button" class="button small primary" disabled=${busy || isUnconnected()} aria-label=${t("lessons.start.of", { demo })} onClick=${during(() => startDemos([demo]))}>
     <${Icon} name="animate" size=${12} />${t("lessons.start")}</button>`;
 }
 
@@ -304,7 +296,7 @@ function State({ view }) {
   const isBusy = view.state === "starting" || view.state === "stopping";
   const isBad = view.state === "ended" && view.code !== 0;
   return html`<p class=${`lesson-state ${isBad ? "bad" : ""}`} role="status">
-    ${isBusy ? html`<span class="spinner"></span>` : html`<span class=${`lessons-dot ${view.state}`}></span>`}<span>${stateWords(view, since_s)}</span></p>`;
+    ${isBusy ? html`<span class="spinner"></span>` : html`<span class=${`state-dot ${view.state}`}></span>`}<span>${stateWords(view, since_s)}</span></p>`;
 }
 
 /** @param {DemoView} view @param {number} since_s it was told @returns {string} */

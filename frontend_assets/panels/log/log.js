@@ -7,7 +7,7 @@
 import { html, useEffect, useLayoutEffect, useRef, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
 import { t } from "../../lib/i18n.js";
-import { Icon, IconButton, SearchBox } from "../../lib/ui.js";
+import { Icon, IconButton, isAtEnd, SearchBox } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import {
   clearLog,
@@ -28,8 +28,6 @@ import { notify } from "../../model/view.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../parts.js";
 
 const ICONS = { debug: "info", info: "info", warn: "alert", error: "error", fatal: "error" };
-/** So far from its end a list still counts as scrolled to it. */
-const END_PX = 4;
 
 export function LogPanel() {
   const { panel } = useLooking(followLog);
@@ -106,7 +104,7 @@ function Lines({ shown, chosen, nothing }) {
   const onScroll = () => {
     const element = list.current;
     if (!element) return;
-    follows.value = element.scrollHeight - element.scrollTop - element.clientHeight <= END_PX;
+    follows.value = isAtEnd(element);
     measure();
   };
   const toEnd = () => list.current?.scrollTo({ top: list.current.scrollHeight });

@@ -205,7 +205,7 @@ function MacroList({ macros, filter }) {
 function MacroRow({ macro, open, toggle }) {
   const { name, calls } = macro;
   return html`<div role="listitem" class=${`outline-macro ${open ? "open" : ""}`}>
-    <button type="button" class="outline-name" aria-expanded=${open} onClick=${toggle}>
+    <button type="button" class="row-button outline-name" aria-expanded=${open} onClick=${toggle}>
       <${Icon} name="macro" size=${14} /><span>${name}</span>
       <span class="muted numbers" title=${t("language.calls", { count: calls })}>${calls}×</span>
     </button>

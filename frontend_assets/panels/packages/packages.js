@@ -9,28 +9,29 @@ import { commandById } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
 import { baseName, shortPath } from "../../lib/paths.js";
 import {
+  badgeTone,
   EmptyState,
   Icon,
   IconButton,
   MenuButton,
   ProgressBar,
+  SEVERITY_ICONS,
   SearchBox,
-  Switch,
+  Segments,
+  useBusy,
 } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayManage } from "../../model/connection.js";
 import { showInterface } from "../../model/interfaces.js";
 import {
   chosenPackage,
-  followRuns,
-  followWorkspaces,
+  followPrograms,
   isUnderWay,
   lastEdit,
   mayRun,
   mendPackage,
   openLaunch,
   packages,
-  runAgainOnSave,
   runs,
   showRun,
   startNode,
@@ -44,19 +45,11 @@ import { openConfigFile } from "../../model/rviz-configs.js";
 import { showSource } from "../../model/source.js";
 import { dialog } from "../../model/view.js";
 import { PlaceLink } from "../parts.js";
-import { NoRuns } from "../program-parts.js";
+import { AgainOnSave, hasFailed, NoRuns, StateDot } from "../program-parts.js";
 import { PackageGraph } from "./package-graph.js";
 
-/** Keep packages and runs true while somebody looks; gives the end of looking. */
-function follow() {
-  const ends = [followWorkspaces(), followRuns()];
-  return () => {
-    for (const end of ends) end();
-  };
-}
-
 export function PackagesPanel() {
-  const { panel } = useLooking(follow);
+  const { panel } = useLooking(followPrograms);
   return html`<section ref=${panel} class="panel-body packages" aria-label=${t("panel.packages")}>
     ${mayManage.value ? html`<${Content} />` : html`<${EmptyState} icon="package" title=${t("packages.owner")} />`}
   </section>`;
@@ -105,18 +98,16 @@ const addItems = (one) =>
 
 /** @param {{words: {value: string}, asGraph: {value: boolean}}} props */
 function Bar({ words, asGraph }) {
-  const show = (/** @type {boolean} */ graph) => () => {
-    asGraph.value = graph;
-  };
   return html`<div class="panel-bar packages-bar">
     <${SearchBox} label=${t("packages.search")} value=${words.value} onInput=${(
       /** @type {string} */ now,
     ) => {
       words.value = now;
     }} />
-    <div class="segments" role="group" aria-label=${t("packages.view")}>
-      <button type="button" class="segment" aria-pressed=${!asGraph.value} onClick=${show(false)}>${t("packages.list")}</button>
-      <button type="button" class="segment" aria-pressed=${asGraph.value} onClick=${show(true)}>${t("packages.graph")}</button></div>
+    <${Segments} label=${t("packages.view")} chosen=${asGraph} of=${[
+      [false, t("packages.list")],
+      [true, t("packages.graph")],
+    ]} />
     ${mayRun.value && html`<button type="button" class="button small" onClick=${newPackage}><${Icon} name="plus" size=${13} />${t("packages.new")}</button>`}
   </div>
   ${
@@ -164,15 +155,17 @@ export const problemsOf = (problems, one) =>
 function Package({ one, workspace }) {
   const isOpen = chosenPackage.value === one.folder || packages.value.length === 1;
   const found = problemsOf(workspace.problems, one);
+  const { faults, notes } = byWeight(found);
+  const counted = faults.length > 0 ? faults : notes;
   const toggle = () => {
     chosenPackage.value = isOpen ? "" : one.folder;
   };
   return html`<article class=${`packages-package ${isOpen ? "open" : ""}`}>
-    <header><button type="button" class="packages-name" aria-expanded=${isOpen} title=${one.folder} onClick=${toggle}>
+    <header><button type="button" class="row-button packages-name" aria-expanded=${isOpen} title=${one.folder} onClick=${toggle}>
         <${Icon} name=${isOpen ? "chevronDown" : "chevronRight"} size=${14} /><${Icon} name="package" size=${15} /><strong>${one.name}</strong><span class="muted">${one.build_type}</span>
-        ${found.length > 0 && html`<span class="badge amber" title=${t("packages.findings", { count: found.length })}>${found.length}</span>`}</button>
+        ${counted.length > 0 && html`<span class=${`badge ${badgeTone(counted)}`} title=${countWords(counted)}>${counted.length}</span>`}</button>
       ${one.may_run && html`<${MenuButton} label=${t("packages.add", { name: one.name })} items=${() => addItems(one)}><${Icon} name="plus" /><//>`}</header>
-    ${isOpen && html`<${Details} one=${one} found=${found} graph=${workspace.graph} />`}
+    ${isOpen && html`<${Details} one=${one} faults=${faults} notes=${notes} graph=${workspace.graph} />`}
   </article>`;
 }
 
@@ -180,22 +173,40 @@ function Package({ one, workspace }) {
 const Section = ({ title, children }) =>
   html`<section class="packages-section" aria-label=${title}><h3>${title}</h3>${children}</section>`;
 
-/** @param {{one: PackageView, found: readonly Problem[], graph: WorkspaceView["graph"]}} props */
-function Details({ one, found, graph }) {
+/** @param {readonly Problem[]} found @returns {{faults: Problem[], notes: Problem[]}} `notes`: nothing fails for them, as in a package that was just made */
+function byWeight(found) {
+  const isNote = (/** @type {Problem} */ { severity }) => severity === "info";
+  return { faults: found.filter((one) => !isNote(one)), notes: found.filter(isNote) };
+}
+
+/** @param {readonly Problem[]} found all faults, or all notes */
+const countWords = (found) =>
+  t(found[0]?.severity === "info" ? "packages.notes" : "packages.findings", {
+    count: found.length,
+  });
+
+/** @param {{found: readonly Problem[]}} props */
+const Findings = ({ found }) =>
+  found.length > 0 &&
+  html`<${Section} title=${countWords(found)}><ul>${found.map((problem, at) => html`<${Finding} key=${at} problem=${problem} />`)}</ul><//>`;
+
+/** @param {{one: PackageView, faults: readonly Problem[], notes: readonly Problem[], graph: WorkspaceView["graph"]}} props */
+function Details({ one, faults, notes, graph }) {
   return html`<div class="packages-details">
     ${one.description && html`<p class="note">${one.description}</p>`}
     ${one.fault && html`<p class="note bad">${one.fault}</p>`}
     ${one.is_nested && html`<p class="note">${t("packages.nested")}</p>`}
-    ${found.length > 0 && html`<${Section} title=${t("packages.findings", { count: found.length })}><ul>${found.map((problem, at) => html`<${Finding} key=${at} problem=${problem} />`)}</ul><//>`}
+    <${Findings} found=${faults} />
     ${one.executables.length > 0 && html`<${Section} title=${t("packages.executables")}><ul>${one.executables.map((each) => html`<${Executable} key=${each.name} one=${one} each=${each} />`)}</ul><//>`}
     <${Files} one=${one} />
     ${one.dependencies.length > 0 && html`<${Dependencies} one=${one} graph=${graph} />`}
+    <${Findings} found=${notes} />
   </div>`;
 }
 
 /** @param {{problem: Problem}} props */
 function Finding({ problem }) {
-  return html`<li class=${`packages-finding ${problem.severity}`}><${Icon} name=${problem.severity === "error" ? "error" : "alert"} size=${14} />
+  return html`<li class=${`packages-finding ${problem.severity}`}><${Icon} name=${SEVERITY_ICONS[problem.severity]} size=${14} />
     <span class="packages-row-name">${problem.sentence}</span><${PlaceLink} place=${problem.place} />
     ${problem.fix && mayRun.value && html`<button type="button" class="button small" onClick=${() => mendPackage(problem)}>${problem.fix.label}</button>`}</li>`;
 }
@@ -211,7 +222,7 @@ function Executable({ one, each }) {
   const run = runOf(one, each);
   const { file } = each;
   return html`<li class="packages-executable"><div class="packages-row">
-      <span class=${`packages-dot ${dotOf(run)}`}></span>
+      <${StateDot} of=${run} />
       ${file ? html`<button type="button" class="text-button packages-row-name" title=${file} onClick=${() => showSource(file, 1)}>${each.name}</button>` : html`<span class="packages-row-name">${each.name}</span>`}
       <span class="muted">${each.language}</span>
       ${run && html`<${IconButton} icon="log" size=${14} label=${t("packages.output", { name: each.name })} onClick=${() => showRun(run.run)} />`}
@@ -220,37 +231,20 @@ function Executable({ one, each }) {
     ${run && html`<${HowItRuns} each=${each} run=${run} />`}</li>`;
 }
 
-/** @param {RunView | undefined} run @returns {string} */
-function dotOf(run) {
-  if (!run) return "";
-  if (isUnderWay(run)) return run.state;
-  return run.code === 0 ? "ended" : "failed";
-}
-
 /** @param {{one: PackageView, each: ExecutableView, run: RunView | undefined}} props */
 function RunButton({ one, each, run }) {
-  const busy = useSignal(false);
-  const during = (/** @type {() => Promise<unknown>} */ work) => async () => {
-    busy.value = true;
-    await work();
-    busy.value = false;
-  };
+  const { busy, during } = useBusy();
   if (run && isUnderWay(run))
-    return html`<button type="button" class="button small" disabled=${busy.value} aria-label=${t("packages.stop.of", { name: each.name })} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${12} />${t("launching.stop")}</button>`;
-  return html`<button type="button" class="button small primary" disabled=${busy.value} aria-label=${t("packages.run.of", { name: each.name })} onClick=${during(() => startNode(one.name, each.name))}><${Icon} name="animate" size=${12} />${t("packages.run")}</button>`;
+    return html`<button type="button" class="button small" disabled=${busy} aria-label=${t("packages.stop.of", { name: each.name })} onClick=${during(() => stopRun(run.run))}><${Icon} name="stop" size=${12} />${t("launching.stop")}</button>`;
+  return html`<button type="button" class="button small primary" disabled=${busy} aria-label=${t("packages.run.of", { name: each.name })} onClick=${during(() => startNode(one.name, each.name))}><${Icon} name="animate" size=${12} />${t("packages.run")}</button>`;
 }
 
 /** @param {{each: ExecutableView, run: RunView}} props */
 function HowItRuns({ each, run }) {
-  if (isUnderWay(run) || run.again_on_save)
-    return html`<label class="packages-again"><${Switch} label=${t("packages.again.of", { name: each.name })} checked=${run.again_on_save} onChange=${(/** @type {boolean} */ on) => runAgainOnSave(run.run, on)} /><span aria-hidden="true">${t("launching.again")}</span></label>
-      ${dotOf(run) === "failed" && html`<${Failed} run=${run} />`}`;
-  return dotOf(run) === "failed" ? html`<${Failed} run=${run} />` : null;
+  const isOffered = isUnderWay(run) || run.again_on_save;
+  return html`${isOffered && html`<${AgainOnSave} run=${run} label=${t("packages.again.of", { name: each.name })} />`}
+    ${hasFailed(run) && html`<p class="note bad">${t("packages.failed", { code: run.code, reason: run.trouble })}</p>`}`;
 }
-
-/** @param {{run: RunView}} props */
-const Failed = ({ run }) =>
-  html`<p class="note bad">${t("packages.failed", { code: run.code, reason: run.trouble })}</p>`;
 
 /** @param {{one: PackageView}} props what opens in other panels */
 function Files({ one }) {

@@ -8,7 +8,7 @@ import { commandById } from "../../lib/commands.js";
 import { t } from "../../lib/i18n.js";
 import { LongList } from "../../lib/long-list.js";
 import { baseName, placeText, shortPath } from "../../lib/paths.js";
-import { EmptyState, Icon, IconButton, SearchBox } from "../../lib/ui.js";
+import { EmptyState, Icon, IconButton, SEVERITY_ICONS, SearchBox } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
 import {
@@ -135,9 +135,6 @@ function onArrow(event, keys, active) {
 
 /** @param {HTMLElement} list @param {string} key @returns {HTMLElement | null} */
 const rowOf = (list, key) => list.querySelector(`[data-key="${CSS.escape(key)}"] .problem-main`);
-
-/** @type {Record<Problem["severity"], string>} */
-const SEVERITY_ICONS = { error: "error", warning: "alert", info: "info" };
 
 /** @param {{problem: Problem, id: string, at: number, of: number}} props `at`: its place in its list, from 1 */
 function ProblemRow({ problem, id: key, at, of }) {

@@ -7,7 +7,7 @@ import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
 import { commandById } from "../../lib/commands.js";
 import { language, t } from "../../lib/i18n.js";
-import { EmptyState, Icon, IconButton, ProgressBar } from "../../lib/ui.js";
+import { EmptyState, Icon, IconButton, ProgressBar, Segments } from "../../lib/ui.js";
 import { askOrKeepWhy } from "../../model/asking.js";
 import { connection } from "../../model/connection.js";
 import { built, history, robot, title } from "../../model/document.js";
@@ -52,14 +52,11 @@ function Bar({ text, onlyChanges, changes, find }) {
   const copy = async () => {
     if (await copyText(text)) notify(t("copied"));
   };
-  const choose = (/** @type {boolean} */ only) => () => {
-    onlyChanges.value = only;
-  };
   return html`<div class="panel-bar row urdf-bar">
-    <div class="segments" role="group" aria-label=${t("urdf.view")}>
-      <button type="button" class="segment" aria-pressed=${!onlyChanges.value} onClick=${choose(false)}>${t("urdf.all")}</button>
-      <button type="button" class="segment" aria-pressed=${onlyChanges.value} onClick=${choose(true)}>${t("urdf.changes")}</button>
-    </div>
+    <${Segments} label=${t("urdf.view")} chosen=${onlyChanges} of=${[
+      [false, t("urdf.all")],
+      [true, t("urdf.changes")],
+    ]} />
     <span class="muted numbers urdf-count">${countWords(text, onlyChanges.value, changes)}</span>
     <span class="push"></span>
     <${IconButton} icon="search" label=${t("urdf.find")} onClick=${find} />

@@ -140,6 +140,11 @@ def _silence(facts: Facts) -> Remark | None:
         mend = Mend(label="Connect", command={"type": "connect_wire"})
     elif state.kind == "no_publisher":
         mend = _other_topic(facts)
+        if facts.received > 0:
+            gone = (
+                f"Nobody publishes {spec.topic} any more: what came last stays until somebody does."
+            )
+            return _warn("no_publisher", gone, mend)
     return _error(_REASONS.get(state.kind, state.kind), state.sentence, mend)
 
 

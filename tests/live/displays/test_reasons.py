@@ -55,6 +55,13 @@ def test_a_display_that_draws_nothing_for_no_other_reason_says_so():
     assert remark.sentence == "There is nothing to draw."
 
 
+def test_a_topic_whose_publisher_ended_is_a_warning_and_one_that_nobody_ever_published_an_error():
+    ended = replace(WELL, topic=topic("no_publisher"))
+    for facts, level in ((ended, "warn"), (replace(ended, received=0), "error")):
+        (remark,) = remarks_on(facts)
+        assert (remark.level, remark.reason) == (level, "no_publisher")
+
+
 def test_a_router_that_is_gone_is_named_before_all_that_follows_from_it():
     (remark,) = remarks_on(replace(WELL, topic=topic("connection_lost"), received=0))
     assert (remark.reason, remark.mend) == ("connection_lost", None)
