@@ -31,6 +31,10 @@ StudioError
         VariantsFileError
         PosesFileError
     LessonError
+    BagError
+        BagNotReadableError
+        BagNotWrittenError
+        RecordingError
     LaunchError
         LaunchFileError
         TooManyActionsError
@@ -369,6 +373,30 @@ class PosesFileError(DescriptionError):
 
 class LessonError(StudioError):
     """A lesson, or a check in it, is not written as lessons are."""
+
+
+class BagError(StudioError):
+    """A recording cannot be read, or cannot be written."""
+
+
+class BagNotReadableError(BagError):
+    """What lies at a path is no bag, or cannot be read; `path` is as it was asked for."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"{path} cannot be read: {reason}")
+        self.path, self.reason = path, reason
+
+
+class BagNotWrittenError(BagError):
+    """A bag cannot be written, or no further; `path` is that of its folder."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f"{path} cannot be written: {reason}")
+        self.path, self.reason = path, reason
+
+
+class RecordingError(BagError):
+    """What was asked of a recording cannot be done: there is no such moment, topic or number."""
 
 
 class LaunchError(StudioError):
