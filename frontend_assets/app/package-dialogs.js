@@ -133,7 +133,8 @@ export function createLine({
   license,
 }) {
   const type = contents === "nodes" ? build_type : "ament_cmake";
-  const words = ["ros2 pkg create", `--build-type ${type}`];
+  // The name first: a list of dependencies would take it for one of them.
+  const words = ["ros2 pkg create", name || "NAME", `--build-type ${type}`];
   if (contents === "nodes" && node_name) words.push(`--node-name ${node_name}`);
   if (contents === "nodes" && library_name) words.push(`--library-name ${library_name}`);
   if (contents !== "description" && license) words.push(`--license ${license}`);
@@ -142,9 +143,9 @@ export function createLine({
       `--dependencies ${dependencies
         .trim()
         .split(/[\s,]+/)
-        .join(" ")} --`,
+        .join(" ")}`,
     );
-  return [...words, name || "NAME"].join(" ");
+  return words.join(" ");
 }
 
 const TEMPLATES = /** @type {const} */ ([

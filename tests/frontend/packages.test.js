@@ -65,7 +65,7 @@ test("the line says what the window makes", () => {
   };
   assert.equal(
     createLine(form),
-    "ros2 pkg create --build-type ament_python --node-name speaker --license MIT --dependencies rclpy std_msgs -- talk",
+    "ros2 pkg create talk --build-type ament_python --node-name speaker --license MIT --dependencies rclpy std_msgs",
   );
   assert.match(createLine({ ...form, contents: "interfaces" }), /--build-type ament_cmake/);
 });

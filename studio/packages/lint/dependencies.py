@@ -82,7 +82,7 @@ def _imported(checked: CheckedPackage) -> Iterator[Problem]:
                 f"<{tag}>{package}</{tag}> belongs there."
             )
             mend = safely(
-                f"Add <{tag}>{package}</{tag}>",
+                "Add it to package.xml",
                 lambda tag=tag, package=package: manifest_edits.added(manifest, tag, package),
             )
             at = python.span(one.alias)[0]
@@ -110,7 +110,7 @@ def _of_interfaces(checked: CheckedPackage) -> Iterator[Problem]:
 
 def _lacks(checked: CheckedPackage, tag: str, name: str, what: str) -> Problem:
     manifest = checked.source.manifest
-    mend = safely(f"Add <{tag}>{name}</{tag}>", lambda: manifest_edits.added(manifest, tag, name))
+    mend = safely("Add it to package.xml", lambda: manifest_edits.added(manifest, tag, name))
     sentence = f"package.xml does not name {what}: add <{tag}>{name}</{tag}>."
     return found(WARNING, "missing-interface-depend", sentence, manifest.source, 0, mend)
 

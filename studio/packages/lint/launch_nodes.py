@@ -128,7 +128,9 @@ def _depends(checked: CheckedPackage, text: SourceText, package: _Word) -> Itera
     if not checked.has_package(name) or any(one.text == name for one in manifest.of(*_RUN_TAGS)):
         return
     element = f"<exec_depend>{name}</exec_depend>"
-    mend = safely(f"Add {element}", lambda: manifest_edits.added(manifest, "exec_depend", name))
+    mend = safely(
+        "Add it to package.xml", lambda: manifest_edits.added(manifest, "exec_depend", name)
+    )
     sentence = f"A node of {name} is started, and package.xml does not name {name}: add {element}."
     yield found(WARNING, "launch-depend", sentence, text, package.start, mend)
 
