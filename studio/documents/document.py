@@ -65,6 +65,9 @@ from studio.live.displays.rviz_configs import COMMANDS as CONFIG_COMMANDS
 from studio.live.displays.rviz_configs import RvizConfigs
 from studio.live.displays.selecting import COMMANDS as SELECTION_COMMANDS
 from studio.live.displays.selecting import Selecting
+from studio.live.time.document_source import DocumentSource
+from studio.live.time.document_time import COMMANDS as TIME_COMMANDS
+from studio.live.time.document_time import DocumentTime
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
@@ -159,7 +162,10 @@ class Document:
         robots = SecondRobots(workspace, last, model, self.sites, take_worker)
         comparison = VariantComparison(book, robots, Ghost(model), audience, self._meshes.want)
         self.variants = NamedVariants(workspace, self.edits, book, comparison, audience)
-        self.feed = RobotFeed(model, self.motion, lambda: last.expansion, services.wire, audience)
+        self.source = DocumentSource(services.wire.topics)
+        self.feed = RobotFeed(
+            model, self.motion, lambda: last.expansion, services.wire, self.source, audience
+        )
         data_folder = services.settings.data_folder
         self.live = DocumentDisplays(
             model,
@@ -167,8 +173,11 @@ class Document:
             RobotReader(take_worker, workspace, data_folder / "from_ros" / "nowhere"),
             DisplayFile(data_folder, self.entry),
             services.wire,
+            self.source,
             audience,
         )
+        self.time = DocumentTime(self.source, audience)
+        self.time.on_moment = self._draw_moment
         self.live.use(services.plugins)
         self.selecting = Selecting(self.live.drawn)
         self.feed.is_held = lambda: self.live.is_paused
@@ -242,6 +251,7 @@ class Document:
         self.motion.close()
         await self.configs.close()
         await asyncio.gather(self.feed.close(), self.live.close())
+        await self.time.close()
         background = tuple(self._background.values())
         for task in background:
             task.cancel()
@@ -297,6 +307,11 @@ class Document:
     def arguments_changed(self) -> None:
         """Send the arguments, with the rest of the state."""
         self.audience.send(self._state_event())
+
+    def _draw_moment(self) -> None:
+        """Draw what the document shows now, before the next tick does."""
+        self.feed.take()
+        self.live.draw()
 
     async def _take_types(self) -> None:
         self.findings.replace("types", await asyncio.to_thread(take_types, self.location))
@@ -396,6 +411,7 @@ class Document:
         yield from self.feed.events()
         yield from self.live.events()
         yield from self.configs.events()
+        yield from self.time.events()
         yield from self.drafts.events()
 
     def _state_event(self) -> DocumentState:
