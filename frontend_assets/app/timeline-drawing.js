@@ -26,7 +26,7 @@ const NAME_LEAST_PX = 30;
  * @property {readonly number[] | null} loop
  */
 
-/** @typedef {Record<"text" | "muted" | "line" | "track" | "accent" | "soft" | "red" | "amber" | "violet", string>} Colors */
+/** @typedef {Record<"text" | "panel" | "muted" | "line" | "track" | "accent" | "soft" | "red" | "amber" | "violet", string>} Colors */
 
 /** @param {CanvasRenderingContext2D} context @param {Painted} painted @param {Colors} colors @param {string} font */
 export function paintTimeline(context, painted, colors, font) {
@@ -162,9 +162,12 @@ function paintBookmarks(context, { width, height, range, bookmarks, thin }, colo
 
 /** @param {CanvasRenderingContext2D} context @param {string} name @param {number} x @param {number} y @param {number} room px @param {Colors} colors */
 function paintName(context, name, x, y, room, colors) {
-  context.fillStyle = colors.text;
   let shown = name;
   while (shown.length > 1 && context.measureText(shown).width > room)
     shown = `${shown.slice(0, -2)}…`;
+  context.fillStyle = colors.panel;
+  context.fillRect(x - 2, y - 7, context.measureText(shown).width + 4, 14);
+  context.fillStyle = colors.text;
+  context.textBaseline = "middle";
   context.fillText(shown, x, y);
 }

@@ -165,7 +165,13 @@ function colorsNow() {
   const style = getComputedStyle(document.documentElement);
   const of = (/** @type {string} */ name) => style.getPropertyValue(`--${name}`).trim();
   return {
-    ...{ text: of("text"), muted: of("muted"), line: of("line"), track: of("line-strong") },
+    ...{
+      text: of("text"),
+      panel: of("panel"),
+      muted: of("muted"),
+      line: of("line"),
+      track: of("line-strong"),
+    },
     ...{ accent: of("accent"), soft: of("field"), red: of("red"), amber: of("amber") },
     violet: of("violet"),
   };
