@@ -37,10 +37,11 @@ export const mayMoveTime = computed(() => mayEdit.value && timeState.value !== n
 export const hasTimeline = computed(() => {
   const state = timeState.value;
   if (!state || documentId.value === "") return false;
-  return state.mode !== "live" || ["connected", "lost"].includes(ros.value.state);
+  const isKept = state.kept_bytes_max > 0 && ["connected", "lost"].includes(ros.value.state);
+  return state.mode !== "live" || isKept;
 });
 /** Which recording is shown: times of another one mean something else. */
-const recordingKey = computed(() => {
+export const recordingKey = computed(() => {
   const state = timeState.value;
   return state ? `${state.mode === "bag" ? state.path : ""} ${state.zero_s}` : "";
 });

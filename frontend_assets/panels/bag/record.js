@@ -98,6 +98,7 @@ function Counts({ of }) {
 
 /** @type {RecordForm["which"][]} */
 const WHICH = ["all", "topics", "regex"];
+const EXAMPLES = { regex: "/arm/.*|/tf", exclude: ".*/image_raw" };
 
 function Form() {
   const form = recordForm.value;
@@ -113,10 +114,10 @@ function Form() {
         (one) =>
           html`<label key=${one}><input type="radio" name="bag-which" value=${one} checked=${form.which === one} onChange=${() => changeForm({ which: one })} />${t(`bag.which.${one}`)}</label>`,
       )}</div>
-      ${form.which === "regex" && html`<${Text} name="regex" placeholder="/arm/.*|/tf" />`}
+      ${form.which === "regex" && html`<${Text} name="regex" placeholder=${EXAMPLES.regex} />`}
       ${form.which === "topics" && html`<${TopicChoice} />`}
     </fieldset>
-    <${Text} name="exclude" placeholder=".*/image_raw" />
+    <${Text} name="exclude" placeholder=${EXAMPLES.exclude} />
     <${Text} name="name" placeholder=${t("bag.name.auto")} />
     <div class="bag-pair"><${Choice} name="storage" of=${["mcap", "sqlite3"]} /><${Choice} name="compression" of=${["none", "zstd", "lz4"]} /></div>
     <div class="bag-pair"><${Figure} name="maxBytes" unit="MB" scale=${1e6} /><${Figure} name="maxSeconds" unit="s" scale=${1} /></div>
