@@ -204,7 +204,7 @@ function TopicRow({ topic, seconds }) {
   };
   return html`<tr class=${isMarked ? "chosen" : ""} title=${[name, type, trouble, note].filter(Boolean).join("\n")} draggable=${true}
     onDragStart=${(/** @type {DragEvent} */ event) => beginDrag(event, { topic: name, type, kind, path: "" })} onDragEnd=${endDrag}>
-    <th scope="row">${(trouble || note) && html`<span class=${trouble ? "bag-bad" : "bag-noted"}><${Icon} name=${trouble ? "alert" : "info"} size=${12} /><span class="hidden-words">${trouble || note}</span></span>`}<${LongName} text=${name} /></th>
+    <th scope="row"><span class="bag-topic-name">${(trouble || note) && html`<span class=${trouble ? "bag-bad" : "bag-noted"}><${Icon} name=${trouble ? "alert" : "info"} size=${12} /><span class="hidden-words">${trouble || note}</span></span>`}<${LongName} text=${name} /></span></th>
     <td class="type"><${LongName} text=${type.replace("/msg/", "/")} /></td>
     <td class="number">${count.toLocaleString(language.value)}</td>
     <td class="number rate">${latched ? t("topics.latched") : rate}</td>

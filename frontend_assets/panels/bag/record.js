@@ -66,7 +66,7 @@ const whoMay = () => (mayAct.value ? null : t("operations.viewer"));
 function Running({ state }) {
   const { busy, during } = useBusy();
   const { recording: runs, path, seconds, messages: count, lost, bytes, free_bytes: free } = state;
-  const rate = runs ? ` · ${sizeWords(recordedRate.value)}/s` : "";
+  const rate = runs && recordedRate.value > 0 ? ` · ${sizeWords(recordedRate.value)}/s` : "";
   return html`<section class=${`bag-state ${runs ? "running" : ""}`} aria-label=${t(runs ? "bag.running" : "bag.last")}>
     <header><span class="bag-light" aria-hidden="true"></span><h3>${t(runs ? "bag.running" : "bag.last")}</h3>
       <span class="bag-file" title=${path}>${baseName(path)}</span>
