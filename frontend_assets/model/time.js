@@ -131,12 +131,14 @@ export function dragTime(at_s) {
 /** @param {number} at_s and there it stays @returns {Promise<void>} */
 export async function seekTime(at_s) {
   const wanted_s = inWhole(at_s);
+  const before = timeState.peek();
   held_s.value = wanted_s;
   seeker.push({ at_s: wanted_s, settled: true });
   await seeker.settled();
   if (held_s.peek() !== wanted_s) return;
   batch(() => {
-    counted.value = { ...counted.peek(), now_s: wanted_s };
+    // What the studio told since is newer.
+    if (timeState.peek() === before) counted.value = { ...counted.peek(), now_s: wanted_s };
     held_s.value = null;
   });
 }
@@ -154,7 +156,10 @@ export const playTime = (playing) => ask({ type: "play_time", playing });
 /** @param {number} rate */
 export const setTimeRate = (rate) => ask({ type: "set_time_rate", rate });
 /** @param {boolean} forward to the next message of the chosen topic, or to the one before */
-export const stepTime = (forward) => ask({ type: "step_time", topic: markTopic.peek(), forward });
+export async function stepTime(forward) {
+  await seeker.settled();
+  return ask({ type: "step_time", topic: markTopic.peek(), forward });
+}
 /** @param {Range | null} range null: the whole, once */
 export const loopTime = (range) =>
   ask({ type: "loop_time", begin_s: range?.from_s ?? null, end_s: range?.to_s ?? null });
