@@ -3,7 +3,6 @@
 /** @import { BagEntry } from "../../types/wire.d.ts" */
 
 import { html, useEffect } from "vendor/preact.js";
-import { address } from "../../lib/address.js";
 import { language, t } from "../../lib/i18n.js";
 import { sizeWords } from "../../lib/timeline.js";
 import { shortTime, timeAgo } from "../../lib/times.js";
@@ -48,6 +47,5 @@ function BagRow({ one }) {
       <${Icon} name="bag" /><span class="entry-two"><span class="entry-name">${name}</span><span class="entry-path">${facts.join(" · ")}</span></span>
       <span class="entry-when">${when}</span></button>
     ${canShow && html`<${IconButton} icon="robot" label=${t("bag.show_here", { name })} disabled=${busy} onClick=${during(show)} />`}
-    <a class="icon-button" href=${address(`/api/bags/${encodeURIComponent(name)}`)} download aria-label=${t("bag.download", { name })} title=${t("bag.download", { name })}><${Icon} name="download" /></a>
   </li>`;
 }
