@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import pytest
+from axe_playwright_python.base import AXE_SCRIPT
 
 from tests.support.panel_pictures import SHOW_PANEL
 from tests.support.timeline import messages, shown_bag
@@ -19,6 +20,10 @@ pytestmark = [pytest.mark.browser, pytest.mark.timeout(240)]
 PREPARE: Final = """async (line) => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("../model/recording.js", script))).prepareRecording(line);
+}"""
+AXE: Final = """async () => {
+  const places = { include: [[".timeline"], [".bag"]] };
+  return (await axe.run(places)).violations;
 }"""
 FORM: Final = """async () => {
   const script = document.querySelector('script[type="module"]').src;
@@ -37,7 +42,16 @@ def test_the_contents_of_a_bag_are_listed_and_a_topic_is_marked(browser: Browser
         assert str(len(messages())) in row.inner_text()
         row.get_by_role("button", name="Mark /chatter on the timeline").click()
         assert page.locator(".timeline-topic").input_value() == "/chatter"
+        nothing_is_in_the_way(page)
         a_line_fills_the_form(page)
+        nothing_is_in_the_way(page)
+
+
+def nothing_is_in_the_way(page: Page) -> None:
+    """axe finds nothing wrong in the panel and on the timeline."""
+    page.evaluate(AXE_SCRIPT)
+    found = page.evaluate(AXE)
+    assert [(one["id"], [node["html"] for node in one["nodes"]]) for one in found] == []
 
 
 def a_line_fills_the_form(page: Page) -> None:
