@@ -54,7 +54,7 @@ class Chunking:
 
     bytes: int = CHUNK_BYTES
     compression: ChunkCompression = ""
-    level: int = 3
+    level: int = 1
     with_crc: bool = True
 
 

@@ -7,6 +7,7 @@ import errno
 import os
 import shutil
 import time
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Literal, NoReturn, TypeAlias
 
@@ -142,6 +143,8 @@ class BagWriter:
         self._topics: dict[int, tuple[RecordedTopic, str]] = {}
         """Each topic with the text of its type."""
         self._done: list[_Done] = []
+        self._removed = Counter[int]()
+        """Messages of each topic in files that were removed."""
         self._number = 0
         self._begun_ns: int | None = None
         """When the first message of the present file came."""
@@ -186,6 +189,10 @@ class BagWriter:
         except OSError as error:
             self._end(error)
         return number
+
+    def taken(self, number: int) -> int:
+        """Return how many messages of a topic it took, those of removed files among them."""
+        return self.count(number) + self._removed[number]
 
     def has_definition(self, number: int) -> bool:
         """Whether the text of a topic's type is known, and so in the bag."""
@@ -341,7 +348,9 @@ class BagWriter:
     def _remove_oldest(self) -> None:
         most = self._how.max_files
         while most and len(self._done) >= most:
-            (self._folder / self._done.pop(0).name).unlink(missing_ok=True)
+            oldest = self._done.pop(0)
+            self._removed.update(oldest.counts)
+            (self._folder / oldest.name).unlink(missing_ok=True)
 
     def _describe(self) -> None:
         text = metadata_text(self._description())
