@@ -247,6 +247,13 @@ class BagWriter:
         begin_ns = span.begin_ns if span.count else 0
         return Written(self._folder, span.count, size, begin_ns, span.end_ns)
 
+    def abandon(self) -> None:
+        """Let go of the bag as it is; harmless where it is complete."""
+        self._is_closed = True
+        if self._file is not None:
+            self._file.abandon()
+            self._file = None
+
     def _end(self, error: OSError) -> NoReturn:
         """Complete the bag as far as can be, and raise why it goes no further."""
         self._is_closed = True
