@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final, Literal, NoReturn, TypeAlias
 import zstandard
 
 from studio.bags.definition_text import definition_text
-from studio.bags.mcap_writing import Chunking, NewMcap
+from studio.bags.mcap_writer import Chunking, McapWriter
 from studio.bags.metadata_text import (
     METADATA_NAME,
     BagDescription,
@@ -22,7 +22,7 @@ from studio.bags.metadata_text import (
     information_text,
     metadata_text,
 )
-from studio.bags.sqlite_writing import NewSqlite
+from studio.bags.sqlite_writer import SqliteWriter
 from studio.errors import BagNotWrittenError, SettingsError
 from studio.files import is_there, temporary_beside, write_whole
 from studio.ros.duration import NANOSECONDS
@@ -329,9 +329,9 @@ class BagWriter:
         how = self._how
         path = self._folder / self._name
         if how.storage == "mcap":
-            return NewMcap(path, how.chunking)
+            return McapWriter(path, how.chunking)
         is_each = how.mode == "message"
-        return NewSqlite(path, self._types.distro, compresses=is_each, resilient=how.resilient)
+        return SqliteWriter(path, self._types.distro, compresses=is_each, resilient=how.resilient)
 
     @property
     def _name(self) -> str:

@@ -11,7 +11,7 @@ from studio.errors import SettingsError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from studio.bags.mcap_writing import ChunkCompression, Chunking
+    from studio.bags.mcap_writer import ChunkCompression, Chunking
     from studio.bags.writer import Storing
 
 _LEVELS: Final[Mapping[str, int]] = {
@@ -88,7 +88,7 @@ def _pair(text: str) -> tuple[str, str]:
 
 
 def _chunking(options: argparse.Namespace) -> Chunking:
-    from studio.bags.mcap_writing import Chunking
+    from studio.bags.mcap_writer import Chunking
 
     preset, file = options.storage_preset_profile, options.storage_config_file
     if (preset == "resilient") != (options.storage == "sqlite3") and preset != "none":
@@ -110,7 +110,7 @@ def _configured(file: Path) -> Chunking:
     Raises:
         SettingsError: It is none, or asks for what is not offered; the sentence names the key.
     """
-    from studio.bags.mcap_writing import Chunking
+    from studio.bags.mcap_writer import Chunking
     from studio.ros.types.yaml_texts import read_yaml
 
     try:

@@ -1,4 +1,4 @@
-"""NewMcap: an .mcap file as rosbag2 writes it, in chunks that are whole once they are written."""
+"""McapWriter: an .mcap file as rosbag2 writes it, in chunks that are whole once they are written."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class _Written:
     counts: Mapping[int, int]
 
 
-class NewMcap:
+class McapWriter:
     """Writes a new file; see `StorageFile`.
 
     Records are made by the library, those that come with every message here: with its writer a

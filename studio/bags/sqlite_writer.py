@@ -1,4 +1,4 @@
-"""NewSqlite: a .db3 file as rosbag2 writes it, in transactions that are whole once they end."""
+"""SqliteWriter: a .db3 file as rosbag2 writes it, in transactions that are whole once they end."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _QUICK: Final = "PRAGMA synchronous=OFF"
 """The system keeps what this process wrote, also if it is killed; a loss of power may cost it."""
 
 
-class NewSqlite:
+class SqliteWriter:
     """Writes a new file; see `StorageFile`.
 
     The journal is a file beside it: what a killed process left half done is taken back by whoever
