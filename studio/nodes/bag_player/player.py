@@ -106,7 +106,12 @@ class BagPlayer:
     def now_ns(self) -> int:
         """Return its time, since the Unix epoch; it does not pass the end."""
         with self._lock:
-            return min(self._pace.now_ns(), self._end_ns())
+            return min(self._pace.now_ns(), self.span_ns()[1])
+
+    def span_ns(self) -> tuple[int, int]:
+        """Return where it begins and ends, since the Unix epoch."""
+        begin_ns = self._begin_ns()
+        return begin_ns, max(begin_ns, self._end_ns())
 
     def play(
         self,
@@ -400,7 +405,7 @@ class BagPlayer:
 
     def _tell_time(self) -> None:
         with self._lock:
-            self._tell(min(self._pace.now_ns(), self._end_ns()))
+            self._tell(min(self._pace.now_ns(), self.span_ns()[1]))
 
     def _tell(self, at_ns: int) -> None:
         if self._clock_out is not None:
