@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from studio.bags.recording import Recorded, RecordedTopic
+from studio.bags.writer import BagWriter
 from studio.ros.attachment import Attachment
 from studio.ros.cdr import codec_of
 from studio.ros.messages import shared_types
@@ -18,9 +19,11 @@ from studio.ros.qos import DurabilityPolicy, QoSProfile
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
+    from studio.bags.writer import Storing
     from studio.errors import BagError
     from studio.ros.types.library import TypeLibrary
 
@@ -127,3 +130,13 @@ class MemoryRecording:
     def counts(self, topic: str, begin_ns: int, end_ns: int, bins: int) -> NDArray[np.int64]:
         times = [one.received_ns for one in self._samples[topic]]
         return np.histogram(times, bins, (begin_ns, end_ns))[0].astype(np.int64)
+
+
+def written(recording: MemoryRecording, folder: Path, storing: Storing | None = None) -> Path:
+    """Write a recording as a bag; its folder."""
+    with BagWriter(folder, recording.types, storing) as writer:
+        numbers = {one.name: writer.add_topic(one) for one in recording.topics}
+        end_ns = recording.end_ns + 1
+        for topic, sample in recording.messages(numbers, recording.begin_ns, end_ns):
+            writer.write(numbers[topic], sample)
+    return folder

@@ -83,7 +83,7 @@ class Offer:
     qos: QoSProfile
     publisher: RawPublisher
     kept: int
-    """Messages that say how things stood: as many as all its publishers kept together."""
+    """Messages of a latched one that say how things stood: as many as its publishers kept."""
 
     @property
     def is_latched(self) -> bool:
@@ -172,7 +172,8 @@ def _opened(
     endpoint = node.endpoint(kind, topic.type_name, topic.name, qos, type_hash)
     publisher = RawPublisher(endpoint)
     node.on_destroy(publisher.destroy)
-    return Offer(topic, qos, publisher, _kept(topic))
+    kept = (qos.depth or DEPTH) if topic.name in overrides else _kept(topic)
+    return Offer(topic, qos, publisher, min(_KEPT_MAX, kept))
 
 
 def _kept(topic: RecordedTopic) -> int:
