@@ -160,6 +160,33 @@ export interface AskControl {
 /** What changes about a part. */
 export type Aspect = "size" | "shape" | "color" | "pose" | "collision" | "inertia" | "motion" | "name" | "other" | "presence";
 
+/** One of them. */
+export interface BagEntry {
+  path: string;
+  name: string;
+  begin_s: number;
+  seconds: number;
+  bytes: number;
+  messages: number;
+}
+
+/** Answer to `save_past` and `cut_bag`. */
+export interface BagWritten {
+  type: "bag_written";
+  request: number;
+  path: string;
+  messages: number;
+  bytes: number;
+}
+
+/** Answer to `list_bags`, the newest first. */
+export interface Bags {
+  type: "bags";
+  request: number;
+  folder: string;
+  bags: BagEntry[];
+}
+
 /** Answer to what begins an operation: its number, by which it is reported and cancelled. */
 export interface Begun {
   type: "begun";
@@ -486,6 +513,18 @@ export interface CreatePackage {
   maintainer_name?: string;
   maintainer_email?: string;
   contents?: "nodes" | "interfaces" | "description";
+}
+
+/** Write a part of what is shown into a bag; times are those of `time_state`. */
+export interface CutBag {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "cut_bag";
+  begin_s: number;
+  end_s: number;
+  topics?: string[];
+  name?: string;
 }
 
 /** Delete a lesson that was written in the page. */
@@ -2017,6 +2056,14 @@ export interface LinkView {
   macros: string[];
 }
 
+/** Ask for the bags that can be opened: those of the folder in which the studio records. */
+export interface ListBags {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "list_bags";
+}
+
 /** The models that the studio ships. */
 export interface ListExamples {
   request?: number;
@@ -3143,6 +3190,28 @@ export interface RecentEntry {
   is_there: boolean;
 }
 
+/** What was recorded of a topic. */
+export interface RecordedCount {
+  name: string;
+  type_name: string;
+  count: number;
+  lost: number;
+}
+
+/** The recording of the live system; sent when it changes, and each second while it runs. */
+export interface RecordingState {
+  type: "recording_state";
+  recording: boolean;
+  path: string;
+  seconds: number;
+  messages: number;
+  lost: number;
+  bytes: number;
+  free_bytes: number;
+  topics: RecordedCount[];
+  trouble: string;
+}
+
 /** Do again what was taken back. */
 export interface Redo {
   request?: number;
@@ -3582,6 +3651,16 @@ export interface SaveLesson {
   text: string;
 }
 
+/** Write the last seconds that are kept of the live system into a bag. */
+export interface SavePast {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_past";
+  seconds: number;
+  name?: string;
+}
+
 /** Keep where the joints are under a name; with `replace` also under one that there is. */
 export interface SavePose {
   request?: number;
@@ -3976,6 +4055,22 @@ export interface StartNodes {
   type: "start_nodes";
 }
 
+/** Record topics into a bag, by the words of `ros2 bag record`; without any, all of them. */
+export interface StartRecording {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "start_recording";
+  topics?: string[];
+  regex?: string;
+  exclude_regex?: string;
+  name?: string;
+  storage?: "mcap" | "sqlite3";
+  compression?: "none" | "zstd" | "lz4";
+  max_bag_bytes?: number;
+  max_bag_s?: number;
+}
+
 /** Start a run again with the same arguments; one that goes on is ended first. */
 export interface StartRunAgain {
   request?: number;
@@ -4017,6 +4112,14 @@ export interface StopPublishing {
   id?: string;
   type: "stop_publishing";
   operation?: number;
+}
+
+/** End the recording; its bag is whole afterwards. */
+export interface StopRecording {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "stop_recording";
 }
 
 /**
@@ -4595,6 +4698,7 @@ export type Command =
   | Complete
   | ConnectWire
   | CreatePackage
+  | CutBag
   | DeleteLesson
   | DeletePose
   | DeleteVariant
@@ -4675,6 +4779,7 @@ export type Command =
   | HandIn
   | InteractWithMarker
   | Lead
+  | ListBags
   | ListExamples
   | ListFolder
   | ListInterfaces
@@ -4735,6 +4840,7 @@ export type Command =
   | SaveAs
   | SaveCopy
   | SaveLesson
+  | SavePast
   | SavePose
   | SaveRvizFile
   | SaveVariant
@@ -4764,10 +4870,12 @@ export type Command =
   | StartLaunch
   | StartNode
   | StartNodes
+  | StartRecording
   | StartRunAgain
   | StopDemo
   | StopNodes
   | StopPublishing
+  | StopRecording
   | StopRobot
   | StopRun
   | SwitchDisplays
@@ -4784,6 +4892,8 @@ export type Command =
 export type Event =
   | Actions
   | Arguments
+  | BagWritten
+  | Bags
   | Begun
   | Built
   | Calls
@@ -4861,6 +4971,7 @@ export type Event =
   | Progress
   | Publications
   | Recent
+  | RecordingState
   | ReferencesAnswer
   | Refused
   | RenamingAnswer

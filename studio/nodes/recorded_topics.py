@@ -4,35 +4,19 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import TYPE_CHECKING, Final
 
 from studio.errors import SettingsError
-from studio.ros.duration import Duration
 from studio.ros.names import is_hidden
-from studio.ros.qos import (
-    DurabilityPolicy,
-    HistoryPolicy,
-    LivelinessPolicy,
-    QoSProfile,
-    ReliabilityPolicy,
-)
-from studio.ros.types.yaml_texts import read_yaml
+from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from enum import IntEnum
+    from collections.abc import Sequence
 
 _EVENTS: Final = "/_service_event"
 DEPTH: Final = 10
 DEPTH_MAX: Final = 1_000
 """Earlier samples that are asked for of a latched topic."""
-_POLICIES: Final[Mapping[str, type[IntEnum]]] = {
-    "history": HistoryPolicy,
-    "reliability": ReliabilityPolicy,
-    "durability": DurabilityPolicy,
-    "liveliness": LivelinessPolicy,
-}
-_SPANS: Final = ("deadline", "lifespan", "liveliness_lease_duration")
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,53 +116,3 @@ def adapted(topic: str, offered: Sequence[QoSProfile]) -> Adapted:
         else DurabilityPolicy.VOLATILE,
     )
     return Adapted(profile, tuple(warnings))
-
-
-def read_qos_overrides(text: str, source: str) -> dict[str, QoSProfile]:
-    """Read the profiles of a file for `--qos-profile-overrides-path`, by topic.
-
-    Raises:
-        SettingsError: It is none; the sentence names the file and the place.
-    """
-    try:
-        found = read_yaml(text, source)
-    except ValueError as error:
-        raise SettingsError(f"{error}.") from None
-    if not isinstance(found, dict):
-        raise SettingsError(f"{source}: profiles are given by topic, as in /chatter: {{depth: 1}}.")
-    by_topic = cast("dict[Any, Any]", found)
-    return {
-        str(topic): _profile(values, f"{source}: {topic}") for topic, values in by_topic.items()
-    }
-
-
-def _profile(values: Any, where: str) -> QoSProfile:  # noqa: ANN401 - what YAML makes of a text
-    profile = QoSProfile(depth=DEPTH)
-    if not isinstance(values, dict):
-        raise SettingsError(f"{where}: give policies, as in reliability: best_effort.")
-    for name, value in cast("dict[Any, Any]", values).items():
-        setattr(profile, str(name), _policy(str(name), value, where))
-    return profile
-
-
-def _policy(name: str, value: Any, where: str) -> Any:  # noqa: ANN401 - of the policy
-    if name in _POLICIES:
-        policies = _POLICIES[name].__members__
-        if str(value).upper() not in policies:
-            known = ", ".join(one.lower() for one in policies)
-            raise SettingsError(f"{where}: {name} is {str(value)[:40]}; it may be {known}.")
-        return policies[str(value).upper()]
-    if name in _SPANS:
-        return _span(value, f"{where}: {name}")
-    if name == "depth" and isinstance(value, int) and not isinstance(value, bool) and value >= 0:
-        return value
-    if name == "avoid_ros_namespace_conventions" and isinstance(value, bool):
-        return value
-    raise SettingsError(f"{where}: {name} is no policy of QoS, or cannot be {str(value)[:40]}.")
-
-
-def _span(value: Any, where: str) -> Duration:  # noqa: ANN401 - what YAML makes of a text
-    try:
-        return Duration(seconds=int(value["sec"]), nanoseconds=int(value["nsec"]))
-    except (TypeError, KeyError, ValueError, OverflowError):
-        raise SettingsError(f"{where}: give {{sec: 1, nsec: 0}}.") from None

@@ -90,6 +90,7 @@ FIELDS: dict[str, object] = {
     "version": 0,
     "offset": 0,
     "count": 1,
+    **{"seconds": 1.0, "begin_s": 0.0, "end_s": 1.0},
     "replacement": "x",
     "changes": [{"start": 0, "end": 0, "text": "x"}],
     "positions": {},

@@ -213,8 +213,8 @@ def _settings(options: argparse.Namespace) -> RecordSettings:
     Raises:
         SettingsError: They do not go together; the sentence says which.
     """
+    from studio.bags.qos_overrides import read_qos_overrides
     from studio.nodes.bag_recorder import RecordSettings
-    from studio.nodes.recorded_topics import read_qos_overrides
 
     if options.use_sim_time and options.no_discovery:
         raise SettingsError(
@@ -224,7 +224,7 @@ def _settings(options: argparse.Namespace) -> RecordSettings:
     settings = RecordSettings(
         topics=_choice(options),
         storing=storing_of(options),
-        qos={} if path is None else read_qos_overrides(_text(path), str(path)),
+        qos={} if path is None else read_qos_overrides(path),
         discovers=not options.no_discovery,
         polling_s=options.polling_interval / 1000,
         waiting_bytes_max=options.max_cache_size or _CACHE_BYTES,
@@ -235,13 +235,6 @@ def _settings(options: argparse.Namespace) -> RecordSettings:
     )
     settings.topics.check()
     return settings
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise SettingsError(f"{path} cannot be read: {error}.") from None
 
 
 def _choice(options: argparse.Namespace) -> TopicChoice:
