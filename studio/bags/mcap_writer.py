@@ -125,7 +125,7 @@ class McapWriter:
         payload, (sequence, source_ns, _), at_ns = sample
         chunk, length = self._chunk, len(payload)
         head = _MESSAGE.pack(
-            Opcode.MESSAGE, length + 22, number, sequence & _SEQUENCE_MASK, at_ns, source_ns
+            Opcode.MESSAGE, length + 22, number, sequence & _SEQUENCE_MASK, at_ns, max(0, source_ns)
         )
         index = chunk.indexes.get(number)
         if index is None:

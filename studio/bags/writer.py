@@ -207,6 +207,8 @@ class BagWriter:
                 self._check_room()
             if self._is_to_be_split(sample.received_ns):
                 self._split()
+            if self._begun_ns is None:
+                self._begun_ns = sample.received_ns
             self._present().write(number, sample)
         except OSError as error:
             self._end(error)
@@ -311,9 +313,8 @@ class BagWriter:
             return True
         if not how.max_s:
             return False
-        if self._begun_ns is None:
-            self._begun_ns = at_ns
-        return at_ns - self._begun_ns >= how.max_s * NANOSECONDS
+        begun_ns = self._begun_ns
+        return begun_ns is not None and at_ns - begun_ns >= how.max_s * NANOSECONDS
 
     def _split(self) -> None:
         self._end_file()
