@@ -258,18 +258,20 @@ class BagWriter:
 
     def _end(self, error: OSError) -> NoReturn:
         """Complete the bag as far as can be, and raise why it goes no further."""
-        self._is_closed = True
+        self._is_closed = is_whole = True
         for step in (self._end_file, self._describe):
-            with contextlib.suppress(OSError):
+            try:
                 step()
-        raise self._refusal(error) from error
+            except OSError:
+                is_whole = False
+        raise self._refusal(error, is_whole=is_whole) from error
 
-    def _refusal(self, error: OSError) -> BagNotWrittenError:
+    def _refusal(self, error: OSError, *, is_whole: bool = False) -> BagNotWrittenError:
         reason = error.strerror or str(error)
+        if is_whole:
+            reason += ". What was written before is whole"
         if error.errno in _FULL:
-            reason += (
-                ". What was written before is whole: free some room, and record on into another bag"
-            )
+            reason += ": free some room, and record on into another bag"
         return BagNotWrittenError(str(self._folder), f"{reason}.")
 
     def _make_folder(self) -> None:

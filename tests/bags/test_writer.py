@@ -15,11 +15,13 @@ from rosbags.interfaces import MessageDefinitionFormat
 from rosbags.rosbag2 import Reader
 
 from studio.bags.mcap_writer import Chunking
+from studio.bags.opening import open_bag
 from studio.bags.writer import BagWriter, Storing
 from studio.errors import BagNotWrittenError, SettingsError
 from tests.support.written_bags import (
     BEGIN_NS,
     KINDS,
+    LATCHED,
     TYPES,
     recorded_topic,
     sample,
@@ -77,8 +79,10 @@ def test_topics_keep_qos_hash_and_definition(tmp_path: Path, storage: str):
     assert image.digest == TYPES.hash_of("sensor_msgs/msg/Image")
     assert "=\nMSG: std_msgs/Header\n" in image.msgdef.data
     assert "=\nMSG: builtin_interfaces/Time\n" in image.msgdef.data
-    (qos,) = found["/description"].ext.offered_qos_profiles  # pyright: ignore[reportUnknownMemberType, reportAttributeAccessIssue, reportUnknownVariableType]
-    assert (qos.durability.name, qos.depth) == ("TRANSIENT_LOCAL", 1)
+    bag = open_bag(tmp_path / "bag")
+    (description,) = (one for one in bag.topics if one.name == "/description")
+    assert (description.is_latched, description.qos) == (True, (LATCHED,))
+    bag.close()
     strange = found["/strange"]
     assert (strange.msgdef.format, strange.msgdef.data) == (MessageDefinitionFormat.NONE, "")
     assert (found["/words"].msgcount, found["/description"].msgcount) == (200, 0)

@@ -15,7 +15,6 @@ from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.recording import BagRecording
 from studio.protocol.recording import CutBag, ListBags, SavePast, StartRecording, StopRecording
 from studio.protocol.roles import Role
-from studio.ros.client import Node
 from studio.settings import WireChoice
 from tests.support.bridged import bridged
 from tests.support.open_documents import Ear, until
@@ -53,7 +52,7 @@ def talking(ros: RosSystem) -> Generator[None]:
 
 
 @pytest.fixture(autouse=True)
-def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
