@@ -153,6 +153,11 @@ class BagRecorder:
         return self._writing.size
 
     @property
+    def kept_bytes(self) -> int:
+        """Bytes in memory that wait for a snapshot."""
+        return 0 if self._snapshots is None else self._snapshots.bytes
+
+    @property
     def is_paused(self) -> bool:
         """Whether what comes is left out."""
         return self._is_paused
@@ -300,7 +305,7 @@ class _Snapshots:
         self._most_bytes = settings.waiting_bytes_max
         self._kept_ns = int(settings.snapshot_s * 1e9)
         self._kept: deque[tuple[TopicInput, list[RawSample], int]] = deque()
-        self._bytes = 0
+        self.bytes = 0
         self._lock = threading.Lock()
         self._has_written = False
 
@@ -309,14 +314,14 @@ class _Snapshots:
         now_ns = samples[-1].received_ns
         with self._lock:
             self._kept.append((topic, samples, size))
-            self._bytes += size
+            self.bytes += size
             while len(self._kept) > 1 and self._is_too_old(now_ns):
-                self._bytes -= self._kept.popleft()[2]
+                self.bytes -= self._kept.popleft()[2]
 
     def write(self, writing: WritingThread) -> None:
         """Let all that is kept be written into a file of its own."""
         with self._lock:
-            kept, self._kept, self._bytes = self._kept, deque(), 0
+            kept, self._kept, self.bytes = self._kept, deque(), 0
         if self._has_written:
             writing.split()
         self._has_written = True
@@ -324,7 +329,7 @@ class _Snapshots:
             writing.post(*one)
 
     def _is_too_old(self, now_ns: int) -> bool:
-        if self._bytes > self._most_bytes:
+        if self.bytes > self._most_bytes:
             return True
         oldest_ns = self._kept[0][1][-1].received_ns
         return self._kept_ns > 0 and now_ns - oldest_ns > self._kept_ns
