@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import resource
 import signal
@@ -14,9 +13,6 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import pytest
-from mcap.exceptions import McapError
-from mcap.records import Message
-from mcap.stream_reader import StreamReader
 
 from studio.bags.mcap_writer import Chunking
 from studio.bags.opening import open_bag
@@ -27,6 +23,7 @@ from tests.support.wire import wait_until
 from tests.support.written_bags import (
     BEGIN_NS,
     TYPES,
+    kept_in_mcap,
     recorded_topic,
     sample,
     told_by_mcap,
@@ -175,14 +172,6 @@ def test_kill_9_leaves_all_but_the_last_chunk(tmp_path: Path, storage: Storage):
         assert len(kept) >= last - 4_300
     assert [int.from_bytes(one[:4], "little") for one in kept] == list(range(len(kept)))
     assert (bag / "metadata.yaml").is_file()
-
-
-def kept_in_mcap(file: Path) -> list[bytes]:
-    """The messages of an unfinished file, up to where it breaks off."""
-    found: list[bytes] = []
-    with file.open("rb") as stream, contextlib.suppress(McapError):
-        found.extend(one.data for one in StreamReader(stream).records if isinstance(one, Message))
-    return found
 
 
 def test_a_slow_topic_is_on_the_disk_a_moment_later(

@@ -11,7 +11,7 @@ from tests.support.command_line import started
 from tests.support.demos import node_at
 from tests.support.ros2_peer import real_node
 from tests.support.wire import wait_until
-from tests.support.written_bags import told_by_mcap, told_by_rosbags
+from tests.support.written_bags import kept_in_mcap, told_by_mcap, told_by_rosbags
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,12 +30,15 @@ def test_b1_a_bag_of_real_nodes_has_what_they_published(endpoint: str, tmp_path:
             recording.wait_for("Subscribed to topic '/kept'")
             with real_node(endpoint, "pub", *told) as talker:
                 recording.wait_for("Subscribed to topic '/told'")
-                wait_until("all was said", lambda: len(talker.all_said(SAID)) == 50)
-                wait_until("all is written", lambda: recorded(bag) == 51)
+                wait_until("all was said", lambda: len(talker.all_said("pub")) == 50)
+                wait_until("all is written", lambda: len(kept_in_mcap(bag / "bag_0.mcap")) == 51)
                 recording.stop()
     with Reader(bag) as reader:
         found = {one.topic: one for one in reader.connections}
         assert found["/told"].msgtype == "std_msgs/msg/String"
         assert found["/told"].digest.startswith("RIHS01_")
     assert told_by_mcap(bag / "bag_0.mcap") == told_by_rosbags(bag)
-    assert {topic for topic, _, _ in told_by_rosbags(bag)} == {"/told", "/kept"}
+    words = [(topic, data[8:].rstrip(b"\0").decode()) for topic, _, data in told_by_rosbags(bag)]
+    said = [f"from rclpy {number}" for number in range(50)]
+    assert [word for topic, word in words if topic == "/told"] == said
+    assert [word for topic, word in words if topic == "/kept"] == ["from rclpy 0"]

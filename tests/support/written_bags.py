@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING, Final
 
+from mcap.exceptions import McapError
 from mcap.reader import make_reader
+from mcap.records import Message
+from mcap.stream_reader import StreamReader
 from rosbags.rosbag2 import Reader
 
 from studio.bags.recording import RecordedTopic
@@ -90,3 +94,11 @@ def told_by_mcap(file: Path) -> list[Told]:
         ]
         assert summary.statistics.message_count == len(found)
         return found
+
+
+def kept_in_mcap(file: Path) -> list[bytes]:
+    """The messages of an unfinished file, up to where it breaks off."""
+    found: list[bytes] = []
+    with file.open("rb") as stream, contextlib.suppress(McapError):
+        found.extend(one.data for one in StreamReader(stream).records if isinstance(one, Message))
+    return found
