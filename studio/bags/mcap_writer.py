@@ -1,4 +1,4 @@
-"""McapWriter: an .mcap file as rosbag2 writes it, in chunks that are whole once they are written."""
+"""McapWriter: an .mcap file as rosbag2 writes it, in chunks that are whole once written."""
 
 from __future__ import annotations
 

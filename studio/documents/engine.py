@@ -139,6 +139,11 @@ class Engine:
         """The folders that can be listed and opened from the page."""
         self.left_work = LeftDrafts(lambda: self.served, settings.data_folder)
 
+    @property
+    def bags_folder(self) -> Path:
+        """Where topics are recorded, a folder for each bag."""
+        return self.ros.recording.folder
+
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""
         await self._services.start()
