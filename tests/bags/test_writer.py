@@ -15,7 +15,7 @@ from rosbags.interfaces import MessageDefinitionFormat
 from rosbags.rosbag2 import Reader
 
 from studio.bags.mcap_writer import Chunking
-from studio.bags.opening import open_bag
+from studio.bags.metadata import read_metadata
 from studio.bags.writer import BagWriter, Storing
 from studio.errors import BagNotWrittenError, SettingsError
 from tests.support.written_bags import (
@@ -79,10 +79,9 @@ def test_topics_keep_qos_hash_and_definition(tmp_path: Path, storage: str):
     assert image.digest == TYPES.hash_of("sensor_msgs/msg/Image")
     assert "=\nMSG: std_msgs/Header\n" in image.msgdef.data
     assert "=\nMSG: builtin_interfaces/Time\n" in image.msgdef.data
-    bag = open_bag(tmp_path / "bag")
-    (description,) = (one for one in bag.topics if one.name == "/description")
-    assert (description.is_latched, description.qos) == (True, (LATCHED,))
-    bag.close()
+    about = read_metadata(tmp_path / "bag" / "metadata.yaml")
+    (description,) = (one for one in about.topics if one.name == "/description")
+    assert description.qos == (LATCHED,)
     strange = found["/strange"]
     assert (strange.msgdef.format, strange.msgdef.data) == (MessageDefinitionFormat.NONE, "")
     assert (found["/words"].msgcount, found["/description"].msgcount) == (200, 0)
