@@ -1083,7 +1083,7 @@ export interface Folder {
 export interface FolderEntry {
   name: string;
   path: string;
-  kind: "folder" | "package" | "robot" | "zip" | "file";
+  kind: "folder" | "package" | "robot" | "bag" | "zip" | "file";
   openable: boolean;
   reason: string;
 }

@@ -10,8 +10,8 @@ import pytest
 from studio.ros.qos import QoSProfile
 from tests.support.command_line import started, studio
 from tests.support.demos import node_at
-from tests.support.memory_recording import BEGIN_NS, LATCHED, MemoryRecording, written
 from tests.support.ros2_peer import real_node, started_program
+from tests.support.told_recording import BEGIN_NS, LATCHED, ToldRecording, written
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ SIMULATED = """
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    recording = MemoryRecording()
+    recording = ToldRecording()
     recording.topic("/number", STRING, QoSProfile(depth=10))
     recording.topic("/map", STRING, LATCHED)
     recording.tell("/map", 0, data="map")

@@ -11,7 +11,7 @@ import pytest
 
 from tests.support.command_line import started, studio
 from tests.support.demos import ENDS_WITHIN_S, running_demo
-from tests.support.memory_recording import MemoryRecording, written
+from tests.support.told_recording import ToldRecording, written
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
@@ -173,7 +173,7 @@ def world(endpoint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f'connect/endpoints=["{endpoint}"]')
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mybot.xacro").write_text(XACRO)
-    numbers = MemoryRecording()
+    numbers = ToldRecording()
     numbers.topic("/number", "example_interfaces/msg/Int64")
     numbers.tell("/number", 0, data=7)
     (tmp_path / "bags").mkdir()

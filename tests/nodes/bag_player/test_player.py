@@ -13,7 +13,7 @@ from studio.nodes.bag_player.options import PlayOptions
 from studio.nodes.bag_player.player import ROUND_S, BagPlayer
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from tests.support.demos import heard, node_at
-from tests.support.memory_recording import BEGIN_NS, LATCHED, MS, MemoryRecording
+from tests.support.told_recording import BEGIN_NS, LATCHED, MS, ToldRecording
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def listener(endpoint: str) -> Generator[Node]:
 
 @contextmanager
 def player_of(
-    node: Node, recording: MemoryRecording, options: PlayOptions = FAST
+    node: Node, recording: ToldRecording, options: PlayOptions = FAST
 ) -> Generator[BagPlayer]:
     player = BagPlayer(node, recording, options)
     try:
@@ -57,9 +57,9 @@ def told(messages: list[Any]) -> list[str]:
     return [one.data for one in messages]
 
 
-def numbers(name: str, count: int = 5, apart_ms: float = 10) -> MemoryRecording:
+def numbers(name: str, count: int = 5, apart_ms: float = 10) -> ToldRecording:
     """A topic with the messages 0, 1, 2 and so on."""
-    recording = MemoryRecording()
+    recording = ToldRecording()
     recording.topic(name)
     for at in range(count):
         recording.tell(name, at * apart_ms, data=str(at))
@@ -77,7 +77,7 @@ def hearing(listener: Node, speaker: Node, *names: str) -> dict[str, list[Any]]:
 
 
 def test_messages_come_in_their_order_with_their_bytes(speaker: Node, listener: Node):
-    recording = MemoryRecording()
+    recording = ToldRecording()
     raw: list[bytes] = []
     for name in ("/both/a", "/both/b"):
         recording.topic(name)
@@ -182,7 +182,7 @@ def test_a_loop_of_one_moment_rests_between_its_rounds(speaker: Node):
 
 
 def test_a_loop_of_nothing_ends(speaker: Node):
-    recording = MemoryRecording()
+    recording = ToldRecording()
     recording.topic("/silent")
     with player_of(speaker, recording, replace(FAST, is_looping=True)) as player:
         player.play()
@@ -265,7 +265,7 @@ def test_a_latched_message_that_a_seek_passes_over_is_told(speaker: Node, listen
 
 
 def test_a_topic_is_offered_as_it_was_or_as_a_file_says(speaker: Node):
-    recording = MemoryRecording()
+    recording = ToldRecording()
     quick = QoSProfile(depth=3, reliability=ReliabilityPolicy.BEST_EFFORT)
     recording.topic("/qos/quick", STRING, quick, quick)
     recording.topic("/qos/mixed", STRING, quick, LATCHED)
@@ -364,7 +364,7 @@ def test_a_recording_that_cannot_be_read_further_is_played_up_to_there(speaker: 
 
 
 def test_a_topic_of_a_foreign_type_is_played_by_the_hash_that_was_recorded(speaker: Node):
-    recording = MemoryRecording()
+    recording = ToldRecording()
     strange = f"RIHS01_{'ab' * 32}"
     recording.topic("/strange", "their_msgs/msg/Thing", type_hash=strange)
     recording.tell_bytes("/strange", 0, b"\0\1\0\0abcd")
@@ -383,7 +383,7 @@ def test_playing_may_begin_again_elsewhere(speaker: Node):
 
 
 def test_only_the_chosen_topics_are_played(speaker: Node):
-    recording = MemoryRecording()
+    recording = ToldRecording()
     for name in ("/cam/left", "/cam/right", "/scan"):
         recording.topic(name)
     choice = Choice(regex="/cam/.*", exclude_topics=("/cam/right",))

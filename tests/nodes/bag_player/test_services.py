@@ -9,7 +9,7 @@ from studio.nodes.bag_player.options import PlayOptions
 from studio.nodes.bag_player.player import BagPlayer
 from studio.nodes.bag_player.services import NODE_NAME, serve_player
 from tests.support.demos import call, node_at
-from tests.support.memory_recording import BEGIN_NS, MS, MemoryRecording
+from tests.support.told_recording import BEGIN_NS, MS, ToldRecording
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def asker(endpoint: str) -> Generator[Node]:
 
 @pytest.fixture
 def player(endpoint: str) -> Generator[BagPlayer]:
-    recording = MemoryRecording()
+    recording = ToldRecording()
     recording.topic("/number")
     for at in range(10):
         recording.tell("/number", at * 10, data=str(at))

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.cli.bag_storing import add_storing_options, storing_of
 from studio.cli.graph import full_name
+from studio.cli.keys import watching_keys
 from studio.cli.own_node import own_node
 from studio.cli.wire import add_wire_options
 from studio.errors import SettingsError
@@ -180,20 +181,17 @@ def _keys(
     options: argparse.Namespace, recorder: BagRecorder, say: Callable[[str], None]
 ) -> Generator[None]:
     """Let SPACE pause and resume, where there is a terminal."""
-    if options.disable_keyboard_controls or not sys.stdin.isatty():
+    if options.disable_keyboard_controls:
         yield
         return
-    from studio.course.turtlesim.keyboard import key_presses
 
-    with key_presses() as next_key:
-        say("Press SPACE for pausing/resuming")
+    def take(key: str) -> None:
+        if key == " ":
+            toggle(recorder, say)
 
-        def follow() -> None:
-            while key := next_key():
-                if key == " ":
-                    toggle(recorder, say)
-
-        threading.Thread(target=follow, name="keys", daemon=True).start()
+    with watching_keys(take) as there_are:
+        if there_are:
+            say("Press SPACE for pausing/resuming")
         yield
 
 

@@ -9,7 +9,7 @@ import pytest
 from studio.ros.qos import DurabilityPolicy
 from tests.support.command_line import started, studio
 from tests.support.demos import call, heard, node_at, running
-from tests.support.memory_recording import LATCHED, MemoryRecording, written
+from tests.support.told_recording import LATCHED, ToldRecording, written
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ INT = "std_msgs/msg/Int32"
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    recording = MemoryRecording()
+    recording = ToldRecording()
     recording.topic("/number", INT)
     recording.topic("/other", INT)
     recording.topic("/latched", INT, LATCHED)
