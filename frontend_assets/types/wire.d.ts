@@ -194,6 +194,19 @@ export interface Begun {
   operation: number;
 }
 
+/** A moment with a name. */
+export interface Bookmark {
+  at_s: number;
+  name: string;
+}
+
+/** The bookmarks of what is shown, by time; they are kept beside a bag's files. */
+export interface Bookmarks {
+  type: "bookmarks";
+  bookmarks: Bookmark[];
+  trouble: string;
+}
+
 /** A run ended: how long it took from the edit to the scene. */
 export interface Built {
   type: "built";
@@ -1542,6 +1555,19 @@ export interface GetSceneTime {
   type: "get_scene_time";
 }
 
+/** Ask for a number of a topic's messages over a range, as few values as a picture can show. */
+export interface GetSeries {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_series";
+  topic: string;
+  path: string;
+  begin_s: number;
+  end_s: number;
+  columns: number;
+}
+
 /** Ask for the services that have a server. */
 export interface GetServices {
   request?: number;
@@ -1568,6 +1594,26 @@ export interface GetTf {
   frame?: string;
   seen_from?: string;
   pose_only?: boolean;
+}
+
+/** Ask where a topic has messages; an empty one means all together. */
+export interface GetTimeMarks {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_time_marks";
+  topic?: string;
+  begin_s: number;
+  end_s: number;
+  bins: number;
+}
+
+/** Ask for errors and warnings of `/rosout` and `/diagnostics` in what is shown. */
+export interface GetTimeTicks {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_time_ticks";
 }
 
 /** Ask for the kinds of tools. */
@@ -1643,6 +1689,14 @@ export interface GiveControl {
   id?: string;
   type: "give_control";
   person: string;
+}
+
+/** Show what comes now; a bag is closed. */
+export interface GoLive {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "go_live";
 }
 
 /** A goal as its server reports it. */
@@ -2182,6 +2236,16 @@ export interface LookUp {
   type: "look_up";
 }
 
+/** Play one part again and again; both None: the whole, once. */
+export interface LoopTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "loop_time";
+  begin_s?: number | null;
+  end_s?: number | null;
+}
+
 /** Something of a file that is only kept, and written back as it is. */
 export interface LossView {
   reason: "no_display" | "no_property" | "no_value" | "no_tool" | "no_view" | "no_panel" | "no_option" | "empty_group" | "window";
@@ -2425,6 +2489,15 @@ export interface OfferView {
   name: string;
   types: string[];
   nodes: string[];
+}
+
+/** Show a bag in a document; without a document, as one of its own: answered by `opened`. */
+export interface OpenBag {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_bag";
+  path: string;
 }
 
 /** Make a copy of a shared document with its unsaved edits, or go on with yours. */
@@ -2979,6 +3052,15 @@ export interface PlannedStart {
   text: string;
 }
 
+/** Let the time go on from where it is, or stop it. */
+export interface PlayTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "play_time";
+  playing: boolean;
+}
+
 /** One named pose as the page lists it. */
 export interface PoseView {
   key: string;
@@ -3196,6 +3278,16 @@ export interface RecordedCount {
   type_name: string;
   count: number;
   lost: number;
+}
+
+/** A topic of what is shown. */
+export interface RecordedTopicView {
+  name: string;
+  type_name: string;
+  count: number;
+  latched: boolean;
+  trouble: string;
+  note: string;
 }
 
 /** The recording of the live system; sent when it changes, and each second while it runs. */
@@ -3747,6 +3839,20 @@ export interface SceneTime {
   paused: boolean;
 }
 
+/**
+ * Show another moment; of a live document, one of the last minutes.
+ *
+ * While a bar is dragged, `settled` is false: what takes longer is left for the last one.
+ */
+export interface SeekTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "seek_time";
+  at_s: number;
+  settled?: boolean;
+}
+
 /** Send a copy back to its owner with a remark. */
 export interface SendBack {
   request?: number;
@@ -3766,6 +3872,22 @@ export interface SendGoal {
   action_type: string;
   text?: string;
   timeout_s?: number;
+}
+
+/**
+ * Answer to `get_series`: the least and the largest value of each column, in their order.
+ *
+ * A column without a message has None for both.
+ */
+export interface Series {
+  type: "series";
+  request: number;
+  first: (number | null)[];
+  second: (number | null)[];
+  exact: boolean;
+  done: number;
+  count: number;
+  trouble: string;
 }
 
 /** Answer to `get_services`. */
@@ -3792,6 +3914,15 @@ export interface SetArguments {
   id?: string;
   type: "set_arguments";
   values: Record<string, string | null>;
+}
+
+/** Keep these bookmarks, and no others. */
+export interface SetBookmarks {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_bookmarks";
+  bookmarks: Bookmark[];
 }
 
 /** Change how others join; what is None stays as it is. */
@@ -3896,6 +4027,15 @@ export interface SetParameter {
   name: string;
   text: string;
   value_type?: string;
+}
+
+/** Let the time go faster or slower. */
+export interface SetTimeRate {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_time_rate";
+  rate: number;
 }
 
 /** Change a property of a tool, by RViz's name. */
@@ -4078,6 +4218,16 @@ export interface StartRunAgain {
   id?: string;
   type: "start_run_again";
   run: number;
+}
+
+/** Go to the next message of a topic, or to the one before; an empty topic means any. */
+export interface StepTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "step_time";
+  topic?: string;
+  forward?: boolean;
 }
 
 /** A block of checks of a lesson, in the order of its text. */
@@ -4276,6 +4426,60 @@ export interface TfPose {
   wxyz: [number, number, number, number];
   xyz: [number, number, number];
   chain: string[];
+}
+
+/** Answer to `get_time_marks`: how many messages lie in each part; a gap has none. */
+export interface TimeMarks {
+  type: "time_marks";
+  request: number;
+  counts: number[];
+}
+
+/**
+ * What a document shows, and where it stands; sent whenever that is another.
+ *
+ * While it plays that is once in a second: a page counts on by itself.
+ */
+export interface TimeState {
+  type: "time_state";
+  mode: "live" | "past" | "bag";
+  title: string;
+  path: string;
+  zero_s: number;
+  begin_s: number;
+  end_s: number;
+  now_s: number;
+  playing: boolean;
+  rate: number;
+  loop: [number, number] | null;
+  queue: number;
+  progress: number | null;
+  troubles: string[];
+  kept_bytes: number;
+  kept_bytes_max: number;
+}
+
+/** One of them. */
+export interface TimeTick {
+  at_s: number;
+  level: "warn" | "error";
+  source: string;
+  text: string;
+}
+
+/** Answer to `get_time_ticks`; `more` were left out, and `done` is the share that was read. */
+export interface TimeTicks {
+  type: "time_ticks";
+  request: number;
+  ticks: TimeTick[];
+  more: number;
+  done: number;
+}
+
+/** The topics of what is shown; sent after a `time_state` of another recording. */
+export interface TimeTopics {
+  type: "time_topics";
+  topics: RecordedTopicView[];
 }
 
 /** A kind of tool. */
@@ -4764,9 +4968,12 @@ export type Command =
   | GetRvizText
   | GetRvizView
   | GetSceneTime
+  | GetSeries
   | GetServices
   | GetText
   | GetTf
+  | GetTimeMarks
+  | GetTimeTicks
   | GetToolKinds
   | GetTopicEnds
   | GetTopicRates
@@ -4776,6 +4983,7 @@ export type Command =
   | GetViewKinds
   | GetWorkspaces
   | GiveControl
+  | GoLive
   | HandIn
   | InteractWithMarker
   | Lead
@@ -4789,12 +4997,14 @@ export type Command =
   | ListTopics
   | LoadParameters
   | LookUp
+  | LoopTime
   | LowerHand
   | MendAll
   | MendPackage
   | MoveView
   | NewRobot
   | NewUntitled
+  | OpenBag
   | OpenCopy
   | OpenExample
   | OpenFromWire
@@ -4808,6 +5018,7 @@ export type Command =
   | PauseScene
   | PickItems
   | PlanLaunch
+  | PlayTime
   | PressKey
   | Publish
   | PublishJoints
@@ -4846,10 +5057,12 @@ export type Command =
   | SaveVariant
   | SaveView
   | SawPanel
+  | SeekTime
   | SendBack
   | SendGoal
   | SetArgument
   | SetArguments
+  | SetBookmarks
   | SetClass
   | SetDisplay
   | SetDisplayProperty
@@ -4860,6 +5073,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetTimeRate
   | SetToolProperty
   | SetViewOptions
   | ShowCopy
@@ -4872,6 +5086,7 @@ export type Command =
   | StartNodes
   | StartRecording
   | StartRunAgain
+  | StepTime
   | StopDemo
   | StopNodes
   | StopPublishing
@@ -4895,6 +5110,7 @@ export type Event =
   | BagWritten
   | Bags
   | Begun
+  | Bookmarks
   | Built
   | Calls
   | Changed
@@ -4989,6 +5205,7 @@ export type Event =
   | Saved
   | SavedViews
   | SceneTime
+  | Series
   | Services
   | Sites
   | Stopped
@@ -4998,6 +5215,10 @@ export type Event =
   | TextsChanged
   | TextsFound
   | TfFrames
+  | TimeMarks
+  | TimeState
+  | TimeTicks
+  | TimeTopics
   | ToolKinds
   | ToolUsed
   | Tools
