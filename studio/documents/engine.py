@@ -32,6 +32,7 @@ from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import ConnectionCommands
 from studio.live.displays.document_tools import Pointed
 from studio.live.doctor.seen import SeenDisplay, SeenDocument
+from studio.live.panels.recording import FOLDER as BAGS_FOLDER
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
 from studio.live.programs.program_room import COMMANDS as PROGRAM_COMMANDS
@@ -104,7 +105,7 @@ class Engine:
         self.uploads = Uploads(settings.data_folder, self)
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
-        self.ros = RosSystem(wire)
+        self.ros = RosSystem(wire, settings.data_folder / BAGS_FOLDER)
         self.programs = Programs(
             settings,
             self._services.run_folders,
@@ -137,6 +138,11 @@ class Engine:
         self.served = ServedRoots((self.library.robots_folder,))
         """The folders that can be listed and opened from the page."""
         self.left_work = LeftDrafts(lambda: self.served, settings.data_folder)
+
+    @property
+    def bags_folder(self) -> Path:
+        """Where topics are recorded, a folder for each bag."""
+        return self.ros.recording.folder
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""

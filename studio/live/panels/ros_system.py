@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import RouterGoneError
@@ -25,6 +26,7 @@ from studio.live.panels import (
     parameters,
     publishing,
     rates,
+    recording,
     tool_publishing,
     topics,
 )
@@ -44,9 +46,14 @@ _STOP_S: Final = 3.0
 
 
 class RosSystem:
-    """One part for each subject of panels; used on the event loop only."""
+    """One part for each subject of panels; used on the event loop only.
 
-    def __init__(self, wire: RosConnection) -> None:
+    Args:
+        wire: The connection.
+        bags: The folder in which topics are recorded.
+    """
+
+    def __init__(self, wire: RosConnection, bags: Path = Path(recording.FOLDER)) -> None:
         self.connection = wire
         self.changes = changes.Changes()
         self._epoch = wire.topics.epoch
@@ -77,6 +84,7 @@ class RosSystem:
         self.driving = driving.Driving(wire)
         self.lessons = lessons.CourseDemos(wire, partial(self.changes.changed, "lessons"))
         self.doctor = doctor.Doctor(wire, self._unanswered)
+        self.recording = recording.BagRecording(wire, bags)
         self.end_programs: Callable[[], Awaitable[None]] = _nothing
         """Ends what the owner runs, for it has joined the same system."""
         self._stopping: asyncio.Task[None] | None = None
@@ -129,6 +137,7 @@ class RosSystem:
     def attach(self, listener: Listener) -> None:
         """A page is there."""
         self.publishing.attach(listener)
+        self.recording.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """Remove a page: what it drove stops, and what it began goes on.
@@ -140,6 +149,7 @@ class RosSystem:
         self.parameters.detach(listener)
         self.changes.detach(listener)
         self.publishing.detach(listener)
+        self.recording.detach(listener)
         self.driving.detach(listener)
 
     def release(self, may_go_on: Callable[[str], bool]) -> None:
@@ -167,6 +177,7 @@ class RosSystem:
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
         await asyncio.gather(
+            self.recording.close(),
             self.let_go_of_operations(),
             self.doctor.let_go(),
             self.driving.let_go(),
@@ -189,6 +200,7 @@ class RosSystem:
     async def close(self) -> None:
         """End all that runs."""
         await asyncio.gather(
+            self.recording.close(),
             self.changes.close(),
             self.browser_topics.close(),
             self.let_go_of_operations(),
@@ -222,4 +234,5 @@ COMMANDS.include(offers.COMMANDS, lambda ros, _: ros.offers)
 COMMANDS.include(parameters.COMMANDS, lambda ros, _: ros.parameters)
 COMMANDS.include(publishing.COMMANDS, lambda ros, _: ros.publishing)
 COMMANDS.include(rates.COMMANDS, lambda ros, _: ros.connection.topics)
+COMMANDS.include(recording.COMMANDS, lambda ros, _: ros.recording)
 COMMANDS.include(topics.COMMANDS, lambda ros, _: ros.connection)
