@@ -53,7 +53,7 @@ from studio.documents.variants.second_robot import Ghost, SecondRobots
 from studio.documents.variants.variants import COMMANDS as VARIANT_COMMANDS
 from studio.documents.variants.variants import NamedVariants
 from studio.documents.workspace import Workspace
-from studio.errors import CommandError
+from studio.errors import CommandError, StudioError
 from studio.live.connection.feed import COMMANDS as FEED_COMMANDS
 from studio.live.connection.feed import RobotFeed
 from studio.live.connection.opened_types import take_types
@@ -68,18 +68,24 @@ from studio.live.displays.selecting import Selecting
 from studio.live.time.document_source import DocumentSource
 from studio.live.time.document_time import COMMANDS as TIME_COMMANDS
 from studio.live.time.document_time import DocumentTime
+from studio.live.time.recorded_robot import DESCRIPTION, recorded_joints
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
 from studio.protocol.robot import Displays, SetDisplay
 from studio.scene import DocumentScene
 
+_GHOST_ALPHA: Final = 0.4
+
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable, Mapping
 
+    from studio.bags.recording import Recording
     from studio.documents.services import Services
+    from studio.live.time.shown import ShownRecording
     from studio.packages.workspace import Location
     from studio.protocol import Event
+    from studio.protocol.connection import JointSource
 
 
 class Document:
@@ -178,6 +184,11 @@ class Document:
         )
         self.time = DocumentTime(self.source, audience)
         self.time.on_moment = self._draw_moment
+        self.time.on_switch = self._time_switched
+        self._joints_before: JointSource | None = None
+        """What moved the joints before a recording did; None: none does."""
+        self._ghost = ""
+        """The display of a recorded robot that came with its bag."""
         self.live.use(services.plugins)
         self.selecting = Selecting(self.live.drawn)
         self.feed.is_held = lambda: self.live.is_paused
@@ -308,10 +319,57 @@ class Document:
         """Send the arguments, with the rest of the state."""
         self.audience.send(self._state_event())
 
+    async def show_bag(self, shown: ShownRecording, *, with_ghost: bool) -> None:
+        """Show a bag, and let the joints follow it once the robot is there.
+
+        Args:
+            shown: The bag, which is let go with the next one.
+            with_ghost: Whether the robot of the bag is shown beside this one, as it was recorded.
+        """
+        await self.time.show(shown)
+        is_described = any(one.name == DESCRIPTION for one in shown.recording.topics)
+        if with_ghost and is_described and not self._ghost:
+            self._ghost = await self.live.add_ghost(DESCRIPTION, _GHOST_ALPHA)
+
+    def follow_time(self, original: Document) -> None:
+        """Show the bag that another document shows, or what runs now once it shows none."""
+        theirs, mine = original.time.shown, self.time.shown
+        if theirs is mine or (theirs is not None and theirs.mode != "bag"):
+            return
+        if theirs is not None and (held := theirs.hold()) is not None:
+            self._spawn("time", self.time.show(held))
+        elif mine is not None and mine.mode == "bag":
+            self._spawn("time", self.time.go_live())
+
+    async def _time_switched(self) -> None:
+        """Let displays, panels and joints follow the time that is shown now."""
+        self.live.begin_source()
+        self._services.on_time_switch(self.id)
+        recording = self.time.recording
+        if recording is None and self._ghost:
+            self.live.remove_if_there(self._ghost)
+            self._ghost = ""
+        self._spawn("recorded joints", self._follow_joints(recording))
+
+    async def _follow_joints(self, recording: Recording | None) -> None:
+        """Let the joints follow a recording, or what they followed before."""
+        await self.opened()
+        source = recorded_joints(recording) if recording is not None else self._joints_before
+        if recording is None:
+            self._joints_before = None
+        elif self._joints_before is None:
+            self._joints_before = self.feed.source
+        if source is not None:
+            try:
+                await self.feed.choose(source)
+            except StudioError:  # what runs now is not there any more
+                await self.feed.choose("sliders")
+
     def _draw_moment(self) -> None:
         """Draw what the document shows now, before the next tick does."""
         self.feed.take()
         self.live.draw()
+        self._services.on_moment(self.id)
 
     async def _take_types(self) -> None:
         self.findings.replace("types", await asyncio.to_thread(take_types, self.location))
@@ -457,6 +515,7 @@ COMMANDS.include(INSPECTION_COMMANDS, lambda document, _: document.inspection)
 COMMANDS.include(VARIANT_COMMANDS, lambda document, _: document.variants)
 COMMANDS.include(POSE_COMMANDS, lambda document, _: document.poses)
 COMMANDS.include(FEED_COMMANDS, lambda document, _: document.feed)
+COMMANDS.include(TIME_COMMANDS, lambda document, _: document.time)
 COMMANDS.include(DISPLAY_COMMANDS, lambda document, _: document.live)
 COMMANDS.include(SELECTION_COMMANDS, lambda document, _: document.selecting)
 COMMANDS.include(CONFIG_COMMANDS, lambda document, _: document.configs)

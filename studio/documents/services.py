@@ -56,6 +56,10 @@ class Services:
         self.wire = RosConnection(settings.wire)
         self.run_folders = RunFolders(settings.run_folders, settings.data_folder)
         self.plugins = Plugins(settings.display_folders)
+        self.on_time_switch: Callable[[str], object] = lambda _: None
+        """Told the id of a document that shows another time from now on."""
+        self.on_moment: Callable[[str], object] = lambda _: None
+        """Told the id of a document that shows another moment of its recording."""
         self._spare = DescriptionWorker()
         self._keeps_warm = False
         """Whether processes are started before they are needed."""

@@ -73,6 +73,7 @@ _UNSEEN_S: Final = 10.0
 """After so long without a page, subscribing and drawing stop; a reload is quicker than that."""
 _PAUSE_SHARE: Final = 0.5
 """After a step that took long, others get this share of its time."""
+_ROBOT_MODEL: Final = "RobotModel"
 _ASKED_FOR_S: Final = 5.0
 """TF is subscribed so long after frames were asked for: a panel asks every second."""
 
@@ -94,7 +95,7 @@ class DocumentDisplays:
         audience: Is sent the displays; they are drawn as long as it is not empty.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913, PLR0917 - each is another part of the document
         self,
         robot: ShownRobot,
         meshes: Meshes,
@@ -260,6 +261,19 @@ class DocumentDisplays:
         self._changed()
         if topic:
             await self._connect()
+
+    async def add_ghost(self, topic: str, alpha: float) -> str:
+        """Add the robot that a topic describes, so transparent; return the display's id."""
+        before = {one.id for one in self._list}
+        await self.add(AddDisplay(kind=_ROBOT_MODEL, topic=topic))
+        display = next(one.id for one in self._list if one.id not in before)
+        self.set_property(SetDisplayProperty(display=display, name="Alpha", value=alpha))
+        return display
+
+    def remove_if_there(self, display: str) -> None:
+        """Take a display away that somebody may have taken away meanwhile."""
+        if any(one.id == display for one in self._list):
+            self.remove(RemoveDisplay(display=display))
 
     def remove(self, command: RemoveDisplay) -> None:
         """Take a display away, or a group with all that is in it."""

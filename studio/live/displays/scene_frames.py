@@ -290,9 +290,7 @@ class SceneFrames:
         publisher = self._publisher(sample.attachment.gid)
         self.own.leave_to_others(columns.children, publisher)
         at_ns = sample.received_ns
-        for one in self.buffer.put(
-            columns, static=static, publisher=publisher, received_ns=at_ns
-        ):
+        for one in self.buffer.put(columns, static=static, publisher=publisher, received_ns=at_ns):
             self._note(one)
             self._jumped |= one.kind == "time_jumped"
 

@@ -100,9 +100,7 @@ class Moments:
     def _is_single(self, one: Wanted) -> bool:
         return one.depth == 1 and not one.is_latched and one.topic.name != TF
 
-    def _last(
-        self, one: Wanted, at_ns: int, since_ns: int, *, settled: bool
-    ) -> list[RawSample]:
+    def _last(self, one: Wanted, at_ns: int, since_ns: int, *, settled: bool) -> list[RawSample]:
         name = one.topic.name
         if name == TF:
             return self._tf(at_ns, max(since_ns, at_ns - TF_HISTORY_NS), settled=settled)
@@ -119,8 +117,10 @@ class Moments:
     def _kept(self, name: str, at_ns: int, most: int) -> list[RawSample]:
         """Return the last of a latched topic; while they are the same, the same list."""
         held = self._held.get((name, most))
-        if held is not None and held.begin_ns <= at_ns and (
-            held.end_ns is None or at_ns < held.end_ns
+        if (
+            held is not None
+            and held.begin_ns <= at_ns
+            and (held.end_ns is None or at_ns < held.end_ns)
         ):
             return held.samples
         samples = self.recording.last(name, at_ns, most)

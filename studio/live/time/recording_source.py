@@ -207,8 +207,7 @@ class RecordingSource(SharedSource):
     @override
     def catalogue(self) -> list[Topic]:
         return [
-            Topic(one.name, (one.type_name,), self._ends(one), ())
-            for one in self.recording.topics
+            Topic(one.name, (one.type_name,), self._ends(one), ()) for one in self.recording.topics
         ]
 
     @override
@@ -240,9 +239,7 @@ class RecordingSource(SharedSource):
 
     @override
     def begin(self, topic: str, fit: Fit) -> Stream:
-        stream = Stream(
-            fit, lambda made: self.open(topic, fit, made), self.hand_over, keeps=True
-        )
+        stream = Stream(fit, lambda made: self.open(topic, fit, made), self.hand_over, keeps=True)
         for one in tuple(self._readers):
             if one.stream is stream:
                 self.give_again(one)
