@@ -365,10 +365,10 @@ class Document:
             except StudioError:  # what runs now is not there any more
                 await self.feed.choose("sliders")
 
-    def _draw_moment(self) -> None:
+    async def _draw_moment(self) -> None:
         """Draw what the document shows now, before the next tick does."""
         self.feed.take()
-        self.live.draw()
+        await self.live.draw()
         self._services.on_moment(self.id)
 
     async def _take_types(self) -> None:

@@ -35,7 +35,12 @@ USED_LATER: Final = (
     "studio.live.doctor.watching",
     *("studio.live.programs.making", "studio.launch.planning", "studio.programs.finding"),
     *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
-    *("studio.bags.cutting", "studio.bags.metadata", "studio.nodes.bag_recorder"),
+    *(
+        "studio.bags.cutting",
+        "studio.bags.metadata",
+        "studio.bags.opening",
+        "studio.nodes.bag_recorder",
+    ),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )
 """With what they import, all that functions of the loop import when they are first called."""

@@ -40,7 +40,7 @@ VIEWER_COMMANDS = {
         "get_graph",
         "get_node",
     ),
-    *("list_topics", "get_topic_ends"),
+    *("list_topics", "get_topic_ends", "get_time_marks"),
     *("set_name", "follow"),
     *("get_rviz_text", "get_rviz_view"),
 }
@@ -56,7 +56,7 @@ PRESENTER_COMMANDS = {
     *("set_member_role", "remove_member", "readmit_member"),
     *("save_lesson", "delete_lesson", "read_lesson"),
     *("lead", "gather_all", "show_view", "show_focus", "show_copy"),
-    *("open_path", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),
+    *("open_path", "open_bag", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),
     *("list_recent", "forget_recent", "list_examples", "list_places", "open_recent"),
     *("open_example", "new_robot", "new_untitled", "save_as", "save_copy", "choose_package"),
     *("discard_restored", "add_interfaces", "start_demo", "stop_demo"),

@@ -129,6 +129,7 @@ class DocumentDisplays:
         self._asked_until_s = 0.0
         self._states = LastSent[DisplayStates](audience)
         self._settings = LastSent[LiveDisplays](audience)
+        self._subscribing = asyncio.Lock()
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
         """Called when displays, tools or views were added, removed or changed."""
@@ -557,10 +558,13 @@ class DocumentDisplays:
         self._ticking = None
         self._go_on()  # somebody may have asked meanwhile
 
-    def draw(self) -> None:
-        """Draw what came, before the next tick does."""
-        if self._ticking is not None and not self._ticking.done():
-            self._step()
+    async def draw(self) -> None:
+        """Draw what came, before the next tick does; what is new is subscribed first."""
+        if self._ticking is None or self._ticking.done():
+            return
+        if not self._checked_s or self._subscribing.locked():
+            await self._subscribe()
+        self._step()
 
     def begin_source(self) -> None:
         """Subscribe soon where the topics come from now."""
@@ -588,7 +592,9 @@ class DocumentDisplays:
 
     async def _subscribe(self) -> None:
         """Subscribe to what is shown."""
-        await self._room.subscribe({one.id for one in self._list if self._list.is_shown(one)})
+        async with self._subscribing:
+            shown = {one.id for one in self._list if self._list.is_shown(one)}
+            await self._room.subscribe(shown)
 
     def _send_states(self) -> None:
         self._states.send(self._room.states(self._list, self._source.now_ns))

@@ -208,7 +208,7 @@ class BrowserTopics:
             case Subscribe() if len(browser.channels) >= SUBSCRIPTIONS_MAX:
                 reason = f"{SUBSCRIPTIONS_MAX} topics are shown by this page: close a panel first."
                 lane.send(NotSubscribed(subscription=command.subscription, reason=reason))
-            case Subscribe() if not lane.sees(command.document):
+            case Subscribe() if command.document and not lane.sees(command.document):
                 reason = "There is no such document."
                 lane.send(NotSubscribed(subscription=command.subscription, reason=reason))
             case Subscribe():
