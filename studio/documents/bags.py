@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import CdrError, CommandError, StudioError, UnknownTypeError
 from studio.files import is_file, is_folder
-from studio.live.time.document_time import title_of
 from studio.live.time.recorded_robot import DESCRIPTION
 from studio.live.time.shown import ShownRecording
 from studio.packages.manifest import FILE_NAME as MANIFEST
@@ -80,7 +79,7 @@ async def opened_bag(path: Path, told: Callable[[float], object]) -> ShownRecord
 
     path = folder_of_bag(path)
     bag = await asyncio.to_thread(open_bag, path, progress)
-    return ShownRecording(bag, "bag", title_of(path), str(path), bag.close)
+    return ShownRecording(bag, "bag", bag.title, str(path), bag.close)
 
 
 def location_of_bag(

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any, Final
 from studio.bags.recording import RecordedTopic
 from studio.bags.writer import BagWriter, Storing
 from studio.ros.attachment import Attachment
+from studio.ros.cdr import Codec
 from studio.ros.node.samples import RawSample
 from studio.ros.qos import DurabilityPolicy, QoSProfile
+from studio.ros.types.convert import from_dict
 from tests.support.display_messages import TYPES, encoded
 from tests.support.wired_studio import ARM
 
@@ -118,8 +120,5 @@ def write_arm_bag(folder: Path, *, with_robot: bool = True, storing: Storing | N
 
 
 def _plain(name: str, fields: dict[str, Any]) -> bytes:
-    from studio.ros.cdr import Codec  # noqa: PLC0415
-    from studio.ros.types.convert import from_dict  # noqa: PLC0415
-
     kind = TYPES.message(KINDS[name])
     return bytes(Codec(kind).encode(from_dict(kind, fields)))

@@ -30,7 +30,6 @@ from studio.protocol.playback import (
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
@@ -313,11 +312,6 @@ class DocumentTime:
 
 async def _nothing() -> None:
     return
-
-
-def title_of(path: Path) -> str:
-    """Return the name of a bag, by its folder or file."""
-    return path.name if path.is_dir() else path.stem
 
 
 def _end(source: RecordingSource | None, shown: ShownRecording | None) -> None:
