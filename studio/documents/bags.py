@@ -6,6 +6,7 @@ import asyncio
 import hashlib
 import os
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CdrError, CommandError, StudioError, UnknownTypeError
@@ -18,7 +19,6 @@ from studio.packages.workspace import bare_location
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
-    from pathlib import Path
 
     from studio.bags.recording import Recording
     from studio.packages.index import PackageIndex
@@ -49,6 +49,19 @@ def is_bag(path: Path) -> bool:
     except OSError:
         return False
     return any(one.lower().endswith(_SUFFIXES) for one in names)
+
+
+def bag_in(folder: Path) -> Path | None:
+    """Return the bag that a folder without a robot is or has in it, if that is a single one."""
+    if is_bag(folder):
+        return folder
+    try:
+        with os.scandir(folder) as found:
+            inside = [one.path for one, _ in zip(found, range(_LISTED_MAX), strict=False)]
+    except OSError:
+        return None
+    bags = [Path(one) for one in sorted(inside) if is_bag(Path(one))]
+    return bags[0] if len(bags) == 1 else None
 
 
 def folder_of_bag(path: Path) -> Path:

@@ -60,6 +60,7 @@ from studio.live.connection.opened_types import take_types
 from studio.live.displays.display_file import DisplayFile
 from studio.live.displays.document_displays import COMMANDS as DISPLAY_COMMANDS
 from studio.live.displays.document_displays import DocumentDisplays
+from studio.live.displays.ghost import Ghost as RecordedGhost
 from studio.live.displays.robot_reading import RobotReader
 from studio.live.displays.rviz_configs import COMMANDS as CONFIG_COMMANDS
 from studio.live.displays.rviz_configs import RvizConfigs
@@ -74,8 +75,6 @@ from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
 from studio.protocol.robot import Displays, SetDisplay
 from studio.scene import DocumentScene
-
-_GHOST_ALPHA: Final = 0.4
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable, Mapping
@@ -187,8 +186,7 @@ class Document:
         self.time.on_switch = self._time_switched
         self._joints_before: JointSource | None = None
         """What moved the joints before a recording did; None: none does."""
-        self._ghost = ""
-        """The display of a recorded robot that came with its bag."""
+        self._ghost = RecordedGhost(self.live)
         self.live.use(services.plugins)
         self.selecting = Selecting(self.live.drawn)
         self.feed.is_held = lambda: self.live.is_paused
@@ -328,8 +326,8 @@ class Document:
         """
         await self.time.show(shown)
         is_described = any(one.name == DESCRIPTION for one in shown.recording.topics)
-        if with_ghost and is_described and not self._ghost:
-            self._ghost = await self.live.add_ghost(DESCRIPTION, _GHOST_ALPHA)
+        if with_ghost and is_described:
+            await self._ghost.show(DESCRIPTION)
 
     def follow_time(self, original: Document) -> None:
         """Show the bag that another document shows, or what runs now once it shows none."""
@@ -346,9 +344,8 @@ class Document:
         self.live.begin_source()
         self._services.on_time_switch(self.id)
         recording = self.time.recording
-        if recording is None and self._ghost:
-            self.live.remove_if_there(self._ghost)
-            self._ghost = ""
+        if recording is None:
+            self._ghost.end()
         self._spawn("recorded joints", self._follow_joints(recording))
 
     async def _follow_joints(self, recording: Recording | None) -> None:

@@ -14,7 +14,14 @@ from studio.classroom.classroom import COMMANDS as CLASS_COMMANDS
 from studio.classroom.classroom import Classroom
 from studio.course.lessons.shelf import Shelf
 from studio.documents.arguments import form_at, form_of
-from studio.documents.bags import demand_bag, folder_of_bag, is_bag, location_of_bag, opened_bag
+from studio.documents.bags import (
+    bag_in,
+    demand_bag,
+    folder_of_bag,
+    is_bag,
+    location_of_bag,
+    opened_bag,
+)
 from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
@@ -25,6 +32,7 @@ from studio.documents.lessons.lesson_room import LessonRoom
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
 from studio.documents.links import found_again, link_to, place_edits, read_link
+from studio.documents.seen import seen_document
 from studio.documents.services import Services
 from studio.documents.uploads import Uploads
 from studio.errors import CommandError, OutsideRootsError, StudioError, UnknownDocumentError
@@ -32,7 +40,6 @@ from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import ConnectionCommands
 from studio.live.displays.document_tools import Pointed
-from studio.live.doctor.seen import SeenDisplay, SeenDocument
 from studio.live.panels.recording import FOLDER as BAGS_FOLDER
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
@@ -80,10 +87,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.live.connection.link import WireLink
+    from studio.live.doctor.seen import SeenDocument
     from studio.live.time.document_source import DocumentSource
     from studio.packages.workspace import Progress
     from studio.protocol import Command
-    from studio.protocol.displays import DisplayStates
     from studio.protocol.listeners import Listener
     from studio.settings import Settings
 
@@ -311,8 +318,11 @@ class Engine:
         if await asyncio.to_thread(is_bag, path):
             self.served = self.served.with_roots((), [_folder_of(path)])
             return await self._open_bag(path, progress)
-        location = await self._locate(path, progress)
-        return self._open(self._with_entry(location), arguments)
+        location = self._with_entry(await self._locate(path, progress))
+        if (bag := await _bag_instead(location)) is not None:
+            self.served = self.served.with_roots((), [location.root])
+            return await self._open_bag(bag, progress)
+        return self._open(location, arguments)
 
     async def open_bag(self, command: OpenBag) -> Opened:
         """Show a bag for the page, in an open document or as one of its own.
@@ -389,6 +399,8 @@ class Engine:
         if await asyncio.to_thread(is_bag, path):
             return await self._open_bag(path)
         location = self._with_entry(await self._locate(path, within=within))
+        if (bag := await _bag_instead(location)) is not None:
+            return await self._open_bag(bag)
         known = location.entry and not arguments and self.find_open(location.entry)
         return known.id if known else self._open(location, dict(arguments))
 
@@ -410,8 +422,10 @@ class Engine:
             return await self.open_at(Path(command.path), command.arguments, None)
         if await asyncio.to_thread(is_bag, path):
             return await self._open_bag(path)
-        location = await self._locate(path, within=self.served)
-        return self._open(self._with_entry(location), command.arguments)
+        location = self._with_entry(await self._locate(path, within=self.served))
+        if (bag := await _bag_instead(location)) is not None:
+            return await self._open_bag(bag)
+        return self._open(location, command.arguments)
 
     async def launch_form(self, command: GetArguments) -> Arguments:
         """Return the form of an open document, or of a file below the served folders."""
@@ -515,36 +529,14 @@ class Engine:
         self.left_work.trigger()
 
 
+async def _bag_instead(location: Location) -> Path | None:
+    """Return the bag of a place that holds no robot, such as a zip of one."""
+    return None if location.entry else await asyncio.to_thread(bag_in, location.root)
+
+
 def _folder_of(bag: Path) -> Path:
     """Return the folder that is served for a bag."""
     return bag if bag.is_dir() else bag.parent
-
-
-def seen_document(document: Document) -> SeenDocument:
-    """Return the document's robot, displays and problems as they are now."""
-    states = document.live.states
-    by_id = {one.id: one for one in states.states} if states else {}
-    expansion = document.last_run.expansion
-    return SeenDocument(
-        id=document.id,
-        title=document.title,
-        links=frozenset(document.model.kinematics.link_names) if expansion else frozenset(),
-        root=document.model.robot.root if expansion else "",
-        fixed_frame=states.fixed_frame.frame if states else "",
-        fixed_trouble=_trouble_of(states),
-        displays=tuple(
-            SeenDisplay(one.id, one.name, by_id.get(one.id)) for one in document.live.kept.displays
-        ),
-        problems=document.findings.all(),
-    )
-
-
-def _trouble_of(states: DisplayStates | None) -> str:
-    """Return why nothing, or not the robot, can be drawn in the fixed frame."""
-    if states is None:
-        return ""
-    fixed = states.fixed_frame
-    return fixed.sentence if fixed.level == "error" else states.fixed_frame_trouble
 
 
 def _link_to(engine: Engine, command: GetLink) -> Link:

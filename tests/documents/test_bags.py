@@ -66,18 +66,23 @@ class Shown:
 
 
 @asynccontextmanager
-async def shown_bag(folder: Path, **how: bool) -> AsyncGenerator[Shown]:
+async def shown_bag(folder: Path, *, with_robot: bool = True) -> AsyncGenerator[Shown]:
     """The bag of the arm, open as a document of its own."""
-    bag = write_arm_bag(folder / "run", **how)
+    bag = write_arm_bag(folder / "run", with_robot=with_robot)
     async with engine(folder / "data") as made:
         document, ear = await opened(made, bag)
         made.attach(ear)
         yield Shown(made, document, ear)
 
 
-def run(folder: Path, work: Callable[[Shown], Coroutine[Any, Any, None]], **how: bool) -> None:
+def run(
+    folder: Path,
+    work: Callable[[Shown], Coroutine[Any, Any, None]],
+    *,
+    with_robot: bool = True,
+) -> None:
     async def within() -> None:
-        async with shown_bag(folder, **how) as shown:
+        async with shown_bag(folder, with_robot=with_robot) as shown:
             await work(shown)
 
     asyncio.run(within())
@@ -141,7 +146,7 @@ def test_panels_show_the_moment_and_not_what_came_after(tmp_path: Path):
 async def until_async(ask: Callable[[], Coroutine[Any, Any, object]], expected: object) -> None:
     """Ask again and again until that is the answer."""
     async with asyncio.timeout(60):
-        while await ask() != expected:
+        while await ask() != expected:  # noqa: ASYNC110 - nothing tells us when
             await asyncio.sleep(0.01)
 
 
