@@ -12,7 +12,7 @@ from studio.live.time.recording_source import FAR_NS, RecordingSource
 from studio.live.topics.request import Request
 from studio.ros.qos import DurabilityPolicy, QoSProfile
 from tests.support.memory_recording import MemoryRecording
-from tests.support.topic_worlds import BOOL, STRING, text_of
+from tests.support.topic_worlds import BOOL, STRING, text_of, text_payload
 from tests.support.transforms import S
 from tests.support.wire import wait_until
 
@@ -225,3 +225,18 @@ def test_a_file_that_cannot_be_read_any_more_is_told_and_costs_nobody_what_they_
         recording.last = last  # type: ignore[method-assign]
         assert jump(made, 20.0) is None
         assert texts(one.take()) == ["200"]
+
+
+def test_where_time_stands_still_the_transforms_that_come_next_are_there_to_be_looked_up():
+    recording = words(10)
+    recording.topic("/tf", "tf2_msgs/msg/TFMessage")
+    for number in range(10):
+        recording.add("/tf", BEGIN + number * S // 10, text_payload(str(number)))
+    with source(recording, at_s=0.25) as made:
+        receiving(made.subscribe(Request("/tf")))
+        jump(made, 0.35)
+        assert texts(made.later_tf) == ["4", "5", "6"]
+        made.change(lambda head: replace(head, playing=True, rate=0.1))
+        assert made.later_tf == ()
+        made.change(lambda head: replace(head, playing=False))
+        wait_until("what comes next to be read", lambda: bool(made.later_tf))
