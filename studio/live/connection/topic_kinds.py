@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from studio.ros.graph.endpoints import GraphEndpoint
+
+class OfType(Protocol):
+    """An end of a topic."""
+
+    @property
+    def type_name(self) -> str:
+        """As it publishes or subscribes."""
+        ...
 
 
-def carried_types(
-    publishers: Iterable[GraphEndpoint], subscribers: Iterable[GraphEndpoint]
-) -> tuple[str, ...]:
+def carried_types(publishers: Iterable[OfType], subscribers: Iterable[OfType]) -> tuple[str, ...]:
     """Return the types published, sorted; the types subscribed when nobody publishes.
 
     A subscription with the wrong type receives nothing, so its type does not count.

@@ -48,8 +48,26 @@ class TopicSource(Protocol):
         ...
 
     @property
+    def is_live(self) -> bool:
+        """Whether it is of what runs now, and not a recording."""
+        ...
+
+    @property
+    def now_ns(self) -> int:
+        """The time of the messages that come now, since the Unix epoch.
+
+        Of what runs that is this machine's, of a recording where it stands.
+        """
+        ...
+
+    @property
     def types(self) -> TypeLibrary:
         """Message types as this source defines them."""
+        ...
+
+    @property
+    def later_tf(self) -> Sequence[RawSample]:
+        """The messages of /tf that come next, where the time stands still; else none."""
         ...
 
     def catalogue(self) -> list[Topic]:
