@@ -33,6 +33,7 @@ StudioError
     LessonError
     BagError
         BagNotReadableError
+        DamagedPartError
         BagNotWrittenError
         RecordingError
     LaunchError
@@ -386,6 +387,14 @@ class BagNotReadableError(BagError):
     def __init__(self, path: str, reason: str) -> None:
         super().__init__(f"{path} cannot be read: {reason}")
         self.path, self.reason = path, reason
+
+
+class DamagedPartError(BagError):
+    """A part of a bag is damaged, as a sentence about `it`; readers leave it out and say so."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
 
 
 class BagNotWrittenError(BagError):

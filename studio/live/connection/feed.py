@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from studio.live.connection.received_description import ReceivedDescription
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.connection.sending import SentRobot
+    from studio.live.topics.source import TopicSource
     from studio.protocol.connection import JointSource
     from studio.protocol.listeners import Audience
 
@@ -67,6 +68,7 @@ class RobotFeed:
         motion: Moves its joints.
         expansion: Gives the last good run; None before the first.
         wire: The connection.
+        source: The topics that the document shows.
         audience: Is sent the state of the feed when it changes.
     """
 
@@ -76,9 +78,10 @@ class RobotFeed:
         motion: MovesJoints,
         expansion: Callable[[], Expansion | None],
         wire: RosConnection,
+        source: TopicSource,
         audience: Audience,
     ) -> None:
-        self._model, self._motion, self._wire = model, motion, wire
+        self._model, self._motion, self._wire, self._topics = model, motion, wire, source
         self._sending = RobotSending(model, expansion)
         self._following: FollowedJoints | None = None
         self._source: Literal["sliders", "joint_states", "tf"] = "sliders"
@@ -135,10 +138,27 @@ class RobotFeed:
                 before.description.close()
 
     async def let_go(self) -> None:
-        """Switch everything off, before the connection is ended."""
+        """Switch everything off that uses the connection, which is about to end."""
         async with self._turn:
+            following = None if self._topics.is_live else self._following_from
             await self._end()
+            if following is not None:
+                await self._follow(following)
+                self._go_on()
             self._send()
+
+    @property
+    def source(self) -> JointSource:
+        """What moves the joints."""
+        return self._source
+
+    def take(self) -> None:
+        """Move the joints to what came, before the next tick does."""
+        self._take()
+
+    @property
+    def _following_from(self) -> Literal["joint_states", "tf"] | None:
+        return None if self._source == "sliders" else self._source
 
     async def close(self) -> None:
         """Stop sending and receiving; what is being started ends by itself."""
@@ -169,12 +189,13 @@ class RobotFeed:
     async def _follow(self, source: Literal["joint_states", "tf"]) -> None:
         from studio.live.connection.followed_joints import FollowedJoints  # noqa: PLC0415 - takes its time
 
-        await self._wire.link()
+        if self._topics.is_live:
+            await self._wire.link()
         await self._stop_following()
         model = self._model
         await self._sending.pause_joints(paused=source == "joint_states")  # no echo
         self._following = FollowedJoints(
-            self._wire.topics, model.robot, model.kinematics, from_tf=source == "tf"
+            self._topics, model.robot, model.kinematics, from_tf=source == "tf"
         )
         self._source = source
         self._motion.lead(_TOPICS[source])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections import deque
 from typing import TYPE_CHECKING, Final, Literal
 
@@ -104,7 +103,7 @@ class FollowedJoints:
     def __init__(
         self, source: TopicSource, robot: Robot, kinematics: Kinematics, *, from_tf: bool
     ) -> None:
-        self._newest = NewestPositions(time.monotonic, kinematics.movable)
+        self._newest = NewestPositions(lambda: source.now_ns / NANOSECONDS, kinematics.movable)
         self._kinematics = kinematics
         self._reading = JointReading(robot, kinematics)
         self.collect, self.state = self._newest.collect, self._newest.state

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from studio.ros.graph.endpoints import GraphEndpoint
+
+class OfType(Protocol):
+    """An end of a topic."""
+
+    @property
+    def type_name(self) -> str:
+        """As it publishes or subscribes."""
+        ...
 
 
 def carried_types(
-    publishers: Iterable[GraphEndpoint], subscribers: Iterable[GraphEndpoint]
+    publishers: Iterable[OfType], subscribers: Iterable[OfType]
 ) -> tuple[str, ...]:
     """Return the types published, sorted; the types subscribed when nobody publishes.
 

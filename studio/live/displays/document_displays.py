@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from studio.live.displays.robot_models import RobotModels
     from studio.live.displays.robot_reading import RobotReader
     from studio.live.displays.scene_frames import SceneFrames
+    from studio.live.time.document_source import DocumentSource
     from studio.protocol import Event
     from studio.protocol.listeners import Audience, Listener
 
@@ -89,6 +90,7 @@ class DocumentDisplays:
         reader: Reads descriptions of other robots.
         file: Keeps the displays.
         wire: The connection.
+        source: The topics that the document shows.
         audience: Is sent the displays; they are drawn as long as it is not empty.
     """
 
@@ -99,10 +101,12 @@ class DocumentDisplays:
         reader: RobotReader,
         file: DisplayFile,
         wire: RosConnection,
+        source: DocumentSource,
         audience: Audience,
     ) -> None:
         self._robot, self._meshes, self._reader = robot, meshes, reader
         self._file, self._wire, self._audience = file, wire, audience
+        self._source = source
         self._plugins = Plugins()
         self._unwatch: Callable[[], None] = lambda: None
         self._list = DisplayList()
@@ -110,7 +114,7 @@ class DocumentDisplays:
         """Of this, options of the view and an opened config; others have the rest."""
         self.views = SavedViews(audience, self._kept_changed)
         self.tools = DocumentTools(audience, self._kept_changed)
-        self.offers = TopicOffers(wire)
+        self.offers = TopicOffers(wire, source)
         self._made: DrawingRoom | None = None
         self._robots: RobotModels | None = None
         """Made with the room."""
@@ -204,8 +208,8 @@ class DocumentDisplays:
             from studio.live.displays.drawing_room import DrawingRoom  # noqa: PLC0415 - see above
             from studio.live.displays.robot_models import RobotModels  # noqa: PLC0415
 
-            self._made = DrawingRoom(self._robot, self._meshes, self._wire.topics, self._plugins)
-            self._robots = RobotModels(self._robot, self._wire.topics, self._reader)
+            self._made = DrawingRoom(self._robot, self._meshes, self._source, self._plugins)
+            self._robots = RobotModels(self._robot, self._source, self._reader)
         return self._made
 
     def restore(self) -> None:
@@ -388,7 +392,8 @@ class DocumentDisplays:
         Raises:
             StudioError: There is no connection, or the tool cannot be used so.
         """
-        await self._wire.link()  # frames and the time come over it
+        if self._source.is_live:
+            await self._wire.link()  # frames and the time come over it
         frames = await self._frames(wait=True)
         await frames.wait_for_clock()
         return self.tools.use(pointed, frames)
@@ -463,7 +468,8 @@ class DocumentDisplays:
     async def _connect(self) -> None:
         """Ensure a connection; if there is none, the displays' states say why."""
         try:
-            await self._wire.link()
+            if self._source.is_live:
+                await self._wire.link()
         except StudioError as error:
             _log.info("Displays without a connection: %s", error)
         self._checked_s = 0.0
@@ -531,19 +537,34 @@ class DocumentDisplays:
             ended_s = loop.time()
             rest_s = max(began_s + _TICK_S - ended_s, _PAUSE_SHARE * (ended_s - began_s))
             await asyncio.sleep(rest_s)
-        self._room.step(self._list, time.time_ns())
+        self._step()
         self._send_states()
         self.let_go()
         self._ticking = None
         self._go_on()  # somebody may have asked meanwhile
 
+    def draw(self) -> None:
+        """Draw what came, before the next tick does."""
+        if self._ticking is not None and not self._ticking.done():
+            self._step()
+
+    def begin_source(self) -> None:
+        """Subscribe soon where the topics come from now."""
+        self._checked_s = 0.0
+        self._go_on()
+
     def _step(self) -> None:
+        """Draw what came, unless all is just being replaced by another moment's."""
         room = self._room
+        # What reaches nodes reaches only those that run.
+        link = self._wire.current if self._source.is_live else None
         if self._robots is not None:
-            self._robots.step(room.displays(), self._wire.current)
+            self._robots.step(room.displays(), link)
         shown = {one.id for one in self._list if self._list.is_shown(one)}
-        self._markers.step(room, shown, self._wire.current)
-        room.step(self._list, time.time_ns())
+        self._markers.step(room, shown, link)
+        with self._source.held() as is_steady:
+            if is_steady:
+                room.step(self._list, self._source.now_ns, time.time_ns())
 
     def _log_once(self, error: Exception) -> None:
         """Log the error of a tick, unless it is the one logged last: there are many ticks."""
@@ -556,7 +577,7 @@ class DocumentDisplays:
         await self._room.subscribe({one.id for one in self._list if self._list.is_shown(one)})
 
     def _send_states(self) -> None:
-        self._states.send(self._room.states(self._list, time.time_ns()))
+        self._states.send(self._room.states(self._list, self._source.now_ns))
 
     def _send_displays(self) -> None:
         """Send all settings if they changed: the QoS changes with the publishers."""

@@ -226,13 +226,20 @@ class DrawingRoom:
         """Keep a frame in the scene for a while; return why it cannot be, or an empty text."""
         return self._followed.ask(frame, now_ns, visitor) or self.frames.trouble_of(frame)
 
-    def step(self, displays: DisplayList, now_ns: int) -> None:
-        """Draw what came since the last step; nothing that came by another connection stays."""
+    def step(self, displays: DisplayList, now_ns: int, wall_ns: int | None = None) -> None:
+        """Draw what came since the last step; nothing that came by another connection stays.
+
+        Args:
+            displays: Their settings.
+            now_ns: The time that is shown, since the Unix epoch.
+            wall_ns: Of this machine, by which waiting for transforms ends; None: the same.
+        """
+        wall_ns = now_ns if wall_ns is None else wall_ns
         self.frames.step()
         if self._epoch != self._source.epoch:
             self._epoch = self._source.epoch
             for running in self._running.values():
-                running.forget()
+                running.begin_epoch()
         shown = self._shown_of(displays)
         self._show_frames(running.display for running in shown.values())
         names = self._names_of(displays)
@@ -241,9 +248,9 @@ class DrawingRoom:
             running.display.beside(names, display)
         if self._held is None:
             self._place_robot()
-            self._followed.step(self.frames.lookup, now_ns)
+            self._followed.step(self.frames.lookup, wall_ns)
         for display, running in shown.items():
-            self._draw(display, running, now_ns, _AT_ONCE_S / len(shown))
+            self._draw(display, running, (now_ns, wall_ns), _AT_ONCE_S / len(shown))
         self._scene.live.draw_waiting()
 
     def _names_of(self, displays: DisplayList) -> dict[str, str]:
@@ -319,8 +326,10 @@ class DrawingRoom:
         self._seen = frozenset(shown)
         return shown
 
-    def _draw(self, display: str, running: RunningDisplay, now_ns: int, at_once_s: float) -> None:
-        shown = running.step(self.frames.lookup, now_ns, at_once_s)
+    def _draw(
+        self, display: str, running: RunningDisplay, now_ns: tuple[int, int], at_once_s: float
+    ) -> None:
+        shown = running.step(self.frames.lookup, *now_ns, at_once_s)
         if shown is None:
             return
         if self._held is None or display in self._let_through:

@@ -53,6 +53,8 @@ class RunningDisplay:
         self._subscriptions: dict[str, Subscription] = {}
         """By role."""
         self._closed = False
+        self._beginnings: dict[str, int] = {}
+        """By role, as `_begun` was in the last epoch."""
         self._instead = ""
         self._bad_message = ""
         self._placed_ns = 0
@@ -93,6 +95,8 @@ class RunningDisplay:
         new = wanted.keys() - self._subscriptions.keys()
         for name in new:
             self._subscriptions[name] = source.subscribe(wanted[name])
+        if new:
+            self._beginnings = self._begun()
         return bool(new)
 
     def find_instead(self, topics: TopicsNow) -> None:
@@ -114,11 +118,19 @@ class RunningDisplay:
         self.display.close()
         self.unsubscribe()
 
-    def step(self, lookup: Lookup, now_ns: int, at_once_s: float = math.inf) -> Shown | None:
+    def step(
+        self,
+        lookup: Lookup,
+        now_ns: int,
+        wall_ns: int | None = None,
+        at_once_s: float = math.inf,
+    ) -> Shown | None:
         """Take what came, and return what to draw now; None: nothing changed.
 
         Of each topic one message is taken, and more for so long; the rest waits for other steps.
+        What is drawn is of `now_ns`, and transforms are waited for by `wall_ns`.
         """
+        wall_ns = now_ns if wall_ns is None else wall_ns
         until_s = time.perf_counter() + at_once_s
         for role, subscription in self._subscriptions.items():
             type_name = subscription.fit.type_name if subscription.fit else ""
@@ -126,12 +138,12 @@ class RunningDisplay:
                 self._take(Received(type_name, payload, received_ns), role)
                 if time.perf_counter() > until_s:
                     break
-        self.placing.offer(self._drawing(now_ns), now_ns)
+        self.placing.offer(self._drawing(now_ns), wall_ns)
         rests = bool(self.placing.shown.poses) and not self.placing.waits
-        if rests and now_ns - self._placed_ns < self.display.interval_ns:
+        if rests and wall_ns - self._placed_ns < self.display.interval_ns:
             return None
-        self._placed_ns = now_ns
-        return self.placing.step(lookup, now_ns)
+        self._placed_ns = wall_ns
+        return self.placing.step(lookup, wall_ns)
 
     def reset(self) -> None:
         """Forget what was received: time jumped, or the display is hidden.
@@ -153,6 +165,18 @@ class RunningDisplay:
         self.unsubscribe()
         self.forget()
         self._bad_message = ""
+
+    def begin_epoch(self) -> None:
+        """Forget what came in another epoch; what would come again just so stays."""
+        before, self._beginnings = self._beginnings, self._begun()
+        if before == self._beginnings and before:
+            self.placing.renew()
+        else:
+            self.forget()
+
+    def _begun(self) -> dict[str, int]:
+        """Return by role how often its subscription began anew."""
+        return {role: one.beginnings for role, one in self._subscriptions.items()}
 
     def forget(self) -> None:
         """Show nothing of what came: it is of another connection."""

@@ -39,10 +39,19 @@ class SceneClock:
         """Count from the next question on."""
         self._wall_begin_ns = self._ros_begin_ns = 0
 
-    def told(self, request: int, clock_ns: int | None, *, paused: bool) -> SceneTime:
-        """Return the time for a page that asked; `clock_ns` is as for `pause`."""
+    def told(
+        self, request: int, clock_ns: int | None, *, paused: bool, now_ns: int | None = None
+    ) -> SceneTime:
+        """Return the time for a page that asked.
+
+        Args:
+            request: Its number.
+            clock_ns: As for `pause`.
+            paused: Whether drawing is paused.
+            now_ns: The time of the topics, where they are recorded; None: that of this machine.
+        """
         wall_ns = time.time_ns()
-        ros_ns = wall_ns if clock_ns is None else clock_ns
+        ros_ns = clock_ns if clock_ns is not None else wall_ns if now_ns is None else now_ns
         if self._held_ns is not None:
             ros_ns = self._held_ns
         self._begin(wall_ns, ros_ns, from_clock=clock_ns is not None)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import threading
-import time
 from typing import TYPE_CHECKING, Final
 
 from studio.displays.drawing import NO_TURN, ORIGIN
@@ -49,7 +48,7 @@ class SceneFrames:
     """
 
     def __init__(self, robot: PosedRobot, source: TopicSource) -> None:
-        self.buffer = TransformBuffer()
+        self.buffer = TransformBuffer(clock=lambda: source.now_ns)
         self.own = OwnFrames(robot, self.buffer)
         self.chosen = ""
         """The fixed frame as chosen; empty: the root link of the robot."""
@@ -92,10 +91,15 @@ class SceneFrames:
         return self._clock.now_ns
 
     @property
+    def recorded_ns(self) -> int | None:
+        """The time of the recording that is shown; None: it is the live system."""
+        return None if self._source.is_live else self._source.now_ns
+
+    @property
     def ros_ns(self) -> int:
-        """ROS time: that of /clock while it is published, else that of this machine."""
+        """ROS time: that of /clock while it is published, else that of the topics."""
         clock_ns = self.clock_ns
-        return time.time_ns() if clock_ns is None else clock_ns
+        return self._source.now_ns if clock_ns is None else clock_ns
 
     @property
     def fixed_state(self) -> FixedFrameState:
@@ -264,7 +268,7 @@ class SceneFrames:
             except CdrError:
                 return
             self._keep_epoch()
-            self._take(columns, self._publisher(sample.attachment.gid), static=static)
+            self._take(columns, sample, static=static)
 
         return take
 
@@ -282,9 +286,13 @@ class SceneFrames:
         self._notices.clear()
         self.own.take_back()
 
-    def _take(self, columns: TransformColumns, publisher: str, *, static: bool) -> None:
+    def _take(self, columns: TransformColumns, sample: RawSample, *, static: bool) -> None:
+        publisher = self._publisher(sample.attachment.gid)
         self.own.leave_to_others(columns.children, publisher)
-        for one in self.buffer.put(columns, static=static, publisher=publisher):
+        at_ns = sample.received_ns
+        for one in self.buffer.put(
+            columns, static=static, publisher=publisher, received_ns=at_ns
+        ):
             self._note(one)
             self._jumped |= one.kind == "time_jumped"
 

@@ -20,6 +20,11 @@ class Frames(Protocol):
         """The newest time of /clock; None: nobody publishes it."""
         ...
 
+    @property
+    def recorded_ns(self) -> int | None:
+        """The time of the recording that is shown; None: it is the live system."""
+        ...
+
 
 class Room(Protocol):
     """What is paused and reset."""
@@ -62,13 +67,18 @@ class SceneTimes:
         """Return the time of the view; subscribes to /clock for a while."""
         self._look()
         room = self._room()
-        return self._clock.told(command.request, room.frames.clock_ns, paused=room.is_paused)
+        frames = room.frames
+        return self._clock.told(
+            command.request, frames.clock_ns, paused=room.is_paused, now_ns=frames.recorded_ns
+        )
 
     def pause(self, command: PauseScene) -> None:
         """Pause drawing, or go on with the newest."""
         room = self._room()
         room.pause(paused=command.paused)
-        self._clock.pause(room.frames.clock_ns, paused=command.paused)
+        frames = room.frames
+        clock_ns = frames.recorded_ns if frames.clock_ns is None else frames.clock_ns
+        self._clock.pause(clock_ns, paused=command.paused)
         self._changed()
 
     def reset(self, _: ResetScene) -> None:

@@ -11,13 +11,14 @@ from studio.protocol.displays import DisplayKinds, GetDisplayKinds, GetTopics, T
 
 if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
+    from studio.live.topics.source import TopicSource
 
 
 class TopicOffers:
-    """Answers which topics there are, by the connection that there is."""
+    """Answers which topics there are, by the connection that there is, or in what is recorded."""
 
-    def __init__(self, wire: RosConnection) -> None:
-        self._wire = wire
+    def __init__(self, wire: RosConnection, source: TopicSource) -> None:
+        self._wire, self._source = wire, source
         self.plugins = Plugins()
         """Displays of the owner's own."""
 
@@ -34,11 +35,11 @@ class TopicOffers:
     async def topics(self, command: GetTopics) -> Topics:
         """Return the topics; none without a connection."""
         link = self._wire.current
-        if link is None:
+        if link is None and self._source.is_live:
             return Topics(request=command.request, topics=())
         from studio.live.displays.topic_views import topic_views  # noqa: PLC0415 - imports all
 
-        found = await asyncio.to_thread(topic_views, link, self.plugins.kind_of_type)
+        found = await asyncio.to_thread(topic_views, self._source, self.plugins.kind_of_type)
         return Topics(request=command.request, topics=found)
 
 

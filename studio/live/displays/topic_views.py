@@ -10,17 +10,17 @@ from studio.protocol.displays import TopicView
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.live.connection.link import WireLink
+    from studio.live.topics.source import TopicSource
 
 
-def topic_views(link: WireLink, owns: Callable[[str], str]) -> tuple[TopicView, ...]:
+def topic_views(source: TopicSource, owns: Callable[[str], str]) -> tuple[TopicView, ...]:
     """Return the topics that have a publisher, by name; thread-safe.
 
     `owns` gives the owner's display of a type, which shows what none of the studio's does.
     """
     found: list[TopicView] = []
-    for name, _ in link.graph.topics():
-        if publishers := link.graph.publishers(name):
+    for name, _, publishers, _ in source.catalogue():
+        if publishers:
             types = carried_types(publishers, ())
             own = tuple(one for one in map(owns, types) if one)
             kinds = tuple(dict.fromkeys((*kinds_for(name, types), *own)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -14,7 +15,7 @@ from studio.live.topics.subscription import Stream, Subscription
 from studio.live.topics.topic_rates import TopicRates
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Container, Iterable, Sequence
 
     from studio.live.topics.request import Endpoint, Fit, Request, StateKind
     from studio.live.topics.source import Connection, Topic
@@ -122,11 +123,22 @@ class SharedSource(ABC):
         changed: Callable[[], object] | None = None,
     ) -> Subscription:
         """Implement `TopicSource.subscribe`."""
-        made = Subscription(request, self._left, take, arrived, changed)
-        with self._lock:
-            self._subscriptions[made] = None
-        self.refit()
+        made = Subscription(request, self.release, take, arrived, changed)
+        self.adopt(made)
         return made
+
+    def adopt(self, subscription: Subscription) -> None:
+        """Receive for a subscription from now on; it may come from another source."""
+        with self._lock:
+            self._subscriptions[subscription] = None
+        self.refit()
+
+    def release(self, subscription: Subscription) -> None:
+        """Receive nothing more for a subscription; it need not be there."""
+        with self._lock:
+            self._subscriptions.pop(subscription, None)
+        subscription.leave()
+        self.refit()
 
     def flows(self, topics: Iterable[str]) -> dict[str, Flow]:
         """Implement `TopicSource.flows`."""
@@ -156,9 +168,26 @@ class SharedSource(ABC):
         for stream in streams.values():
             stream.close()
 
-    def change_epoch(self) -> None:
-        """Begin a new epoch: earlier messages do not belong to those that follow."""
+    def change_epoch(self, staying: Container[Subscription] = ()) -> None:
+        """Begin a new epoch: earlier messages do not belong to those that follow.
+
+        Args:
+            staying: For these what came before is still what they would be given now.
+        """
+        for one in self._wanted():
+            if one not in staying:
+                one.beginnings += 1
         self._epoch += 1
+
+    @property
+    def is_live(self) -> bool:
+        """Whether it is of what runs now, and not a recording."""
+        return True
+
+    @property
+    def now_ns(self) -> int:
+        """The time of the messages that come now, since the Unix epoch."""
+        return time.time_ns()
 
     @property
     def is_refused(self) -> bool:
@@ -168,11 +197,6 @@ class SharedSource(ABC):
     def _wanted(self) -> tuple[Subscription, ...]:
         with self._lock:
             return tuple(self._subscriptions)
-
-    def _left(self, subscription: Subscription) -> None:
-        with self._lock:
-            self._subscriptions.pop(subscription, None)
-        self.refit()
 
     def _kept(self, topic: str, begin_ns: int, end_ns: int) -> list[RawSample]:
         streams = [one for key, one in tuple(self._streams.items()) if key.topic == topic]
@@ -212,6 +236,8 @@ class SharedSource(ABC):
         if fit is None:
             one.leave()
             return state
+        fit = self.deepened(request.topic, fit)
+        state = replace(state, fit=fit)
         if one.fit is not None and one.fit.type_name != fit.type_name:
             one.change_type(fit)
         try:
@@ -225,9 +251,16 @@ class SharedSource(ABC):
         key = _Key(topic, fit.type_name, fit.type_hash, fit.reliable, fit.latched)
         stream = self._streams.get(key)
         if stream is None:
-            stream = Stream(fit, lambda made: self.open(topic, fit, made), self.hand_over)
-            self._streams[key] = stream
+            stream = self._streams[key] = self.begin(topic, fit)
         return stream
+
+    def deepened(self, topic: str, fit: Fit) -> Fit:
+        """Return a fit as deep as this source has it."""
+        return fit
+
+    def begin(self, topic: str, fit: Fit) -> Stream:
+        """Begin to receive for all who share a fit; errors as for `open`."""
+        return Stream(fit, lambda made: self.open(topic, fit, made), self.hand_over)
 
     def _kind(self, request: Request, fit: Fit, publishers: Sequence[Endpoint]) -> StateKind:
         if not publishers:

@@ -48,6 +48,19 @@ class TopicSource(Protocol):
         ...
 
     @property
+    def is_live(self) -> bool:
+        """Whether it is of what runs now, and not a recording."""
+        ...
+
+    @property
+    def now_ns(self) -> int:
+        """The time of the messages that come now, since the Unix epoch.
+
+        Of what runs that is this machine's, of a recording where it stands.
+        """
+        ...
+
+    @property
     def types(self) -> TypeLibrary:
         """Message types as this source defines them."""
         ...

@@ -33,6 +33,7 @@ class Subscription:
         state: How it stands.
         received: Samples that came for it.
         dropped: Samples that fell out of its queue.
+        beginnings: How often what came before did not belong to what followed.
     """
 
     def __init__(
@@ -45,7 +46,7 @@ class Subscription:
     ) -> None:
         self.request = request
         self.state = SubscriptionState(request.topic)
-        self.received = self.dropped = 0
+        self.received = self.dropped = self.beginnings = 0
         self._left, self._take, self._changed = left, take, changed
         self.arrived = arrived
         self._most = 1 if request.newest_only else request.waiting_max
@@ -217,6 +218,7 @@ class Stream:
         fit: Type, QoS, and the first depth.
         subscribe: Starts to receive; its callback takes the samples, in a thread of the source.
         hand_over: Makes sure that `Subscription.hand_over` is called.
+        keeps: Whether the last messages are kept for later subscribers though they are not latched.
 
     Raises:
         StudioError: It cannot be subscribed.
@@ -227,13 +229,15 @@ class Stream:
         fit: Fit,
         subscribe: Callable[[Stream], WireSubscription],
         hand_over: Callable[[Subscription], object],
+        *,
+        keeps: bool = False,
     ) -> None:
         self.depth = fit.depth
         self.arrivals = Arrivals()
         self._hand_over = hand_over
         self._lock = threading.Lock()
         self._subscribers: tuple[Subscription, ...] = ()
-        self._cache = Cache() if fit.latched else None
+        self._cache = Cache() if fit.latched or keeps else None
         self._repeats_to: dict[bytes, int] = {}
         """By sender: samples up to this number came before the depth grew, and come again."""
         self._late: frozenset[Subscription] = frozenset()
@@ -277,6 +281,28 @@ class Stream:
             self._add(one)
         if kept:
             self._notify((one,))
+
+    def begin_anew(self, samples: list[RawSample]) -> None:
+        """Give all subscribers these samples, and nothing of what came before."""
+        with self._lock:
+            self._repeats_to, self._late = {}, frozenset()
+            if self._cache is not None:
+                self._cache = Cache()
+            for one in self._subscribers:
+                one.clear()
+        self.arrivals = Arrivals()
+        self.take_past(samples)
+
+    def take_past(self, samples: list[RawSample]) -> None:
+        """Pass samples to all subscribers that came one after the other, and not just now."""
+        if samples:
+            for one in samples[-_ARRIVALS_MAX:-1]:
+                self.arrivals.add(one.received_ns, 1)
+            self.take(samples, 1, 0)
+
+    def subscribers(self) -> tuple[Subscription, ...]:
+        """Who shares it."""
+        return self._subscribers
 
     def remove(self, one: Subscription) -> None:
         """Remove a subscriber."""

@@ -1,0 +1,188 @@
+"""Questions about one file of a recording, answered by reading as few of its blocks as can be."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import numpy as np
+
+from studio.bags.recording import Recorded
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from studio.bags.blocks import BlockFile, Outline
+    from studio.ros.node.samples import RawSample
+
+_ATTEMPTS: Final = 8
+"""For as many blocks that turn out to be damaged, what lies before them is looked for."""
+
+_ALL: Final = 2**62
+
+
+class Place(NamedTuple):
+    """Where a message lies; of two, the one that comes later is the larger."""
+
+    time_ns: int
+    start: int
+    place: int
+    block: int
+    channel: int
+
+
+def newest(
+    file: BlockFile, channels: Mapping[int, Outline], at_ns: int, most: int, since_ns: int
+) -> list[RawSample]:
+    """Return the newest messages of some channels in [since, at], at most so many, oldest first."""
+    for _ in range(_ATTEMPTS):
+        places = [
+            place for key in channels for place in _newest_places(file, key, at_ns, most, since_ns)
+        ]
+        found = [
+            file.sample(one.block, one.channel, one.place, channels[one.channel].gid)
+            for one in sorted(places)[-most:]
+        ]
+        whole = [one for one in found if one is not None]
+        if len(whole) == len(found):
+            return whole
+    return whole
+
+
+def _newest_places(
+    file: BlockFile, channel: int, at_ns: int, most: int, since_ns: int
+) -> list[Place]:
+    """Return where the newest messages of a channel in [since, at] lie, in no order."""
+    presence = file.table.presence.get(channel)
+    if presence is None:
+        return []
+    found: list[Place] = []
+    for i in range(int(np.searchsorted(presence.begins_ns, at_ns, "right")) - 1, -1, -1):
+        enough = len(found) >= most
+        if presence.ends_max_ns[i] < (min(found).time_ns if enough else since_ns):
+            break
+        block = int(presence.blocks[i])
+        found += _in_block(file, channel, block, (since_ns, at_ns), most)
+        found = sorted(found)[-most:]
+    return found
+
+
+def _in_block(
+    file: BlockFile, channel: int, block: int, span_ns: tuple[int, int], most: int
+) -> list[Place]:
+    """Return where the last messages of a channel in a block and a span, ends included, lie."""
+    times_ns, places = file.entries(block, channel)
+    first = int(np.searchsorted(times_ns, span_ns[0], "left"))
+    last = int(np.searchsorted(times_ns, span_ns[1], "right"))
+    first = max(first, last - most)
+    start = int(file.table.starts[block])
+    pairs = zip(times_ns[first:last].tolist(), places[first:last].tolist(), strict=True)
+    return [Place(time_ns, start, place, block, channel) for time_ns, place in pairs]
+
+
+def next_time(file: BlockFile, channel: int, after_ns: int) -> int | None:
+    """Return the time of the first message of a channel after a time."""
+    presence = file.table.presence.get(channel)
+    if presence is None:
+        return None
+    found: int | None = None
+    first = int(np.searchsorted(presence.ends_max_ns, after_ns, "right"))
+    for i in range(first, len(presence.blocks)):
+        if found is not None and presence.begins_ns[i] >= found:
+            break
+        times_ns = file.entries(int(presence.blocks[i]), channel).times_ns
+        at = int(np.searchsorted(times_ns, after_ns, "right"))
+        if at < len(times_ns):
+            found = int(times_ns[at]) if found is None else min(found, int(times_ns[at]))
+    return found
+
+
+def previous_time(file: BlockFile, channel: int, before_ns: int) -> int | None:
+    """Return the time of the last message of a channel before a time."""
+    places = _newest_places(file, channel, before_ns - 1, 1, -(2**63))
+    return max(places).time_ns if places else None
+
+
+def add_counts(
+    file: BlockFile, channel: int, edges_ns: Sequence[int], counts: NDArray[np.int64]
+) -> None:
+    """Add how many messages of a channel lie between each two of some times to `counts`.
+
+    Args:
+        file: The file.
+        channel: One of its channels.
+        edges_ns: Ascending; a part holds its first time, and not its last.
+        counts: Shape (len(edges_ns) - 1,).
+    """
+    presence = file.table.presence.get(channel)
+    if presence is None:
+        return
+    edges = np.array(edges_ns, np.int64)
+    first = int(np.searchsorted(presence.ends_max_ns, edges[0], "left"))
+    last = int(np.searchsorted(presence.begins_ns, edges[-1], "left"))
+    for block in presence.blocks[first:last].tolist():
+        times_ns = file.entries(block, channel).times_ns
+        counts += np.diff(np.searchsorted(times_ns, edges, "left"))
+
+
+def messages(
+    file: BlockFile, channels: Mapping[int, Outline], begin_ns: int, end_ns: int
+) -> Iterator[Recorded]:
+    """Yield the messages of some channels in [begin, end), by time.
+
+    Blocks that overlap in time are merged message by message, the others handed out as they lie.
+    """
+    table = file.table
+    blocks = _blocks_of(file, channels, begin_ns, end_ns)
+    waiting: list[Place] = []
+    for at, block in enumerate(blocks):
+        until_ns = int(table.begins_ns[blocks[at + 1]]) if at + 1 < len(blocks) else end_ns
+        if not waiting and table.ends_ns[block] < until_ns:
+            yield from _whole_block(file, block, channels, (begin_ns, end_ns))
+            continue
+        for key in channels:
+            waiting += _in_block(file, key, block, (begin_ns, end_ns - 1), _ALL)
+        waiting.sort()
+        count = next((i for i, one in enumerate(waiting) if one.time_ns >= until_ns), len(waiting))
+        yield from _each(file, waiting[:count], channels)
+        del waiting[:count]
+    yield from _each(file, waiting, channels)
+
+
+def _blocks_of(
+    file: BlockFile, channels: Mapping[int, Outline], begin_ns: int, end_ns: int
+) -> list[int]:
+    """Return the blocks that may hold messages of some channels in [begin, end), by their begins."""
+    table = file.table
+    parts = [table.presence[key].blocks for key in channels if key in table.presence]
+    if not parts:
+        return []
+    found = np.unique(np.concatenate(parts))
+    near = (table.begins_ns[found] < end_ns) & (table.ends_ns[found] >= begin_ns)
+    return found[near].tolist()
+
+
+def _whole_block(
+    file: BlockFile, block: int, channels: Mapping[int, Outline], span_ns: tuple[int, int]
+) -> list[Recorded]:
+    """Return a block's messages of some channels in [begin, end), by time."""
+    found = file.scanned(block, channels)
+    begin_ns, end_ns = span_ns
+    table = file.table
+    if table.begins_ns[block] < begin_ns or table.ends_ns[block] >= end_ns:
+        found = [one for one in found if begin_ns <= one.sample.received_ns < end_ns]
+    times_ns = [sample.received_ns for _, sample in found]
+    if any(one > other for one, other in zip(times_ns, times_ns[1:], strict=False)):
+        found.sort(key=lambda one: one.sample.received_ns)
+    return found
+
+
+def _each(
+    file: BlockFile, places: Sequence[Place], channels: Mapping[int, Outline]
+) -> Iterator[Recorded]:
+    for one in places:
+        outline = channels[one.channel]
+        sample = file.sample(one.block, one.channel, one.place, outline.gid)
+        if sample is not None:
+            yield Recorded(outline.topic, sample)

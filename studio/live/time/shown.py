@@ -1,0 +1,50 @@
+"""ShownRecording: a recording that documents show, closed when the last one lets it go."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.bags.recording import Recording
+
+
+class ShownRecording:
+    """Thread-safe; whoever makes it holds it once.
+
+    Attributes:
+        recording: What is shown.
+        title: Its name; of the last minutes none.
+        path: Of its files, if it has any.
+        mode: Whether it is a bag, or the last minutes of the live system.
+    """
+
+    def __init__(
+        self,
+        recording: Recording,
+        mode: Literal["past", "bag"],
+        title: str = "",
+        path: str = "",
+        close: Callable[[], object] | None = None,
+    ) -> None:
+        self.recording, self.mode, self.title, self.path = recording, mode, title, path
+        self._close, self._holders = close, 1
+        self._lock = threading.Lock()
+
+    def hold(self) -> ShownRecording | None:
+        """Hold it once more; None: it was closed meanwhile."""
+        with self._lock:
+            if not self._holders:
+                return None
+            self._holders += 1
+        return self
+
+    def let_go(self) -> None:
+        """Hold it no more; its files are closed after the last one. In a thread."""
+        with self._lock:
+            self._holders -= 1
+            if self._holders or self._close is None:
+                return
+        self._close()
