@@ -21,6 +21,7 @@ const ICONS = {
   folder: "folder",
   package: "package",
   robot: "robot",
+  bag: "bag",
   zip: "zip",
   file: "file",
 };
@@ -247,10 +248,16 @@ function Entry({ entry, busy, onEnter, onOpen }) {
 /** @param {{entry: FolderEntry, busy: boolean, onOpen: OnOpen}} props */
 function EntryButtons({ entry, busy, onOpen }) {
   const name = baseName(entry.name);
-  const likely = entry.kind === "robot" || entry.kind === "package";
+  const likely = ["robot", "package", "bag"].includes(entry.kind);
   return html`<button type="button" class=${`button small ${likely ? "primary" : ""}`} disabled=${busy}
       aria-label=${t("open.entry", { name })} onClick=${() => onOpen?.(entry, false)}>${t("open.here")}</button>
-    <button type="button" class="button small wide-only" disabled=${busy} aria-label=${t("open.entry_tab", { name })}
+    ${entry.kind === "bag" ? null : html`<${OtherWays} entry=${entry} busy=${busy} onOpen=${onOpen} />`}`;
+}
+
+/** What has arguments is also opened with others, or beside the page. @param {{entry: FolderEntry, busy: boolean, onOpen: OnOpen}} props */
+function OtherWays({ entry, busy, onOpen }) {
+  const name = baseName(entry.name);
+  return html`<button type="button" class="button small wide-only" disabled=${busy} aria-label=${t("open.entry_tab", { name })}
       onClick=${() => onOpen?.(entry, true)}>${t("open.tab")}</button>
     <${IconButton} icon="arguments" label=${t("open.entry_arguments", { name })} disabled=${busy} onClick=${() => {
       dialog.value = { kind: "launch", path: entry.path };

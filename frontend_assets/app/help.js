@@ -126,6 +126,7 @@ const OTHERS = {
     class: "users",
     own_nodes: "node",
     layouts: "layout",
+    timeline: "history",
     graphics: "system",
   },
   words: { xacro: "macro", links: "joints", frame: "axes", units: "info" },

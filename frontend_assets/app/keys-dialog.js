@@ -10,6 +10,8 @@ import { Dialog, SearchBox } from "../lib/ui.js";
 
 /** Commands that have to do with where panels stand. */
 const OF_PANELS = /^(next_panel|previous_panel|maximize|move_panel|float_panel|layout\.\d+)$/;
+/** Commands of the timeline. */
+const OF_TIME = /^time\./;
 /** Commands of the 3D view. */
 const OF_SCENE =
   /^(look_at|fit|zero_view|orthographic|fullscreen|leave_fullscreen|measure.*|tool.*|end_measuring|deselect)$/;
@@ -34,6 +36,15 @@ const IN_DISPLAYS = [
 
 /** @type {readonly Row[]} */
 const IN_SCENE = [["keys.turn", ["←", "↑", "→", "↓"]]];
+
+/** @type {readonly Row[]} */
+const AT_TIMELINE = [
+  ["keys.time", ["←", "→"]],
+  ["keys.time.ends", ["Home", "End"]],
+  ["keys.time.loop", ["I", "O"]],
+  ["command.time.bookmark", ["B"]],
+  ["keys.time.zoom", ["+", "-", "0"]],
+];
 
 /** @type {readonly Row[]} */
 const IN_PALETTE = [
@@ -102,11 +113,13 @@ function heapOf([words, keys]) {
 
 /** @returns {Group[]} */
 function allGroups() {
-  const ofPage = (/** @type {string} */ id) => !OF_PANELS.test(id) && !OF_SCENE.test(id);
+  const ofPage = (/** @type {string} */ id) =>
+    !OF_PANELS.test(id) && !OF_SCENE.test(id) && !OF_TIME.test(id);
   return [
     { title: t("keys.page"), rows: named(ofPage) },
     { title: t("panels.menu"), rows: [...named((id) => OF_PANELS.test(id)), ...said(AT_TABS)] },
     { title: t("panel.scene"), rows: [...named((id) => OF_SCENE.test(id)), ...said(IN_SCENE)] },
+    { title: t("timeline"), rows: [...named((id) => OF_TIME.test(id)), ...said(AT_TIMELINE)] },
     { title: t("panel.displays"), rows: said(IN_DISPLAYS) },
     { title: t("keys.in_source"), rows: said(IN_SOURCE) },
     { title: t("keys.everywhere"), rows: said(IN_LISTS) },

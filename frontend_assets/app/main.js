@@ -2,7 +2,14 @@
 
 import { effect, html, render } from "vendor/preact.js";
 import { documentOf } from "../lib/address.js";
-import { addCommands, commandById, matches, onKey, takesText } from "../lib/commands.js";
+import {
+  addCommands,
+  commandById,
+  matches,
+  onKey,
+  takesSpace,
+  takesText,
+} from "../lib/commands.js";
 import { createDock } from "../lib/dock.js";
 import { nearestLanguage, t, useLanguage } from "../lib/i18n.js";
 import { anyUnderWay } from "../lib/latest.js";
@@ -151,6 +158,7 @@ function show(shown) {
 /** @param {KeyboardEvent} event */
 function onKeyDown(event) {
   if (event.defaultPrevented || belongsToWindow(event)) return;
+  if (event.key === " " && takesSpace(event.target)) return;
   const inText = takesText(event.target);
   if (onKey(event, { inText })) event.preventDefault();
   else if (!inText && matches("Mod+A", event)) selectAllOf(event);

@@ -16,6 +16,7 @@ import { exportCommands } from "./export.js";
 import { graphicsCommands } from "./graphics.js";
 import { closeAsking, rvizCommands } from "./rviz-commands.js";
 import { copyLink } from "./share.js";
+import { timeCommands } from "./timeline-commands.js";
 
 const onDocument = () => mayEdit.value && isFree() && documentId.value !== "";
 const ofOwner = () => mayManage.value && isFree() && documentId.value !== "";
@@ -30,6 +31,7 @@ export function menuCommands() {
     ...themeCommands(),
     ...graphicsCommands(),
     ...sceneCommands(),
+    ...timeCommands(),
     { id: "ros", icon: "link", enabled: isFree, run: showRos },
     { id: "log_out", icon: "lock", enabled: () => mayManage.value && isFree(), run: askToLogOut },
     ...languageCommands(),

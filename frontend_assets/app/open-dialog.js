@@ -11,6 +11,7 @@ import { parseArguments } from "../lib/expressions.js";
 import { t } from "../lib/i18n.js";
 import { remembered } from "../lib/remembered.js";
 import { Dialog, Icon, ProgressBar } from "../lib/ui.js";
+import { openRecorded } from "../model/recording.js";
 import { choosePackage, openNamed, openPath } from "../model/requests.js";
 import { findRobots, openFromRos, ros } from "../model/ros.js";
 import { EverythingSwitch, FolderList, useBrowser } from "./file-browser.js";
@@ -220,7 +221,10 @@ function BrowsePage({ onClose }) {
   /** @param {FolderEntry} entry @param {boolean} tab */
   const open = async (entry, tab) => {
     opening.value = entry.path;
-    const opened = await openPath(entry.path, parseArguments(values.value), { tab });
+    const opened =
+      entry.kind === "bag"
+        ? await openRecorded(entry.path)
+        : await openPath(entry.path, parseArguments(values.value), { tab });
     opening.value = "";
     if (opened && tab) onClose();
   };

@@ -19,6 +19,7 @@ import { Notices } from "./notices.js";
 import { PANELS, panelTitle } from "./panels.js";
 import { LeftWorkBar, RestoredBar } from "./restored-work.js";
 import { StatusBar } from "./status-bar.js";
+import { Timeline } from "./timeline.js";
 import { TopBar } from "./top-bar.js";
 import { DropLayer } from "./uploads.js";
 
@@ -44,6 +45,7 @@ export function Shell({ onDock }) {
     <${LeftWorkBar} />
     <${DiskBars} />
     <main ref=${dock} id="dock" class="dock" aria-label=${t("dock")}></main>
+    <${Timeline} />
     ${size.value === "phone" ? html`<${PhoneTabs} />` : html`<${StatusBar} />`}
     ${documentId.value === "" && html`<${StartCard} />`}
     ${dialog.value === null && html`<${Notices} />`}

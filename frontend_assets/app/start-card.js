@@ -26,6 +26,7 @@ export function StartCard() {
       <${StartButton} tab="browse" icon="open" label="command.open" primary=${true} />
       <${StartButton} tab="new" icon="filePlus" label="command.new_robot" primary=${false} />
       <${StartButton} tab="paste" icon="clipboard" label="command.new_pasted" primary=${false} />
+      <${StartButton} tab="browse" icon="bag" label="command.open_bag" primary=${false} />
       <${ConnectButton} />
     </div>
     <${FileButtons} />

@@ -15,10 +15,11 @@ export function matches(shortcut, stroke) {
   const parts = shortcut.split("+");
   const key = parts.at(-1)?.toLowerCase();
   const mod = stroke.ctrlKey || stroke.metaKey;
+  const pressed = stroke.key === " " ? "space" : stroke.key.toLowerCase();
   // "?" needs Shift on many keyboards, so Shift counts only for letters and named keys.
   const shiftCounts = (key?.length ?? 0) > 1 || /[a-z]/.test(key ?? "");
   return (
-    stroke.key.toLowerCase() === key &&
+    pressed === key &&
     mod === parts.includes("Mod") &&
     stroke.altKey === parts.includes("Alt") &&
     (!shiftCounts || stroke.shiftKey === parts.includes("Shift"))
@@ -43,6 +44,11 @@ export function takesText(target) {
     return !["range", "checkbox", "button"].includes(target.type);
   return target.isContentEditable || ["TEXTAREA", "SELECT"].includes(target.tagName);
 }
+
+/** @param {EventTarget | null} target @returns {boolean} Space presses it, or scrolls it */
+export const takesSpace = (target) =>
+  target instanceof HTMLElement &&
+  target.matches('button, a, input, summary, [tabindex="0"]:not([role="slider"])');
 
 /**
  * @typedef {object} Command

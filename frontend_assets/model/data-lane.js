@@ -8,7 +8,7 @@
 /** @import { SubscriptionView, Echoed, Points, ToPage } from "../workers/subscriptions.js" */
 
 import { effect, signal } from "vendor/preact.js";
-import { connection } from "./connection.js";
+import { connection, documentId } from "./connection.js";
 import { typeOf, whenTypesChange } from "./interfaces.js";
 
 /** @typedef {{reliable?: boolean | null, latched?: boolean | null, depth?: number | null, typeName?: string, mostHz?: number, pace?: "tick" | "at_once"}} Ways null: as fits its publishers; at once: between two ticks, for what somebody waits for */
@@ -48,6 +48,7 @@ function begun() {
   effect(() => {
     if (connection.value === "connected") made.postMessage({ kind: "retry" });
   });
+  effect(() => made.postMessage({ kind: "about", document: documentId.value }));
   whenTypesChange(tell);
   const see = () => made.postMessage({ kind: "seen", isSeen: !document.hidden });
   document.addEventListener("visibilitychange", see);
@@ -94,6 +95,7 @@ function commandFor(
   lastNumber += 1;
   return {
     subscription: lastNumber,
+    document: documentId.peek(),
     topic,
     type_name: typeName,
     mode,

@@ -9,6 +9,7 @@
 import { effect, signal, untracked } from "vendor/preact.js";
 import { askedWhenChanged, askOrKeepWhy } from "./asking.js";
 import { session } from "./connection.js";
+import { recordingKey } from "./time.js";
 
 /** From the least to the gravest, with the number from which a line counts as such. */
 export const LEVELS = /** @type {const} */ ({
@@ -98,11 +99,21 @@ export const followLog = askedWhenChanged(askLog, "log");
 /** @returns {Promise<boolean>} there is more at once */
 async function askLog() {
   const answer = await askOrKeepWhy({ type: "get_log", after: last }, logRefused);
-  if (answer?.type !== "log" || answer.lines.length === 0) return false;
+  if (answer?.type !== "log") return false;
+  // In the past a document has said less: what came after it is not shown.
+  if (answer.last < last) return beginAnew();
+  if (answer.lines.length === 0) return false;
   if (last > 0 && answer.first > last + 1) missed.value += answer.first - last - 1;
   last = answer.lines.at(-1)?.number ?? last;
   logLines.value = withNews(logLines.value, answer.lines);
   return last < answer.last;
+}
+
+/** @returns {boolean} there is more at once */
+function beginAnew() {
+  last = 0;
+  clearLog();
+  return true;
 }
 
 /** @param {string} node by its path: show what it says, and nothing else */
@@ -116,9 +127,14 @@ export function clearLog() {
   missed.value = 0;
 }
 
-// A studio that was started anew counts from one.
+// A studio that was started anew counts from one, and so does another recording.
+let recordingBefore = "";
 effect(() => {
   session.value;
-  last = 0;
-  untracked(clearLog);
+  untracked(beginAnew);
+});
+effect(() => {
+  const { value } = recordingKey;
+  if (recordingBefore !== "" && value !== recordingBefore) untracked(beginAnew);
+  recordingBefore = value;
 });

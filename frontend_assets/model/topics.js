@@ -12,6 +12,7 @@ import { remembered } from "../lib/remembered.js";
 import { shortTime } from "../lib/times.js";
 import { askedWhenChanged, polled, useTold } from "./asking.js";
 import { ros } from "./ros.js";
+import { isPast } from "./time.js";
 import { send } from "./wire.js";
 
 /** As they were told last; null: not yet. @type {Signal<readonly TopicRow[] | null>} */
@@ -31,7 +32,7 @@ const look = askedWhenChanged(async () => {
 /** Keep the list up to date. @returns {() => void} the end of it */
 export function followTopics() {
   const forget = effect(() => {
-    if (ros.value.state === "off") topics.value = null;
+    if (ros.value.state === "off" && !isPast.value) topics.value = null;
   });
   const stop = look();
   return () => {

@@ -12,7 +12,7 @@ import { askOrKeepWhy, useLooking } from "../model/asking.js";
 import { mayAct, mayManage } from "../model/connection.js";
 import { calls, followOperations, followServices, plainOf, services } from "../model/operations.js";
 import { followTopics, topics } from "../model/topics.js";
-import { ConnectFirst, isRouterAway, isUnconnected, RouterAway } from "./parts.js";
+import { ConnectFirst, isRouterAway, isWireAway, PastNote, RouterAway } from "./parts.js";
 
 /**
  * @typedef {object} FieldPanelProps
@@ -30,7 +30,8 @@ export function FieldPanel(props) {
   const { id, icon, follow } = props;
   const { panel, looking } = useLooking(follow);
   return html`<section ref=${panel} class=${`panel-body with-field ${id}`} aria-label=${t(`panel.${id}`)}>
-    ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : looking && html`<${Content} ...${props} />`}
+    <${PastNote} />
+    ${isWireAway() ? html`<${ConnectFirst} icon=${icon} />` : looking && html`<${Content} ...${props} />`}
   </section>`;
 }
 

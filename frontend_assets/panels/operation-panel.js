@@ -28,7 +28,7 @@ import {
 } from "../model/message-forms.js";
 import { matchingOffers } from "../model/operations.js";
 import { notify } from "../model/view.js";
-import { ConnectFirst, isUnconnected, NothingThere, Refusal, RouterAway } from "./parts.js";
+import { ConnectFirst, isWireAway, NothingThere, PastNote, Refusal, RouterAway } from "./parts.js";
 
 /** @type {Record<string, string>} */
 const ICONS = { bad: "error", cancelled: "stop", canceled: "stop", stopped: "stop" };
@@ -78,7 +78,8 @@ export function OperationPanel({ id, icon, kind, follow, onLine, children }) {
   return html`<section ref=${panel} class="panel-body operations" aria-label=${t(`panel.${id}`)} onPaste=${onPaste}>
     <${RouterAway} />
     ${!mayAct.value && html`<p class="note panel-said">${t("operations.viewer")}</p>`}
-    ${isUnconnected() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
+    <${PastNote} />
+    ${isWireAway() ? html`<${ConnectFirst} icon=${icon} />` : children(take)}
   </section>`;
 }
 

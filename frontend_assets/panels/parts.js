@@ -13,10 +13,11 @@ import { EmptyState, Icon } from "../lib/ui.js";
 import { mayManage } from "../model/connection.js";
 import { connectRos, ros } from "../model/ros.js";
 import { showSource } from "../model/source.js";
+import { isBag, isPast } from "../model/time.js";
 import { dialog } from "../model/view.js";
 
 /** @returns {boolean} it was connected, and its router is away: nobody is seen, heard or told anything */
-export const isRouterAway = () => ros.value.state === "lost";
+export const isRouterAway = () => ros.value.state === "lost" && !isBag.value;
 
 /** What a panel says while the router is away, above what it shows. */
 export function RouterAway() {
@@ -27,8 +28,17 @@ export function RouterAway() {
 /** @param {Parameters<typeof EmptyState>[0]} props what a list says in which nothing is; nothing, while nobody can be seen */
 export const NothingThere = (props) => (isRouterAway() ? null : EmptyState(props));
 
-/** @returns {boolean} nothing of the wire can be told now */
-export const isUnconnected = () => ros.value.state !== "connected" && ros.value.state !== "lost";
+/** @returns {boolean} no ROS 2 system can be told anything now */
+export const isWireAway = () => ros.value.state !== "connected" && ros.value.state !== "lost";
+
+/** @returns {boolean} no messages can come: neither of a ROS 2 system, nor of a recording */
+export const isUnconnected = () => isWireAway() && !isPast.value;
+
+/** What a panel says that acts while others show another time. */
+export function PastNote() {
+  if (!isPast.value || isWireAway()) return null;
+  return html`<p class="note panel-said"><${Icon} name="history" size=${13} />${t("timeline.acts_now")}</p>`;
+}
 
 /** @param {{icon: string}} props */
 export function ConnectFirst({ icon }) {

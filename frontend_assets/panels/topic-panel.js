@@ -14,6 +14,7 @@ import { shortTime, useSilence } from "../lib/times.js";
 import { Icon, MenuButton, ProgressBar } from "../lib/ui.js";
 import { useLooking } from "../model/asking.js";
 import { echo, laneOpen } from "../model/data-lane.js";
+import { isPast } from "../model/time.js";
 import { followTopics, topics } from "../model/topics.js";
 import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "./parts.js";
 
@@ -122,8 +123,8 @@ export function whyNothing(subscription) {
 function whyNoMessage(message, silent_s, subscription) {
   if (message?.trouble) return t("topics.unread", { reason: message.trouble.replace(/\.$/, "") });
   if (!message) return t("topics.state.waiting");
-  // What is latched is published once and holds.
-  return silent_s > 0 && !subscription?.latched
+  // What is latched is published once and holds, and the past may stand still.
+  return silent_s > 0 && !subscription?.latched && !isPast.value
     ? t("topics.state.silent", { time: shortTime(silent_s) })
     : "";
 }

@@ -160,11 +160,51 @@ export interface AskControl {
 /** What changes about a part. */
 export type Aspect = "size" | "shape" | "color" | "pose" | "collision" | "inertia" | "motion" | "name" | "other" | "presence";
 
+/** One of them. */
+export interface BagEntry {
+  path: string;
+  name: string;
+  begin_s: number;
+  seconds: number;
+  bytes: number;
+  messages: number;
+}
+
+/** Answer to `save_past` and `cut_bag`. */
+export interface BagWritten {
+  type: "bag_written";
+  request: number;
+  path: string;
+  messages: number;
+  bytes: number;
+}
+
+/** Answer to `list_bags`, the newest first. */
+export interface Bags {
+  type: "bags";
+  request: number;
+  folder: string;
+  bags: BagEntry[];
+}
+
 /** Answer to what begins an operation: its number, by which it is reported and cancelled. */
 export interface Begun {
   type: "begun";
   request: number;
   operation: number;
+}
+
+/** A moment with a name. */
+export interface Bookmark {
+  at_s: number;
+  name: string;
+}
+
+/** The bookmarks of what is shown, by time; they are kept beside a bag's files. */
+export interface Bookmarks {
+  type: "bookmarks";
+  bookmarks: Bookmark[];
+  trouble: string;
 }
 
 /** A run ended: how long it took from the edit to the scene. */
@@ -486,6 +526,18 @@ export interface CreatePackage {
   maintainer_name?: string;
   maintainer_email?: string;
   contents?: "nodes" | "interfaces" | "description";
+}
+
+/** Write a part of what is shown into a bag; times are those of `time_state`. */
+export interface CutBag {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "cut_bag";
+  begin_s: number;
+  end_s: number;
+  topics?: string[];
+  name?: string;
 }
 
 /** Delete a lesson that was written in the page. */
@@ -1044,7 +1096,7 @@ export interface Folder {
 export interface FolderEntry {
   name: string;
   path: string;
-  kind: "folder" | "package" | "robot" | "zip" | "file";
+  kind: "folder" | "package" | "robot" | "bag" | "zip" | "file";
   openable: boolean;
   reason: string;
 }
@@ -1503,6 +1555,19 @@ export interface GetSceneTime {
   type: "get_scene_time";
 }
 
+/** Ask for a number of a topic's messages over a range, as few values as a picture can show. */
+export interface GetSeries {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_series";
+  topic: string;
+  path: string;
+  begin_s: number;
+  end_s: number;
+  columns: number;
+}
+
 /** Ask for the services that have a server. */
 export interface GetServices {
   request?: number;
@@ -1529,6 +1594,26 @@ export interface GetTf {
   frame?: string;
   seen_from?: string;
   pose_only?: boolean;
+}
+
+/** Ask where a topic has messages; an empty one means all together. */
+export interface GetTimeMarks {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_time_marks";
+  topic?: string;
+  begin_s: number;
+  end_s: number;
+  bins: number;
+}
+
+/** Ask for errors and warnings of `/rosout` and `/diagnostics` in what is shown. */
+export interface GetTimeTicks {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "get_time_ticks";
 }
 
 /** Ask for the kinds of tools. */
@@ -1604,6 +1689,14 @@ export interface GiveControl {
   id?: string;
   type: "give_control";
   person: string;
+}
+
+/** Show what comes now; a bag is closed. */
+export interface GoLive {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "go_live";
 }
 
 /** A goal as its server reports it. */
@@ -2017,6 +2110,14 @@ export interface LinkView {
   macros: string[];
 }
 
+/** Ask for the bags that can be opened: those of the folder in which the studio records. */
+export interface ListBags {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "list_bags";
+}
+
 /** The models that the studio ships. */
 export interface ListExamples {
   request?: number;
@@ -2133,6 +2234,16 @@ export interface LookUp {
   file: string;
   offset: number;
   type: "look_up";
+}
+
+/** Play one part again and again; both None: the whole, once. */
+export interface LoopTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "loop_time";
+  begin_s?: number | null;
+  end_s?: number | null;
 }
 
 /** Something of a file that is only kept, and written back as it is. */
@@ -2378,6 +2489,15 @@ export interface OfferView {
   name: string;
   types: string[];
   nodes: string[];
+}
+
+/** Show a bag in a document; without a document, as one of its own: answered by `opened`. */
+export interface OpenBag {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "open_bag";
+  path: string;
 }
 
 /** Make a copy of a shared document with its unsaved edits, or go on with yours. */
@@ -2932,6 +3052,15 @@ export interface PlannedStart {
   text: string;
 }
 
+/** Let the time go on from where it is, or stop it. */
+export interface PlayTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "play_time";
+  playing: boolean;
+}
+
 /** One named pose as the page lists it. */
 export interface PoseView {
   key: string;
@@ -3141,6 +3270,38 @@ export interface RecentEntry {
   time_s: number;
   origin: "file" | "example" | "upload" | "untitled";
   is_there: boolean;
+}
+
+/** What was recorded of a topic. */
+export interface RecordedCount {
+  name: string;
+  type_name: string;
+  count: number;
+  lost: number;
+}
+
+/** A topic of what is shown. */
+export interface RecordedTopicView {
+  name: string;
+  type_name: string;
+  count: number;
+  latched: boolean;
+  trouble: string;
+  note: string;
+}
+
+/** The recording of the live system; sent when it changes, and each second while it runs. */
+export interface RecordingState {
+  type: "recording_state";
+  recording: boolean;
+  path: string;
+  seconds: number;
+  messages: number;
+  lost: number;
+  bytes: number;
+  free_bytes: number;
+  topics: RecordedCount[];
+  trouble: string;
 }
 
 /** Do again what was taken back. */
@@ -3582,6 +3743,16 @@ export interface SaveLesson {
   text: string;
 }
 
+/** Write the last seconds that are kept of the live system into a bag. */
+export interface SavePast {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "save_past";
+  seconds: number;
+  name?: string;
+}
+
 /** Keep where the joints are under a name; with `replace` also under one that there is. */
 export interface SavePose {
   request?: number;
@@ -3668,6 +3839,20 @@ export interface SceneTime {
   paused: boolean;
 }
 
+/**
+ * Show another moment; of a live document, one of the last minutes.
+ *
+ * While a bar is dragged, `settled` is false: what takes longer is left for the last one.
+ */
+export interface SeekTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "seek_time";
+  at_s: number;
+  settled?: boolean;
+}
+
 /** Send a copy back to its owner with a remark. */
 export interface SendBack {
   request?: number;
@@ -3687,6 +3872,22 @@ export interface SendGoal {
   action_type: string;
   text?: string;
   timeout_s?: number;
+}
+
+/**
+ * Answer to `get_series`: the least and the largest value of each column, in their order.
+ *
+ * A column without a message has None for both.
+ */
+export interface Series {
+  type: "series";
+  request: number;
+  first: (number | null)[];
+  second: (number | null)[];
+  exact: boolean;
+  done: number;
+  count: number;
+  trouble: string;
 }
 
 /** Answer to `get_services`. */
@@ -3713,6 +3914,15 @@ export interface SetArguments {
   id?: string;
   type: "set_arguments";
   values: Record<string, string | null>;
+}
+
+/** Keep these bookmarks, and no others. */
+export interface SetBookmarks {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_bookmarks";
+  bookmarks: Bookmark[];
 }
 
 /** Change how others join; what is None stays as it is. */
@@ -3817,6 +4027,15 @@ export interface SetParameter {
   name: string;
   text: string;
   value_type?: string;
+}
+
+/** Let the time go faster or slower. */
+export interface SetTimeRate {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_time_rate";
+  rate: number;
 }
 
 /** Change a property of a tool, by RViz's name. */
@@ -3976,6 +4195,22 @@ export interface StartNodes {
   type: "start_nodes";
 }
 
+/** Record topics into a bag, by the words of `ros2 bag record`; without any, all of them. */
+export interface StartRecording {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "start_recording";
+  topics?: string[];
+  regex?: string;
+  exclude_regex?: string;
+  name?: string;
+  storage?: "mcap" | "sqlite3";
+  compression?: "none" | "zstd" | "lz4";
+  max_bag_bytes?: number;
+  max_bag_s?: number;
+}
+
 /** Start a run again with the same arguments; one that goes on is ended first. */
 export interface StartRunAgain {
   request?: number;
@@ -3983,6 +4218,16 @@ export interface StartRunAgain {
   id?: string;
   type: "start_run_again";
   run: number;
+}
+
+/** Go to the next message of a topic, or to the one before; an empty topic means any. */
+export interface StepTime {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "step_time";
+  topic?: string;
+  forward?: boolean;
 }
 
 /** A block of checks of a lesson, in the order of its text. */
@@ -4017,6 +4262,14 @@ export interface StopPublishing {
   id?: string;
   type: "stop_publishing";
   operation?: number;
+}
+
+/** End the recording; its bag is whole afterwards. */
+export interface StopRecording {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "stop_recording";
 }
 
 /**
@@ -4173,6 +4426,60 @@ export interface TfPose {
   wxyz: [number, number, number, number];
   xyz: [number, number, number];
   chain: string[];
+}
+
+/** Answer to `get_time_marks`: how many messages lie in each part; a gap has none. */
+export interface TimeMarks {
+  type: "time_marks";
+  request: number;
+  counts: number[];
+}
+
+/**
+ * What a document shows, and where it stands; sent whenever that is another.
+ *
+ * While it plays that is once in a second: a page counts on by itself.
+ */
+export interface TimeState {
+  type: "time_state";
+  mode: "live" | "past" | "bag";
+  title: string;
+  path: string;
+  zero_s: number;
+  begin_s: number;
+  end_s: number;
+  now_s: number;
+  playing: boolean;
+  rate: number;
+  loop: [number, number] | null;
+  queue: number;
+  progress: number | null;
+  troubles: string[];
+  kept_bytes: number;
+  kept_bytes_max: number;
+}
+
+/** One of them. */
+export interface TimeTick {
+  at_s: number;
+  level: "warn" | "error";
+  source: string;
+  text: string;
+}
+
+/** Answer to `get_time_ticks`; `more` were left out, and `done` is the share that was read. */
+export interface TimeTicks {
+  type: "time_ticks";
+  request: number;
+  ticks: TimeTick[];
+  more: number;
+  done: number;
+}
+
+/** The topics of what is shown; sent after a `time_state` of another recording. */
+export interface TimeTopics {
+  type: "time_topics";
+  topics: RecordedTopicView[];
 }
 
 /** A kind of tool. */
@@ -4595,6 +4902,7 @@ export type Command =
   | Complete
   | ConnectWire
   | CreatePackage
+  | CutBag
   | DeleteLesson
   | DeletePose
   | DeleteVariant
@@ -4660,9 +4968,12 @@ export type Command =
   | GetRvizText
   | GetRvizView
   | GetSceneTime
+  | GetSeries
   | GetServices
   | GetText
   | GetTf
+  | GetTimeMarks
+  | GetTimeTicks
   | GetToolKinds
   | GetTopicEnds
   | GetTopicRates
@@ -4672,9 +4983,11 @@ export type Command =
   | GetViewKinds
   | GetWorkspaces
   | GiveControl
+  | GoLive
   | HandIn
   | InteractWithMarker
   | Lead
+  | ListBags
   | ListExamples
   | ListFolder
   | ListInterfaces
@@ -4684,12 +4997,14 @@ export type Command =
   | ListTopics
   | LoadParameters
   | LookUp
+  | LoopTime
   | LowerHand
   | MendAll
   | MendPackage
   | MoveView
   | NewRobot
   | NewUntitled
+  | OpenBag
   | OpenCopy
   | OpenExample
   | OpenFromWire
@@ -4703,6 +5018,7 @@ export type Command =
   | PauseScene
   | PickItems
   | PlanLaunch
+  | PlayTime
   | PressKey
   | Publish
   | PublishJoints
@@ -4735,15 +5051,18 @@ export type Command =
   | SaveAs
   | SaveCopy
   | SaveLesson
+  | SavePast
   | SavePose
   | SaveRvizFile
   | SaveVariant
   | SaveView
   | SawPanel
+  | SeekTime
   | SendBack
   | SendGoal
   | SetArgument
   | SetArguments
+  | SetBookmarks
   | SetClass
   | SetDisplay
   | SetDisplayProperty
@@ -4754,6 +5073,7 @@ export type Command =
   | SetMemberRole
   | SetName
   | SetParameter
+  | SetTimeRate
   | SetToolProperty
   | SetViewOptions
   | ShowCopy
@@ -4764,10 +5084,13 @@ export type Command =
   | StartLaunch
   | StartNode
   | StartNodes
+  | StartRecording
   | StartRunAgain
+  | StepTime
   | StopDemo
   | StopNodes
   | StopPublishing
+  | StopRecording
   | StopRobot
   | StopRun
   | SwitchDisplays
@@ -4784,7 +5107,10 @@ export type Command =
 export type Event =
   | Actions
   | Arguments
+  | BagWritten
+  | Bags
   | Begun
+  | Bookmarks
   | Built
   | Calls
   | Changed
@@ -4861,6 +5187,7 @@ export type Event =
   | Progress
   | Publications
   | Recent
+  | RecordingState
   | ReferencesAnswer
   | Refused
   | RenamingAnswer
@@ -4878,6 +5205,7 @@ export type Event =
   | Saved
   | SavedViews
   | SceneTime
+  | Series
   | Services
   | Sites
   | Stopped
@@ -4887,6 +5215,10 @@ export type Event =
   | TextsChanged
   | TextsFound
   | TfFrames
+  | TimeMarks
+  | TimeState
+  | TimeTicks
+  | TimeTopics
   | ToolKinds
   | ToolUsed
   | Tools

@@ -25,7 +25,8 @@ import { Echo, Trace, Types } from "./subscriptions.js";
  * @typedef {{kind: "text", subscription: number, path: string, request: number}} AskText
  * @typedef {{kind: "retry"}} Retry
  * @typedef {{kind: "seen", isSeen: boolean}} Seen whether anybody can look at the page
- * @typedef {StartEcho | StartTrace | StartWatch | AskOfPicture | Leave | Learn | Unfold | AskText | Retry | Seen} FromPage
+ * @typedef {{kind: "about", document: string}} About the document whose time it is
+ * @typedef {StartEcho | StartTrace | StartWatch | AskOfPicture | Leave | Learn | Unfold | AskText | Retry | Seen | About} FromPage
  */
 
 const RETRY_MS = 1500;
@@ -209,6 +210,16 @@ function see(answer) {
   }
 }
 
+/** @param {About} asked of another document all comes anew */
+function beAbout({ document }) {
+  for (const one of subscriptions.values()) {
+    if (one.command.document === document) continue;
+    unsubscribe(one.command.subscription);
+    one.command = { ...one.command, document };
+    subscribe(one);
+  }
+}
+
 /** @param {number} subscription */
 function unsubscribe(subscription) {
   for (const [channel, all] of channels) {
@@ -283,6 +294,7 @@ function carryOut(asked) {
   else if (asked.kind === "learn") learn(asked);
   else if (asked.kind === "retry") open();
   else if (asked.kind === "seen") see(asked);
+  else if (asked.kind === "about") beAbout(asked);
   else if (asked.kind === "of_picture") carryOutPicture(asked);
   else carryOutEcho(asked);
 }

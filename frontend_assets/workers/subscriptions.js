@@ -10,6 +10,7 @@ import { isList, numberAt, stepsOf, valueAt } from "./message-paths.js";
 /**
  * @typedef {object} SubscribeCommand what goes to the studio
  * @property {number} subscription
+ * @property {string} [document] whose time it is; empty: now
  * @property {string} topic
  * @property {string} type_name
  * @property {"every" | "newest"} mode

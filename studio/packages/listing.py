@@ -20,8 +20,11 @@ if TYPE_CHECKING:
     from studio.packages.roots import ServedRoots
 
 ENTRY_LIMIT: Final = 5_000
+_BAG_METADATA: Final = "metadata.yaml"
+"""Of a folder of rosbag2."""
+_BAG_SUFFIXES: Final = (".mcap", ".db3")
 
-EntryKind: TypeAlias = Literal["folder", "package", "robot", "zip", "file"]
+EntryKind: TypeAlias = Literal["folder", "package", "robot", "bag", "zip", "file"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,10 +114,16 @@ def _judge(
     except OSError as error:
         return "file", False, f"not readable: {error.strerror}"
     if stat.S_ISDIR(mode):
-        return "package" if is_file(path / FILE_NAME) else "folder", True, ""
+        return _kind_of_folder(path), True, ""
     if not stat.S_ISREG(mode):
         return "file", False, "a pipe, device or socket"
     return _judge_file(path, robots)
+
+
+def _kind_of_folder(path: Path) -> EntryKind:
+    if is_file(path / _BAG_METADATA):
+        return "bag"
+    return "package" if is_file(path / FILE_NAME) else "folder"
 
 
 def _judge_file(path: Path, robots: dict[Path, tuple[bool, str]]) -> tuple[EntryKind, bool, str]:
@@ -122,6 +131,8 @@ def _judge_file(path: Path, robots: dict[Path, tuple[bool, str]]) -> tuple[Entry
         return "robot", *robots[path]
     if path.suffix.lower() == ".zip":
         return "zip", True, ""
+    if path.suffix.lower() in _BAG_SUFFIXES:
+        return "bag", True, ""
     return "file", False, "no robot description"
 
 

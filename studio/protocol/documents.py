@@ -128,7 +128,7 @@ class FolderEntry(Message):
 
     name: str
     path: str
-    kind: Literal["folder", "package", "robot", "zip", "file"]
+    kind: Literal["folder", "package", "robot", "bag", "zip", "file"]
     openable: bool
     reason: str = ""
 

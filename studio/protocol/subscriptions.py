@@ -22,6 +22,8 @@ class Subscribe(Message):
     type: Literal["subscribe"] = "subscribe"
     subscription: SubscriptionNumber
     """Chosen by the browser; replies repeat it."""
+    document: Annotated[str, Field(max_length=200)] = ""
+    """Id of the open document whose time it is; empty: what comes now."""
     topic: RosName
     type_name: RosName = ""
     """Of the messages; empty: the type that is published."""

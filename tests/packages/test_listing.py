@@ -46,6 +46,20 @@ def test_a_folder_lists_its_entries_with_their_kinds_folders_first(tmp_path: Pat
     assert reasons["b.urdf"] == ""
 
 
+def test_bags_are_told_from_folders_and_files_and_can_be_opened(tmp_path: Path):
+    (tmp_path / "drive").mkdir()
+    (tmp_path / "drive" / "metadata.yaml").write_text("rosbag2_bagfile_information: {}")
+    for name in ("one.mcap", "two.DB3", "three.db3.txt"):
+        (tmp_path / name).write_text("")
+    listing = list_folder(str(tmp_path), ServedRoots([tmp_path]))
+    assert [(one.name, one.kind, one.openable) for one in listing.entries] == [
+        ("drive", "bag", True),
+        ("one.mcap", "bag", True),
+        ("two.DB3", "bag", True),
+        ("three.db3.txt", "file", False),
+    ]
+
+
 def test_an_empty_path_lists_the_served_roots(tmp_path: Path):
     rover = write_package(tmp_path / "rover")
     (tmp_path / "alone.urdf").write_text(ROBOT)

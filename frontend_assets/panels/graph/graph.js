@@ -27,7 +27,7 @@ import { showInterface } from "../../model/interfaces.js";
 import { mayJoin } from "../../model/student-nodes.js";
 import { useTopicRates } from "../../model/topics.js";
 import { notify, soughtNode } from "../../model/view.js";
-import { ConnectFirst, isUnconnected, NothingThere, RouterAway } from "../parts.js";
+import { ConnectFirst, isWireAway, NothingThere, RouterAway } from "../parts.js";
 import { GraphDrawing } from "./drawing.js";
 import { drawnGraph, isNamespace, namesWithin, READABLE_NODES, USUAL } from "./nodes.js";
 
@@ -204,7 +204,7 @@ function SharedPanel() {
   const { panel, looking } = useLooking(followGraph);
   return html`<section ref=${panel} class="panel-body graph" aria-label=${t("panel.graph")}>
     <${RouterAway} />
-    ${isUnconnected() ? html`<${ConnectFirst} icon="graph" />` : html`<${Content} looking=${looking} />`}
+    ${isWireAway() ? html`<${ConnectFirst} icon="graph" />` : html`<${Content} looking=${looking} />`}
   </section>`;
 }
 

@@ -45,7 +45,7 @@ import {
 } from "../../model/lessons.js";
 import { connectRos, ros } from "../../model/ros.js";
 import { dialog, notify } from "../../model/view.js";
-import { isUnconnected, Refusal } from "../parts.js";
+import { isWireAway, Refusal } from "../parts.js";
 import { LessonEditor } from "./editor.js";
 import { Progress, Step } from "./steps.js";
 
@@ -231,9 +231,9 @@ function Output({ own, parts }) {
  */
 function LessonRuns({ parts }) {
   const waiting = parts.map(({ name }) => name).filter((name) => !isThere(name));
-  const canStart = mayManage.value && !isUnconnected();
+  const canStart = mayManage.value && !isWireAway();
   return html`<section class="lesson-runs" aria-label=${t("lessons.demos")}>
-    ${isUnconnected() && html`<${Connect} />`}
+    ${isWireAway() && html`<${Connect} />`}
     <ul>${parts.map((one) => html`<${Run} key=${one.name} lesson=${one} />`)}</ul>
     ${canStart && parts.length > 1 && waiting.length > 1 && html`<${StartAll} waiting=${waiting} />`}
     ${!mayManage.value && html`<p class="note">${t("lessons.viewer")}</p>`}
@@ -285,7 +285,7 @@ function Buttons({ demo }) {
   if (isUnderWay(demo))
     return html`<button type="button" class="button small" disabled=${busy} aria-label=${t("lessons.stop.of", { demo })} onClick=${during(() => stopDemo(demo))}>
       <${Icon} name="stop" size=${12} />${t("lessons.stop")}</button>`;
-  return html`<button type="button" class="button small primary" disabled=${busy || isUnconnected()} aria-label=${t("lessons.start.of", { demo })} onClick=${during(() => startDemos([demo]))}>
+  return html`<button type="button" class="button small primary" disabled=${busy || isWireAway()} aria-label=${t("lessons.start.of", { demo })} onClick=${during(() => startDemos([demo]))}>
     <${Icon} name="animate" size=${12} />${t("lessons.start")}</button>`;
 }
 

@@ -9,7 +9,7 @@ import { Icon, ProgressBar } from "../../lib/ui.js";
 import { askOrKeepWhy, polled, useLooking } from "../../model/asking.js";
 import { mayAct } from "../../model/connection.js";
 import { ask } from "../../model/requests.js";
-import { ConnectFirst, isUnconnected, NothingThere, Refusal, RouterAway } from "../parts.js";
+import { ConnectFirst, isWireAway, NothingThere, PastNote, Refusal, RouterAway } from "../parts.js";
 
 /** The states that a node stays in, in the order of its life. */
 const PRIMARY = /** @type {const} */ (["unconfigured", "inactive", "active", "finalized"]);
@@ -18,7 +18,8 @@ export function LifecyclePanel() {
   const { panel } = useLooking(followManaged);
   return html`<section ref=${panel} class="panel-body lifecycle" aria-label=${t("panel.lifecycle")}>
     <${RouterAway} />
-    ${isUnconnected() ? html`<${ConnectFirst} icon="lifecycle" />` : html`<${Content} />`}
+    <${PastNote} />
+    ${isWireAway() ? html`<${ConnectFirst} icon="lifecycle" />` : html`<${Content} />`}
   </section>`;
 }
 

@@ -24,7 +24,7 @@ import {
   together,
   useDrivingKeys,
 } from "../../model/driving.js";
-import { ConnectFirst, isUnconnected, RouterAway } from "../parts.js";
+import { ConnectFirst, isWireAway, PastNote, RouterAway } from "../parts.js";
 
 const STAMPED = "TwistStamped";
 const BOUNDS = /** @type {const} */ ([
@@ -41,7 +41,8 @@ export function TeleopPanel() {
   useEffect(stopsWithPage, []);
   return html`<section ref=${panel} class="panel-body teleop" aria-label=${t("panel.teleop")}>
     <${RouterAway} />
-    ${isUnconnected() ? html`<${ConnectFirst} icon="compass" />` : html`<${Content} />`}
+    <${PastNote} />
+    ${isWireAway() ? html`<${ConnectFirst} icon="compass" />` : html`<${Content} />`}
   </section>`;
 }
 
