@@ -4,6 +4,7 @@
 /** @import { LessonView } from "../types/wire.d.ts" */
 /** @import { Choice } from "./palette-choices.js" */
 
+import { readBagLine } from "../lib/bag-lines.js";
 import { commandById, commandLabel } from "../lib/commands.js";
 import { commandsOf, mendedLine, toldLines } from "../lib/course-lines.js";
 import { language, t } from "../lib/i18n.js";
@@ -23,6 +24,7 @@ import { goalForm, publishForm, serviceForm } from "../model/message-forms.js";
 import { actions, askActions, askServices, services } from "../model/operations.js";
 import { chooseNode } from "../model/parameters.js";
 import { askWorkspaces } from "../model/programs.js";
+import { openBagNamed, prepareRecording } from "../model/recording.js";
 import { ros } from "../model/ros.js";
 import { chosenTopic } from "../model/topics.js";
 import { notify } from "../model/view.js";
@@ -188,7 +190,13 @@ function placeName({ panel }) {
 const FORMS = { topic: publishForm, service: serviceForm, action: goalForm };
 
 /** @param {Ros2Line} line @param {readonly string[]} rest @param {string} text */
-function follow({ panel, about, form }, rest, text) {
+function follow(line, rest, text) {
+  if (line.about === "bag") followBagLine(text);
+  else followInPanel(line, rest, text);
+}
+
+/** @param {Ros2Line} line @param {readonly string[]} rest @param {string} text */
+function followInPanel({ panel, about, form }, rest, text) {
   const pasted = form && readLine(text);
   if (pasted) void FORMS[form].open({ name: rooted(pasted.name), type: pasted.type }, pasted.text);
   const [name] = rest.filter((word) => !word.startsWith("-"));
@@ -204,6 +212,13 @@ function follow({ panel, about, form }, rest, text) {
     }
   }
   (commandById(`panel.${panel}`) ?? commandById(panel))?.run();
+}
+
+/** @param {string} text a recording is prepared, for whoever presses the button; a bag is opened */
+function followBagLine(text) {
+  const line = readBagLine(text);
+  if (line?.verb === "record") prepareRecording(line.form);
+  else void openBagNamed(line?.path ?? "");
 }
 
 /** @param {string} name @returns {string} */

@@ -36,7 +36,7 @@ const TOLD = [
   { begins: /^colcon test/, key: "colcon_test" },
   { begins: /^(gz|ign|gazebo|gzserver|gzclient)\b/, key: "gazebo" },
   { begins: /^ros2 daemon\b/, key: "daemon", panel: "graph" },
-  { begins: /^ros2 bag\b/, key: "bag", panel: "plot" },
+  { begins: /^ros2 bag (convert|reindex|list|burst)\b/, key: "bag", panel: "bag" },
   { begins: /^ros2 pkg create\b/, key: "pkg_create", panel: "packages" },
   { begins: /^ros2 pkg\b/, key: "pkg", panel: "packages" },
   { begins: /^ros2 run xacro xacro\b/, key: "xacro", panel: "urdf" },

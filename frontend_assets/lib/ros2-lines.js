@@ -7,7 +7,7 @@
  * @typedef {object} Ros2Line
  * @property {string} line as it is typed, up to its first argument
  * @property {string} panel where it is done
- * @property {"topic" | "node" | "demo" | "interface"} [about] what its next word names
+ * @property {"topic" | "node" | "demo" | "interface" | "bag"} [about] what its next word names
  * @property {"topic" | "service" | "action"} [form] its words are the name and the type of a message to be filled in
  */
 
@@ -55,6 +55,9 @@ export const ROS2_LINES = [
   ...verbsOf("graph", "node"),
   ...verbsOf("interfaces", "interface", "interface"),
   ...verbsOf("lifecycle", "lifecycle"),
+  { line: "ros2 bag record", panel: "bag", about: "bag" },
+  { line: "ros2 bag play", panel: "bag", about: "bag" },
+  { line: "ros2 bag info", panel: "bag", about: "bag" },
   { line: "ros2 run", panel: "lessons", about: "demo" },
   { line: "ros2 run rviz2 rviz2", panel: "scene" },
   { line: "ros2 run rqt_graph rqt_graph", panel: "graph" },

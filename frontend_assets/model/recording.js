@@ -166,6 +166,21 @@ async function write(command) {
 /** @param {string} path @returns {Promise<boolean>} it is shown as a document of its own */
 export const openRecorded = (path) => openNamed({ type: "open_bag", path, document: "" });
 
+/**
+ * Open a bag as a command line names it: one of those that are there by its name, else by its path.
+ *
+ * @param {string} path empty: those that are there are shown
+ */
+export async function openBagNamed(path) {
+  const name = baseName(path.replace(/\/+$/, ""));
+  bagPart.value = name ? "contents" : "bags";
+  commandById("panel.bag")?.run();
+  if (!name) return;
+  await askBags();
+  const known = bags.peek()?.bags.find((one) => one.name === name || baseName(one.path) === name);
+  await openRecorded(known?.path ?? path);
+}
+
 /** How many were written since the page is there. */
 const bagCount = signal(0);
 /** The bags that can be opened; null: not told yet. @type {Signal<Bags | null>} */

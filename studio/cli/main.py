@@ -82,7 +82,7 @@ def _read(arguments: list[str]) -> argparse.Namespace:
     options, rest = parser.parse_known_args(shield_values(arguments))
     if rest[:1] == ["--"] or (len(rest) == 1 and not rest[0].startswith("-")):
         rest = _take_late(options, rest)
-    if rest and not getattr(options, "takes_rest", False):
+    if rest:
         parser.error(f"unrecognized arguments: {' '.join(rest)}")
     options.mappings = mappings
     return options

@@ -62,14 +62,20 @@ class OwnNode:
 
 @contextmanager
 def own_node(
-    options: argparse.Namespace, name: str | None = None, *, answers: bool = False
+    options: argparse.Namespace,
+    name: str | None = None,
+    *,
+    answers: bool = False,
+    arguments: Sequence[str] = (),
 ) -> Generator[OwnNode]:
     """Join with a node of one's own, hidden unless it is given a name; wait for the graph.
 
-    One that `answers` serves its parameters and describes its types to others.
+    One that `answers` serves its parameters and describes its types to others. ROS arguments are
+    those that follow `--ros-args`.
 
     Raises:
         NoRouterError: None answers, and none may be started.
+        RosArgumentError: An argument is none of ROS.
     """
     from studio.ros.node.context import Context
     from studio.ros.node.executors import SingleThreadedExecutor
@@ -81,6 +87,7 @@ def own_node(
             node = Node(
                 name or f"_studio_{os.getpid()}",
                 context=context,
+                cli_args=("--ros-args", *arguments) if arguments else None,
                 start_parameter_services=answers,
             )
             executor = SingleThreadedExecutor(context=context)

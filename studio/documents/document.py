@@ -53,18 +53,23 @@ from studio.documents.variants.second_robot import Ghost, SecondRobots
 from studio.documents.variants.variants import COMMANDS as VARIANT_COMMANDS
 from studio.documents.variants.variants import NamedVariants
 from studio.documents.workspace import Workspace
-from studio.errors import CommandError
+from studio.errors import CommandError, StudioError
 from studio.live.connection.feed import COMMANDS as FEED_COMMANDS
 from studio.live.connection.feed import RobotFeed
 from studio.live.connection.opened_types import take_types
 from studio.live.displays.display_file import DisplayFile
 from studio.live.displays.document_displays import COMMANDS as DISPLAY_COMMANDS
 from studio.live.displays.document_displays import DocumentDisplays
+from studio.live.displays.ghost import Ghost as RecordedGhost
 from studio.live.displays.robot_reading import RobotReader
 from studio.live.displays.rviz_configs import COMMANDS as CONFIG_COMMANDS
 from studio.live.displays.rviz_configs import RvizConfigs
 from studio.live.displays.selecting import COMMANDS as SELECTION_COMMANDS
 from studio.live.displays.selecting import Selecting
+from studio.live.time.document_source import DocumentSource
+from studio.live.time.document_time import COMMANDS as TIME_COMMANDS
+from studio.live.time.document_time import DocumentTime
+from studio.live.time.recorded_robot import DESCRIPTION, recorded_joints
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
@@ -74,9 +79,12 @@ from studio.scene import DocumentScene
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable, Mapping
 
+    from studio.bags.recording import Recording
     from studio.documents.services import Services
+    from studio.live.time.shown import ShownRecording
     from studio.packages.workspace import Location
     from studio.protocol import Event
+    from studio.protocol.connection import JointSource
 
 
 class Document:
@@ -159,7 +167,10 @@ class Document:
         robots = SecondRobots(workspace, last, model, self.sites, take_worker)
         comparison = VariantComparison(book, robots, Ghost(model), audience, self._meshes.want)
         self.variants = NamedVariants(workspace, self.edits, book, comparison, audience)
-        self.feed = RobotFeed(model, self.motion, lambda: last.expansion, services.wire, audience)
+        self.source = DocumentSource(services.wire.topics)
+        self.feed = RobotFeed(
+            model, self.motion, lambda: last.expansion, services.wire, self.source, audience
+        )
         data_folder = services.settings.data_folder
         self.live = DocumentDisplays(
             model,
@@ -167,8 +178,15 @@ class Document:
             RobotReader(take_worker, workspace, data_folder / "from_ros" / "nowhere"),
             DisplayFile(data_folder, self.entry),
             services.wire,
+            self.source,
             audience,
         )
+        self.time = DocumentTime(self.source, audience)
+        self.time.on_moment = self._draw_moment
+        self.time.on_switch = self._time_switched
+        self._joints_before: JointSource | None = None
+        """What moved the joints before a recording did; None: none does."""
+        self._ghost = RecordedGhost(self.live)
         self.live.use(services.plugins)
         self.selecting = Selecting(self.live.drawn)
         self.feed.is_held = lambda: self.live.is_paused
@@ -242,6 +260,7 @@ class Document:
         self.motion.close()
         await self.configs.close()
         await asyncio.gather(self.feed.close(), self.live.close())
+        await self.time.close()
         background = tuple(self._background.values())
         for task in background:
             task.cancel()
@@ -297,6 +316,57 @@ class Document:
     def arguments_changed(self) -> None:
         """Send the arguments, with the rest of the state."""
         self.audience.send(self._state_event())
+
+    async def show_bag(self, shown: ShownRecording, *, with_ghost: bool) -> None:
+        """Show a bag, and let the joints follow it once the robot is there.
+
+        Args:
+            shown: The bag, which is let go with the next one.
+            with_ghost: Whether the robot of the bag is shown beside this one, as it was recorded.
+        """
+        await self.time.show(shown)
+        is_described = any(one.name == DESCRIPTION for one in shown.recording.topics)
+        if with_ghost and is_described:
+            await self._ghost.show(DESCRIPTION)
+
+    def follow_time(self, original: Document) -> None:
+        """Show the bag that another document shows, or what runs now once it shows none."""
+        theirs, mine = original.time.shown, self.time.shown
+        if theirs is mine or (theirs is not None and theirs.mode != "bag"):
+            return
+        if theirs is not None and (held := theirs.hold()) is not None:
+            self._spawn("time", self.time.show(held))
+        elif mine is not None and mine.mode == "bag":
+            self._spawn("time", self.time.go_live())
+
+    async def _time_switched(self) -> None:
+        """Let displays, panels and joints follow the time that is shown now."""
+        self.live.begin_source()
+        self._services.on_time_switch(self.id)
+        recording = self.time.recording
+        if recording is None:
+            self._ghost.end()
+        self._spawn("recorded joints", self._follow_joints(recording))
+
+    async def _follow_joints(self, recording: Recording | None) -> None:
+        """Let the joints follow a recording, or what they followed before."""
+        await self.opened()
+        source = recorded_joints(recording) if recording is not None else self._joints_before
+        if recording is None:
+            self._joints_before = None
+        elif self._joints_before is None:
+            self._joints_before = self.feed.source
+        if source is not None:
+            try:
+                await self.feed.choose(source)
+            except StudioError:  # what runs now is not there any more
+                await self.feed.choose("sliders")
+
+    async def _draw_moment(self) -> None:
+        """Draw what the document shows now, before the next tick does."""
+        self.feed.take()
+        await self.live.draw()
+        self._services.on_moment(self.id)
 
     async def _take_types(self) -> None:
         self.findings.replace("types", await asyncio.to_thread(take_types, self.location))
@@ -396,6 +466,7 @@ class Document:
         yield from self.feed.events()
         yield from self.live.events()
         yield from self.configs.events()
+        yield from self.time.events()
         yield from self.drafts.events()
 
     def _state_event(self) -> DocumentState:
@@ -441,6 +512,7 @@ COMMANDS.include(INSPECTION_COMMANDS, lambda document, _: document.inspection)
 COMMANDS.include(VARIANT_COMMANDS, lambda document, _: document.variants)
 COMMANDS.include(POSE_COMMANDS, lambda document, _: document.poses)
 COMMANDS.include(FEED_COMMANDS, lambda document, _: document.feed)
+COMMANDS.include(TIME_COMMANDS, lambda document, _: document.time)
 COMMANDS.include(DISPLAY_COMMANDS, lambda document, _: document.live)
 COMMANDS.include(SELECTION_COMMANDS, lambda document, _: document.selecting)
 COMMANDS.include(CONFIG_COMMANDS, lambda document, _: document.configs)

@@ -14,6 +14,14 @@ from studio.classroom.classroom import COMMANDS as CLASS_COMMANDS
 from studio.classroom.classroom import Classroom
 from studio.course.lessons.shelf import Shelf
 from studio.documents.arguments import form_at, form_of
+from studio.documents.bags import (
+    bag_in,
+    demand_bag,
+    folder_of_bag,
+    is_bag,
+    location_of_bag,
+    opened_bag,
+)
 from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
 from studio.documents.document import COMMANDS as DOCUMENT_COMMANDS
@@ -24,6 +32,7 @@ from studio.documents.lessons.lesson_room import LessonRoom
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
 from studio.documents.links import found_again, link_to, place_edits, read_link
+from studio.documents.seen import seen_document
 from studio.documents.services import Services
 from studio.documents.uploads import Uploads
 from studio.errors import CommandError, OutsideRootsError, StudioError, UnknownDocumentError
@@ -31,7 +40,7 @@ from studio.live.connection.rejoining import Rejoining
 from studio.live.connection.robots import COMMANDS as ROBOT_COMMANDS
 from studio.live.connection.robots import ConnectionCommands
 from studio.live.displays.document_tools import Pointed
-from studio.live.doctor.seen import SeenDisplay, SeenDocument
+from studio.live.panels.recording import FOLDER as BAGS_FOLDER
 from studio.live.panels.ros_system import COMMANDS as ROS_COMMANDS
 from studio.live.panels.ros_system import RosSystem
 from studio.live.programs.program_room import COMMANDS as PROGRAM_COMMANDS
@@ -68,6 +77,7 @@ from studio.protocol.documents import (
     Watch,
 )
 from studio.protocol.listeners import Audience, send
+from studio.protocol.playback import OpenBag
 from studio.protocol.roles import Role, owner_of
 from studio.protocol.saving import ForgetWork
 from studio.protocol.tools import ToolUsed, UseTool
@@ -77,9 +87,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from studio.live.connection.link import WireLink
+    from studio.live.doctor.seen import SeenDocument
+    from studio.live.time.document_source import DocumentSource
     from studio.packages.workspace import Progress
     from studio.protocol import Command
-    from studio.protocol.displays import DisplayStates
     from studio.protocol.listeners import Listener
     from studio.settings import Settings
 
@@ -104,7 +115,7 @@ class Engine:
         self.uploads = Uploads(settings.data_folder, self)
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
-        self.ros = RosSystem(wire)
+        self.ros = RosSystem(wire, settings.data_folder / BAGS_FOLDER)
         self.programs = Programs(
             settings,
             self._services.run_folders,
@@ -119,6 +130,9 @@ class Engine:
         self.classroom.robot = self.ros
         self.classroom.on_control = self._lent
         self.classroom.nodes.choice = lambda: wire.choice
+        self.ros.source_of = self._source_of
+        self._services.on_time_switch = self._time_switched
+        self._services.on_moment = self.ros.moment_changed
         self.copies = Copies(self.classroom.folder, self, self._services, self.classroom)
         self.lessons = LessonRoom(
             Shelf(
@@ -134,9 +148,14 @@ class Engine:
         )
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
-        self.served = ServedRoots((self.library.robots_folder,))
+        self.served = ServedRoots((self.library.robots_folder,), (self.bags_folder,))
         """The folders that can be listed and opened from the page."""
         self.left_work = LeftDrafts(lambda: self.served, settings.data_folder)
+
+    @property
+    def bags_folder(self) -> Path:
+        """Where topics are recorded, a folder for each bag."""
+        return self.ros.recording.folder
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""
@@ -241,6 +260,14 @@ class Engine:
                 document.free()
         return answer
 
+    def _source_of(self, name: str) -> DocumentSource | None:
+        document = self.open_now(name)
+        return None if document is None else document.source
+
+    def _time_switched(self, name: str) -> None:
+        self.ros.time_switched(name)
+        self.copies.follow_time(name)
+
     async def _system_of(self, person: str) -> tuple[WireLink | None, bool]:
         """Return the ROS system that a person's lessons are about, and whether it is theirs."""
         own = await self.classroom.nodes.link(person)
@@ -288,8 +315,69 @@ class Engine:
         Raises:
             StudioError: Nothing there can be opened.
         """
-        location = await self._locate(path, progress)
-        return self._open(self._with_entry(location), arguments)
+        if await asyncio.to_thread(is_bag, path):
+            self.served = self.served.with_roots((), [_folder_of(path)])
+            return await self._open_bag(path, progress)
+        location = self._with_entry(await self._locate(path, progress))
+        if (bag := await _bag_instead(location)) is not None:
+            self.served = self.served.with_roots((), [location.root])
+            return await self._open_bag(bag, progress)
+        return self._open(location, arguments)
+
+    async def open_bag(self, command: OpenBag) -> Opened:
+        """Show a bag for the page, in an open document or as one of its own.
+
+        Raises:
+            StudioError: It may not be opened, or nothing of it can be read.
+        """
+        path = self._may_open_bag(command.path)
+        await asyncio.to_thread(demand_bag, path)
+        if not command.document:
+            return Opened(request=command.request, document=await self._open_bag(path))
+        document = await self.ready(command.document)
+        try:
+            shown = await opened_bag(path, document.time.note_progress)
+        finally:
+            document.time.note_progress(None)
+        await document.show_bag(shown, with_ghost=not owner_of(document.id))
+        return Opened(request=command.request, document=document.id)
+
+    def _may_open_bag(self, path: str) -> Path:
+        """Return the path of a bag if it is served, or was opened before.
+
+        Raises:
+            OutsideRootsError: It may not be opened.
+        """
+        try:
+            return self.served.resolve(Path(path))
+        except OutsideRootsError:
+            if not self.library.may_reopen(path):
+                raise
+            return Path(path)
+
+    async def _open_bag(self, path: Path, progress: Progress | None = None) -> str:
+        """Open a bag as a document of its own: its robot, or a frame to show its topics in."""
+        path = folder_of_bag(path)
+
+        def told(share: float) -> None:
+            if progress is not None:
+                progress(f"reading {path.name}", round(share * 100), 100)
+
+        shown = await opened_bag(path, told)
+        try:
+            indexes = [one.location.index for one in self.documents.values()]
+            data_folder = self._settings.data_folder
+            find = partial(location_of_bag, shown, path, data_folder, indexes)
+            found = await asyncio.to_thread(find)
+            location = found if isinstance(found, Location) else await self._locate(found)
+            known = location.entry and self.find_open(location.entry)
+            name = known.id if known else self._open(location, {}, str(path))
+            document = self.documents[name]
+        except BaseException:
+            await asyncio.to_thread(shown.let_go)
+            raise
+        await document.show_bag(shown, with_ghost=False)
+        return name
 
     def _with_entry(self, location: Location) -> Location:
         """Return a workspace without a robot as one that can be opened."""
@@ -308,7 +396,11 @@ class Engine:
         Raises:
             StudioError: Nothing there can be opened.
         """
+        if await asyncio.to_thread(is_bag, path):
+            return await self._open_bag(path)
         location = self._with_entry(await self._locate(path, within=within))
+        if (bag := await _bag_instead(location)) is not None:
+            return await self._open_bag(bag)
         known = location.entry and not arguments and self.find_open(location.entry)
         return known.id if known else self._open(location, dict(arguments))
 
@@ -328,8 +420,12 @@ class Engine:
             if not self.library.may_reopen(command.path):
                 raise
             return await self.open_at(Path(command.path), command.arguments, None)
-        location = await self._locate(path, within=self.served)
-        return self._open(self._with_entry(location), command.arguments)
+        if await asyncio.to_thread(is_bag, path):
+            return await self._open_bag(path)
+        location = self._with_entry(await self._locate(path, within=self.served))
+        if (bag := await _bag_instead(location)) is not None:
+            return await self._open_bag(bag)
+        return self._open(location, command.arguments)
 
     async def launch_form(self, command: GetArguments) -> Arguments:
         """Return the form of an open document, or of a file below the served folders."""
@@ -359,7 +455,7 @@ class Engine:
         find = partial(open_location, path, settings.package_paths, settings.data_folder)
         return await asyncio.to_thread(find, dict(os.environ), progress, within=within)
 
-    def _open(self, location: Location, arguments: dict[str, str]) -> str:
+    def _open(self, location: Location, arguments: dict[str, str], bag: str = "") -> str:
         served = location.served
         self.served = self.served.with_roots(served.writable, served.read_only)
         if len(self.documents) >= _DOCUMENT_LIMIT:
@@ -370,7 +466,7 @@ class Engine:
         self.default_document = self.default_document or document.id
         document.start()
         document.begin_background_work()
-        self.library.note(document)
+        self.library.note(document, bag)
         self._send_list()
         return document.id
 
@@ -433,31 +529,14 @@ class Engine:
         self.left_work.trigger()
 
 
-def seen_document(document: Document) -> SeenDocument:
-    """Return the document's robot, displays and problems as they are now."""
-    states = document.live.states
-    by_id = {one.id: one for one in states.states} if states else {}
-    expansion = document.last_run.expansion
-    return SeenDocument(
-        id=document.id,
-        title=document.title,
-        links=frozenset(document.model.kinematics.link_names) if expansion else frozenset(),
-        root=document.model.robot.root if expansion else "",
-        fixed_frame=states.fixed_frame.frame if states else "",
-        fixed_trouble=_trouble_of(states),
-        displays=tuple(
-            SeenDisplay(one.id, one.name, by_id.get(one.id)) for one in document.live.kept.displays
-        ),
-        problems=document.findings.all(),
-    )
+async def _bag_instead(location: Location) -> Path | None:
+    """Return the bag of a place that holds no robot, such as a zip of one."""
+    return None if location.entry else await asyncio.to_thread(bag_in, location.root)
 
 
-def _trouble_of(states: DisplayStates | None) -> str:
-    """Return why nothing, or not the robot, can be drawn in the fixed frame."""
-    if states is None:
-        return ""
-    fixed = states.fixed_frame
-    return fixed.sentence if fixed.level == "error" else states.fixed_frame_trouble
+def _folder_of(bag: Path) -> Path:
+    """Return the folder that is served for a bag."""
+    return bag if bag.is_dir() else bag.parent
 
 
 def _link_to(engine: Engine, command: GetLink) -> Link:
@@ -488,6 +567,7 @@ COMMANDS: Final = Commands[Engine](Scope.STUDIO)
 """Every command of the studio."""
 COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(c.document, who), limits=_WATCHED)
 COMMANDS.presenter(OpenPath, lambda engine, c, _: engine.open_served(c))
+COMMANDS.presenter(OpenBag, lambda engine, c, _: engine.open_bag(c))
 COMMANDS.presenter(
     CloseDocument,
     lambda engine, c, _: engine.close_document(engine.document(c.document), discard=c.discard),

@@ -121,12 +121,12 @@ class Library:
                 document = await self._save_as(command)
         return Opened(request=command.request, document=document)
 
-    def note(self, document: Document) -> None:
-        """A document was opened: it is the newest of the recent files."""
+    def note(self, document: Document, bag: str = "") -> None:
+        """A document was opened, or the bag that has its robot: it is the newest of the recent."""
         now_s = datetime.now(UTC).timestamp()
         arguments = document.sources.arguments
         location = document.location
-        path = str(location.root) if location.is_bare else document.path
+        path = bag or (str(location.root) if location.is_bare else document.path)
         self._recent.note(path, document.title, arguments, now_s)
 
     def may_reopen(self, path: str) -> bool:

@@ -35,6 +35,12 @@ USED_LATER: Final = (
     "studio.live.doctor.watching",
     *("studio.live.programs.making", "studio.launch.planning", "studio.programs.finding"),
     *("studio.ros.node.raw_subscription", "studio.ros.lifecycle.client"),
+    *(
+        "studio.bags.cutting",
+        "studio.bags.metadata",
+        "studio.bags.opening",
+        "studio.nodes.bag_recorder",
+    ),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),
 )
 """With what they import, all that functions of the loop import when they are first called."""
@@ -55,6 +61,10 @@ class Services:
         self.wire = RosConnection(settings.wire)
         self.run_folders = RunFolders(settings.run_folders, settings.data_folder)
         self.plugins = Plugins(settings.display_folders)
+        self.on_time_switch: Callable[[str], object] = lambda _: None
+        """Told the id of a document that shows another time from now on."""
+        self.on_moment: Callable[[str], object] = lambda _: None
+        """Told the id of a document that shows another moment of its recording."""
         self._spare = DescriptionWorker()
         self._keeps_warm = False
         """Whether processes are started before they are needed."""

@@ -7,6 +7,7 @@ import shutil
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Final
 
+from studio.documents.bags import bag_in, is_bag
 from studio.errors import DataFolderError, StudioError, UploadError
 from studio.files import is_folder
 from studio.packages.archive import folder_to_open
@@ -71,7 +72,7 @@ class Uploads:
 
     async def _open_sent(self, upload: Upload, staged: Path) -> str:
         chosen = await asyncio.to_thread(arrange, staged)
-        robot = (await asyncio.to_thread(_robot_in, staged)).relative_to(staged)
+        robot = (await asyncio.to_thread(_opened_of, staged)).relative_to(staged)
         kept, is_new = await asyncio.to_thread(upload.keep)
         folder = folder_to_open(kept)
         try:
@@ -92,6 +93,23 @@ class Uploads:
         except OSError as error:
             reason = error.strerror or "not kept"
             raise DataFolderError(str(self._data_folder), reason) from error
+
+
+def _opened_of(folder: Path) -> Path:
+    """Return what to open of what was sent: a robot, else a bag.
+
+    Raises:
+        UploadError: It holds neither.
+    """
+    try:
+        return _robot_in(folder)
+    except UploadError:
+        bag = bag_in(folder) or bag_in(folder_to_open(folder))
+        if bag is None:
+            raise
+        files = [] if bag.is_file() else [one for one in bag.iterdir() if is_bag(one)]
+        # A file that was dropped by itself is the bag, and not the folder made for it.
+        return files[0] if bag == folder and len(files) == 1 else bag
 
 
 def _robot_in(folder: Path) -> Path:

@@ -8,6 +8,7 @@ import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, TypeAlias
+from xml.sax.saxutils import quoteattr
 
 from studio.errors import DataFolderError, UnreadableFileError, UnsafeArchiveError
 from studio.files import is_file, is_folder, is_there, write_whole
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
 
 UPLOADS: Final = "uploads"
 _BARE: Final = "workspaces"
-_BARE_ROBOT: Final = b'<robot name="workspace">\n  <link name="map"/>\n</robot>\n'
+_BARE_ROBOT: Final = '<robot name="{name}">\n  <link name={frame}/>\n</robot>\n'
 """For displays to stand in: as RViz, which has a fixed frame before anybody names one."""
 _MEMORY: Final = "package_index"
 
@@ -98,7 +99,7 @@ class Location:
         entry = self.data_folder / _BARE / name / "workspace.urdf"
         try:
             entry.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(entry, _BARE_ROBOT)
+            write_whole(entry, _BARE_ROBOT.format(name="workspace", frame='"map"').encode())
         except OSError as error:
             raise DataFolderError(str(entry.parent), error.strerror or "not writable") from error
         served = self.served.with_roots((), [entry.parent])
@@ -129,6 +130,29 @@ class Location:
         except OSError as error:
             raise DataFolderError(str(self.data_folder), error.strerror or "not kept") from error
         return replace(self, index=index, served=_serve_chosen(self.served, [chosen]))
+
+
+def bare_location(root: Path, frame: str, data_folder: Path) -> Location:
+    """Return a bag without a robot as what can be opened: a link to stand in, and nothing else.
+
+    Args:
+        root: Folder or file of the bag; it is not read here.
+        frame: Name of the link.
+        data_folder: Where its entry file is kept.
+
+    Raises:
+        DataFolderError: The data folder cannot take it.
+    """
+    name = hashlib.sha256(os.fsencode(root)).hexdigest()[:16]
+    entry = data_folder / _BARE / name / "bag.urdf"
+    text = _BARE_ROBOT.format(name="bag", frame=quoteattr(frame))
+    try:
+        entry.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(entry, text.encode("utf-8", "replace"))
+    except OSError as error:
+        raise DataFolderError(str(entry.parent), error.strerror or "not writable") from error
+    served = ServedRoots((), [entry.parent])
+    return Location(root, entry, served, PackageIndex([], {}), (), (), data_folder)
 
 
 def open_location(

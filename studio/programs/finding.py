@@ -81,20 +81,17 @@ def file_program(path: Path, index: PackageIndex | None = None) -> Program:
 def command_program(index: PackageIndex, words: Sequence[str]) -> Program | None:
     """Find what a command line starts that the studio can start; None for any other.
 
-    `ros2 run`, `ros2 launch`, `rviz2`, `xacro` and `python3 FILE.py` are known. The
+    `ros2 run`, `ros2 launch`, `ros2 bag`, `rviz2`, `xacro` and `python3 FILE.py` are known. The
     words that belong to the program are part of its command.
 
     Raises:
-        ProgramError: `find_program` or `file_program` refuse it; or it is `ros2 bag`.
+        ProgramError: `find_program` or `file_program` refuse it.
     """
     match [os.path.basename(words[0]), *words[1:]] if words else []:  # noqa: PTH119 - a word
         case ["ros2", "run", package, executable, *rest]:
             return _with_words(find_program(index, package, executable), rest)
-        case ["ros2", "bag", *_]:
-            reason = "The studio records and plays no bags yet: do it where ROS is installed."
-            raise ProgramNotFoundError("", "ros2", reason)
-        case ["ros2", "launch", *rest]:
-            return Program("", "ros2", "command", studio_command(("launch", *rest)))
+        case ["ros2", "bag" | "launch" as command, *rest]:
+            return Program("", "ros2", "command", studio_command((command, *rest)))
         case ["rviz2", *rest]:
             return Program("rviz2", "rviz2", "command", studio_command(("open", *rest)))
         case ["xacro", *rest]:

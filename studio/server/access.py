@@ -29,6 +29,7 @@ ROUTES: Final = {
         "export_package", Role.PRESENTER, Scope.DOCUMENT
     ),
     "/api/documents/{document}/export/page": Permission("export_page", Role.GUEST, Scope.DOCUMENT),
+    "/api/bags/{bag}/{file}": Permission("download_bag", Role.PRESENTER),
     "/api/copies": Permission("download_copies", Role.HELPER),
     "/api/commands": Permission("command", Role.GUEST),
     "/api/log-out": Permission("log_everybody_out", Role.PRESENTER),

@@ -2,17 +2,19 @@
 
 import asyncio
 from http import HTTPStatus
+from pathlib import Path
 from typing import Any, Final, Literal, Protocol
 from urllib.parse import quote
 
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
 from starlette.background import BackgroundTask
-from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
 
 import studio
 from studio.documents.exports import Download
-from studio.errors import CommandError
+from studio.errors import BagNotReadableError, CommandError
+from studio.files import is_file
 from studio.protocol import Event
 from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Documents, Refused
@@ -235,6 +237,37 @@ class HandedIn:
     async def copies(self) -> Response:
         """Return a zip with a folder for each person who handed something in."""
         return _sent(self._engine.copies.download())
+
+
+class WrittenBags:
+    """The route for the files of the bags that the studio wrote."""
+
+    def __init__(self, engine: OpenDocuments) -> None:
+        self._engine = engine
+
+    def router(self) -> APIRouter:
+        """Return the one route."""
+        router = APIRouter(prefix="/api")
+        router.add_api_route(
+            "/bags/{bag}/{file}", self.file, response_class=Response, responses=_REFUSED
+        )
+        return router
+
+    async def file(self, bag: str, file: str) -> Response:
+        """Return a file of a bag, or the part of it that is asked for: it may have many GB."""
+        folder = self._engine.bags_folder
+        path = folder / bag / file
+        if not await asyncio.to_thread(_lies_within, path, folder):
+            raise BagNotReadableError(f"{bag}/{file}", "the studio wrote no such file.")
+        headers = {"content-security-policy": "sandbox", "cache-control": "no-store"}
+        return FileResponse(
+            path, filename=file, media_type="application/octet-stream", headers=headers
+        )
+
+
+def _lies_within(path: Path, folder: Path) -> bool:
+    """Whether a path leads to a regular file two levels below a folder, links followed."""
+    return path.resolve().parent.parent == folder.resolve() and is_file(path)
 
 
 def _sent(download: Download) -> Response:

@@ -14,7 +14,7 @@ import studio
 from studio.errors import AccessError, CommandError, StudioError, UnknownDocumentError
 from studio.protocol.commands import demand
 from studio.server.access import PUBLIC_ROUTES, ROUTES
-from studio.server.api import Api, Exports, HandedIn, LogOut
+from studio.server.api import Api, Exports, HandedIn, LogOut, WrittenBags
 from studio.server.assets import Assets
 from studio.server.cookies import Cookies
 from studio.server.credentials import Credentials
@@ -64,6 +64,7 @@ def make_app(
     app.include_router(Api(engine, session).router())
     app.include_router(Exports(engine).router())
     app.include_router(HandedIn(engine).router())
+    app.include_router(WrittenBags(engine).router())
     app.include_router(Uploads(engine).router())
     app.include_router(LogOut(credentials, classroom).router())
     app.include_router(Joining(classroom, cookies, front, assets.words).router())

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from pydantic import BaseModel
 
+    from studio.protocol.roles import Person
     from studio.protocol.subscriptions import LaneCommand
     from studio.server.bulk_lane import BulkKeys, BulkLane
     from studio.server.surface import SubscribesTopics
@@ -39,8 +40,10 @@ _TICK: Final = "tick"
 class DataLane:
     """One browser's data lane, to which topics send their messages."""
 
-    def __init__(self, lane: Lane, keys: BulkKeys) -> None:
+    def __init__(self, lane: Lane, keys: BulkKeys, visitor: Person) -> None:
         self._lane, self._keys = lane, keys
+        self.sees = visitor.sees
+        """Whether its person may look at a document."""
         self._backlog = Backlog()
         self._outlet = Outlet(FrameTransport(lane), on_hopeless=lambda: lane.close(_TOO_SLOW))
         self._bulk: BulkLane | None = None

@@ -148,7 +148,9 @@ class Site:
     async def data(self, websocket: WebSocket) -> None:
         """The data lane."""
         await websocket.accept()
-        await DataLane(Lane(websocket), self._bulk_keys).serve(self._engine.browser_topics)
+        visitor: Person = websocket.scope["state"]["visitor"]
+        lane = DataLane(Lane(websocket), self._bulk_keys, visitor)
+        await lane.serve(self._engine.browser_topics)
 
     async def bulk(self, key: str = "") -> Response:
         """Open the bulk lane of the data lane with this key."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+    from pathlib import Path
 
     from studio.classroom.classroom import Classroom
     from studio.documents.exports import Download, MeshNames
@@ -112,6 +113,11 @@ class OpenDocuments(Protocol):
     @property
     def copies(self) -> HandedCopies:
         """The copies of the class."""
+        ...
+
+    @property
+    def bags_folder(self) -> Path:
+        """Where topics are recorded, a folder for each bag."""
         ...
 
     @property

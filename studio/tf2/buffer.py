@@ -64,6 +64,10 @@ class Buffer(BufferInterface):
         """Forget everything."""
         self._transforms.clear()
 
+    def jump_back(self, now_ns: int, before_ns: int) -> None:
+        """Forget what is newer than a time to which the clock went back; what is static stays."""
+        self._transforms.jump_back(now_ns, before_ns)
+
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration | None = None
     ) -> Any:  # noqa: ANN401

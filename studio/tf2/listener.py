@@ -7,11 +7,14 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import CdrError, ExternalShutdownException
+from studio.ros.duration import Duration
+from studio.ros.node.clock import JumpThreshold
 from studio.ros.node.executors import SingleThreadedExecutor
 from studio.ros.node.work import ReentrantCallbackGroup
 from studio.ros.qos import DurabilityPolicy, QoSProfile
 
 if TYPE_CHECKING:
+    from studio.ros.node.clock import TimeJump
     from studio.ros.node.node import Node
     from studio.tf2.buffer import Buffer
 
@@ -20,7 +23,10 @@ _PAUSE_S = 10.0
 
 
 class TransformListener:
-    """Subscribes by a node; with `spin_thread`, a thread of its own spins that node."""
+    """Subscribes by a node; with `spin_thread`, a thread of its own spins that node.
+
+    When the node's clock goes back, as with a bag that begins again, what is newer is forgotten.
+    """
 
     def __init__(  # noqa: PLR0913  # as in tf2_ros
         self,
@@ -51,6 +57,8 @@ class TransformListener:
         self.tf_static_sub = listen(
             static_topic, latched if static_qos is None else static_qos, static=True
         )
+        back = JumpThreshold(min_backward=Duration(nanoseconds=-1), on_clock_change=False)
+        self._jumps = node.get_clock().create_jump_callback(back, post_callback=self._jumped)
         if spin_thread:
             self.executor = SingleThreadedExecutor(context=node.context)
             self.executor.add_node(node)
@@ -61,6 +69,7 @@ class TransformListener:
 
     def unregister(self) -> None:
         """Listen no more."""
+        self._jumps.unregister()
         for one in (self.tf_sub, self.tf_static_sub):
             if one is not None:
                 self.node.destroy_subscription(one)
@@ -70,6 +79,12 @@ class TransformListener:
             self.executor.spin()
         except ExternalShutdownException:
             return
+
+    def _jumped(self, jump: TimeJump) -> None:
+        """Forget what is told of times to come, as tf2 does when a simulation or bag goes back."""
+        now_ns = self.node.get_clock().now_ns()
+        self.node.get_logger().warning("Detected jump back in time. Clearing TF buffer.")
+        self.buffer.jump_back(now_ns, now_ns - jump.delta.nanoseconds)
 
     def _take(self, data: bytes, *, static: bool) -> None:
         try:

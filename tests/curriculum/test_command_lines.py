@@ -11,6 +11,7 @@ import pytest
 
 from tests.support.command_line import started, studio
 from tests.support.demos import ENDS_WITHIN_S, running_demo
+from tests.support.told_recording import ToldRecording, written
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
@@ -40,7 +41,6 @@ class GoesOn:
 
 
 TWIST = '"{linear: {x: 2.0, y: 0.0, z: 0.0}, angular: {x: 0.0, y: 0.0, z: 1.8}}"'
-NOT_YET = "is not there yet"
 LINES = (
     Ends("--help", "commands:"),
     # Nodes
@@ -108,8 +108,8 @@ LINES = (
     Ends("doctor --report --include-dds", "doctor has no --include-dds", 2),
     Ends("daemon stop", "There is no daemon to stop"),
     Ends("daemon start", "No daemon is needed"),
-    Ends("bag record /number -o bag1", NOT_YET, 2),
-    Ends("bag play ~/bags/bag1/", NOT_YET, 2),
+    GoesOn("bag record /number -o bag1", "Recording..."),
+    Ends("bag play ~/bags/bag1/", "[rosbag2_player]: Set rate to 1"),
     Ends("launch my_robot_description robot_display.launch.py", "No package", 2),
     Ends("launch urdf_view demo.launch.py", "No package", 2),
     # Misspelt as printed, and lines of the shell
@@ -169,9 +169,15 @@ def is_serving_or_listening(line: str) -> bool:
 @pytest.fixture(autouse=True)
 def world(endpoint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("STUDIO_DATA_DIR", str(tmp_path / "data"))
+    monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f'connect/endpoints=["{endpoint}"]')
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mybot.xacro").write_text(XACRO)
+    numbers = ToldRecording()
+    numbers.topic("/number", "example_interfaces/msg/Int64")
+    numbers.tell("/number", 0, data=7)
+    (tmp_path / "bags").mkdir()
+    written(numbers, tmp_path / "bags" / "bag1")
 
 
 @pytest.mark.parametrize("row", ENDING, ids=lambda row: row.line)

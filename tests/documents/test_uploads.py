@@ -14,6 +14,7 @@ from studio.errors import StudioError, UploadError
 from studio.packages.recent import RecentFiles
 from tests.support.open_documents import Ear, engine
 from tests.support.opening import ROBOT, sentences
+from tests.support.recorded_arm import BEGIN_NS, write_arm_bag
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
@@ -162,5 +163,26 @@ def test_two_people_upload_at_once(tmp_path: Path):
             first, second, third = await asyncio.gather(*same, sent(made, {"r.urdf": other}))
             assert first.entry == second.entry
             assert set(third.model.robot.links) == {"other"}
+
+    asyncio.run(story())
+
+
+@pytest.mark.parametrize("how", ["file", "folder", "zip"])
+def test_a_dropped_bag_is_opened_at_its_beginning(tmp_path: Path, how: str):
+    bag = write_arm_bag(tmp_path / "run")
+    files = {f"run/{one.name}": one.read_bytes() for one in bag.iterdir()}
+    if how == "file":
+        files = {
+            name.removeprefix("run/"): data for name, data in files.items() if "yaml" not in name
+        }
+    elif how == "zip":
+        files = {"run.zip": zipped(files)}
+
+    async def story() -> None:
+        async with engine(tmp_path / "data") as made:
+            document = await sent(made, files)
+            assert document.time.recording is not None
+            assert document.time.at_ns == BEGIN_NS
+            assert document.model.kinematics.movable == ("shoulder",)
 
     asyncio.run(story())

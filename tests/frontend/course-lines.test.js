@@ -49,6 +49,11 @@ const DONE = [
   ["ros2 launch my_robot_description robot_display.launch.py", "launch"],
   ["ros2 launch my_package my_launch_file.py", "launch"],
   ["ros2 launch urdf_view demo.launch.py", "launch"],
+  ["ros2 bag record /number -o bag1", "bag"],
+  ["ros2 bag record <topic_name> -o <save_path>", "bag"],
+  ["ros2 bag play ~/bags/bag1/", "bag"],
+  [" ros2 bag play <rosbag_filename>", "bag"],
+  ["ros2 bag info bag1", "bag"],
 ];
 
 /** And those that are told about. @type {readonly [string, string][]} */
@@ -82,8 +87,7 @@ const TOLD = [
   ["colcon build --symlink-install --packages-select urdf_view", "colcon_symlink"],
   ["colcon test", "colcon_test"],
   ["ros2 daemon stop", "daemon"],
-  ["ros2 bag record /number -o bag1", "bag"],
-  ["ros2 bag play ~/bags/bag1/", "bag"],
+  ["ros2 bag convert -i bag1 -o out.yaml", "bag"],
   ["ros2 pkg create --build-type ament_python my_python_package", "pkg_create"],
   ["ros2 pkg create -h", "pkg_create"],
   ["ros2 pkg -h", "pkg"],

@@ -40,7 +40,7 @@ VIEWER_COMMANDS = {
         "get_graph",
         "get_node",
     ),
-    *("list_topics", "get_topic_ends"),
+    *("list_topics", "get_topic_ends", "get_time_marks"),
     *("set_name", "follow"),
     *("get_rviz_text", "get_rviz_view"),
 }
@@ -57,6 +57,7 @@ PRESENTER_COMMANDS = {
     *("save_lesson", "delete_lesson", "read_lesson"),
     *("lead", "gather_all", "show_view", "show_focus", "show_copy"),
     *("open_path", "close_document", "list_folder", "get_arguments", "open_link", "forget_work"),
+    "open_bag",
     *("list_recent", "forget_recent", "list_examples", "list_places", "open_recent"),
     *("open_example", "new_robot", "new_untitled", "save_as", "save_copy", "choose_package"),
     *("discard_restored", "add_interfaces", "start_demo", "stop_demo"),
@@ -66,6 +67,7 @@ PRESENTER_COMMANDS = {
     *("restart_process", "end_process", "run_again_on_save", "forget_run", "get_runs"),
     *("get_run_output", "get_workspaces", "create_package", "add_to_package"),
     *("undo_package_edit", "mend_package"),
+    *("start_recording", "stop_recording", "save_past", "cut_bag", "list_bags"),
 }
 """What reaches beyond the robot that is shared: files, processes, connections, people."""
 ROLES = (Role.GUEST, Role.STUDENT, Role.HELPER, Role.PRESENTER)

@@ -13,7 +13,7 @@ from studio.protocol.commands import may
 from studio.protocol.roles import Role, Visitor
 from studio.scene import SUBPROTOCOL
 from studio.server.access import PUBLIC_ROUTES, ROUTES
-from studio.server.api import Api, Exports, HandedIn, LogOut
+from studio.server.api import Api, Exports, HandedIn, LogOut, WrittenBags
 from studio.server.assets import Assets
 from studio.server.cookies import Cookies
 from studio.server.credentials import Credentials
@@ -22,7 +22,7 @@ from studio.server.joining import Joining
 from studio.server.origin import KnownHosts
 from studio.server.site import Site
 from studio.server.uploads import Uploads
-from tests.support.small_engine import URDF, SmallEngine
+from tests.support.small_engine import BAG, URDF, SmallEngine
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -46,6 +46,7 @@ def test_every_route_is_in_the_table_and_the_table_names_no_other(assets_folder:
     app.include_router(Api(engine, "session").router())
     app.include_router(Exports(engine).router())
     app.include_router(HandedIn(engine).router())
+    app.include_router(WrittenBags(engine).router())
     app.include_router(Uploads(engine).router())
     app.include_router(LogOut(credentials, classroom).router())
     app.include_router(
@@ -65,17 +66,40 @@ def _paths(route: object) -> set[str]:
 def test_every_route_answers_each_role_as_the_table_says(web: RunningWeb, path: str):
     for role in Role:
         with web.client(role) as client:
-            answer = client.get(path.format(document="small"))
+            answer = client.get(path.format(document="small", bag="bag", file="bag_0.mcap"))
             assert (answer.status_code < 400) == may(Visitor(role), ROUTES[path])
     with web.client() as client:
-        assert client.get(path.format(document="small")).status_code == 403
+        assert (
+            client.get(path.format(document="small", bag="bag", file="bag_0.mcap")).status_code
+            == 403
+        )
+
+
+def test_a_file_of_a_bag_is_given_out_whole_or_in_part_and_no_other_file_is(web: RunningWeb):
+    with web.client(Role.PRESENTER) as client:
+        whole = client.get("/api/bags/bag/bag_0.mcap")
+        assert (whole.status_code, whole.content) == (200, BAG)
+        assert whole.headers["content-disposition"] == 'attachment; filename="bag_0.mcap"'
+        part = client.get("/api/bags/bag/bag_0.mcap", headers={"range": "bytes=10-19"})
+        assert (part.status_code, part.content) == (206, BAG[10:20])
+        (web.engine.bags_folder / "secret").write_text("")
+        (web.engine.bags_folder / "bag" / "link").unlink(missing_ok=True)
+        (web.engine.bags_folder / "bag" / "link").symlink_to("/etc/hostname")
+        for path in (
+            "bag/none",
+            "../bag_0.mcap",
+            "bag/..%2f..%2fsecret",
+            "..%2fbags/bag",
+            "bag/link",
+        ):
+            assert client.get(f"/api/bags/{path}").status_code in {404, 409}
 
 
 @pytest.mark.parametrize("path", sorted(SOCKETS))
 def test_every_websocket_opens_for_each_role_as_the_table_says(web: RunningWeb, path: str):
     for role in Role:
         assert may(Visitor(role), ROUTES[path])
-        address = path.format(document="small")
+        address = path.format(document="small", bag="bag", file="bag_0.mcap")
         with web.websocket(address, role, subprotocols=(SUBPROTOCOL,)) as lane:
             assert lane.response is not None
 
@@ -90,6 +114,9 @@ FIELDS: dict[str, object] = {
     "version": 0,
     "offset": 0,
     "count": 1,
+    **dict.fromkeys(("seconds", "begin_s", "end_s", "at_s", "rate"), 1.0),
+    "playing": True,
+    "bins": 1,
     "replacement": "x",
     "changes": [{"start": 0, "end": 0, "text": "x"}],
     "positions": {},

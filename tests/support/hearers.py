@@ -63,6 +63,9 @@ class KeepingHearer:
         self.ticks.append(tick)
         self.came += read_frame(tick.frame())[1]
 
+    def sees(self, document: str, /) -> bool:
+        return document != "hidden"
+
     def state(self, subscription: int) -> str:
         """How a subscription stands, as it was told last."""
         return next(

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 from studio.live.topics.browsers import BrowserTopics
 from studio.live.topics.frames import Chunk, Tick
 from studio.outlet import GATE_BYTES
+from studio.protocol.roles import Role, Visitor
 from studio.protocol.subscriptions import Subscribe
 from studio.ros.qos import QoSProfile
 from studio.server.bulk_lane import BulkKeys
@@ -178,7 +179,10 @@ def follow_sample(endpoint: str, *, slow: bool = False, size: int = 10) -> Follo
 async def _followed(world: World, follower: Follower, marker: str, *, slow: bool) -> None:
     speaker = world.speaker(_TOPIC, QoSProfile(depth=10))
     end = _Lane()
-    lane, topics = DataLane(cast("Lane", end), BulkKeys()), BrowserTopics(world.source)
+    lane, topics = (
+        DataLane(cast("Lane", end), BulkKeys(), Visitor(Role.PRESENTER)),
+        BrowserTopics(world.source),
+    )
     topics.attach(lane)
     topics.carry_out(lane, Subscribe(subscription=1, topic=_TOPIC, mode="every"))
     written = end.socket.written

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import os
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from starlette.requests import ClientDisconnect
@@ -125,6 +127,9 @@ class SmallTopics:
         lane.send(NotSubscribed(subscription=command.subscription, reason="there is no such topic"))
 
 
+BAG = bytes(range(256))
+
+
 class SmallEngine:
     """Saving conflicts, undo has a bug, redo waits until `go_on`, closing cancels
     what it waits for; all else is done at once."""
@@ -134,6 +139,9 @@ class SmallEngine:
         self.classroom = Classroom()
         self.uploads, self.copies = SmallUploads(), SmallCopies()
         self.browser_topics = SmallTopics()
+        self.bags_folder = Path(os.environ["STUDIO_DATA_DIR"]) / "bags"
+        (self.bags_folder / "bag").mkdir(parents=True, exist_ok=True)
+        (self.bags_folder / "bag" / "bag_0.mcap").write_bytes(BAG)
         self.default_document: str | None = "small"
         self.executed: list[Command] = []
         self.listeners: list[Listener] = []

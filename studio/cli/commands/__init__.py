@@ -31,7 +31,6 @@ class CommandModule(Protocol):
         run: Takes the options, and returns the exit code or None for 0.
         takes_mappings: Words with `:=` are arguments of a xacro file, wherever they stand.
         takes_late: The name of a last value, and what it is when it is left out.
-        takes_rest: Words that nothing else takes are no mistake.
         interrupted_code: The exit code after Ctrl-C, instead of 130.
         """
         ...

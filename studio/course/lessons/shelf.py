@@ -27,6 +27,7 @@ EXERCISES: Final = (
     "own_add_two_ints",
     "r2d2_in_odom",
     "own_interface",
+    "record_and_play",
     "mend_a_node",
     "mend_a_package",
     "mend_a_launch",

@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from studio.classroom.classroom import Classroom
     from studio.description.client import DescriptionWorker
     from studio.documents.services import Opened as WaitsForOpening
+    from studio.live.time.shown import ShownRecording
     from studio.protocol.listeners import Listener
 
 _LOOK_EVERY_S: Final = 5.0
@@ -106,6 +107,7 @@ class CopyServices(Services):
         self.quiet_s, self.patience_s = 2.0, base.patience_s
         self.meshes, self.validator, self.wire = base.meshes, base.validator, base.wire
         self.plugins = base.plugins
+        self.on_time_switch, self.on_moment = base.on_time_switch, base.on_moment
         # Nothing in a student's copy is run, or changed as a program.
         self.run_folders = RunFolders((), base.settings.data_folder)
         self.evaluators = Evaluators()
@@ -367,9 +369,18 @@ class Copies:
         if original := self._engine.documents.get(record.of):
             original.live.on_list = partial(self._mirror_displays, original)
             document.live.mirror(original.live.kept)
+            document.time.past = partial(_bag_of, original, document.time.past)
+            document.follow_time(original)
         if self._watching is None or self._watching.done():
             self._watching = asyncio.create_task(self._put_to_rest())
         return document
+
+    def follow_time(self, name: str) -> None:
+        """Have the copies of a document show the bag that it shows; each where it likes."""
+        if (original := self._engine.documents.get(name)) is not None:
+            for copy, document in self._awake.items():
+                if original_of(copy) == name:
+                    document.follow_time(original)
 
     def _mirror_displays(self, original: Document) -> None:
         """Have the copies that are open show what the class sees now."""
@@ -455,6 +466,12 @@ class Copies:
     def _name_of(self, person: str) -> str:
         member = self._classroom.members.find(person)
         return member.name if member else "?"
+
+
+def _bag_of(original: Document, past: Callable[[], ShownRecording | None]) -> ShownRecording | None:
+    """Return what a copy goes back to: the bag of the class, else the last minutes."""
+    shown = original.time.shown
+    return shown.hold() if shown is not None and shown.mode == "bag" else past()
 
 
 def _read_all(folder: Path) -> Iterator[tuple[str, CopyRecord]]:

@@ -17,9 +17,7 @@ class OfType(Protocol):
         ...
 
 
-def carried_types(
-    publishers: Iterable[OfType], subscribers: Iterable[OfType]
-) -> tuple[str, ...]:
+def carried_types(publishers: Iterable[OfType], subscribers: Iterable[OfType]) -> tuple[str, ...]:
     """Return the types published, sorted; the types subscribed when nobody publishes.
 
     A subscription with the wrong type receives nothing, so its type does not count.

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from msgspec import structs
 
-from studio.errors import CommandError, StudioError
+from studio.errors import CommandError, StudioError, ToolError
+from studio.live.displays.asked_frames import COMMANDS as FRAME_COMMANDS
+from studio.live.displays.asked_frames import AskedFrames
 from studio.live.displays.display_file import Keeper, KeptDisplays
 from studio.live.displays.display_list import DisplayList, Listening
 from studio.live.displays.document_tools import COMMANDS as TOOL_COMMANDS
@@ -33,9 +35,6 @@ from studio.protocol.displays import (
     ArrangeGroup,
     DisplayStates,
     DuplicateDisplay,
-    FollowFrame,
-    FrameFollowed,
-    GetTf,
     LiveDisplays,
     RemoveDisplay,
     RestoreDisplays,
@@ -43,10 +42,8 @@ from studio.protocol.displays import (
     SetDisplayTopic,
     SetFixedFrame,
     SwitchDisplays,
-    TfFrames,
 )
 from studio.protocol.listeners import LastSent
-from studio.protocol.roles import Visitor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -60,10 +57,9 @@ if TYPE_CHECKING:
     from studio.live.displays.placing import Shown
     from studio.live.displays.robot_models import RobotModels
     from studio.live.displays.robot_reading import RobotReader
-    from studio.live.displays.scene_frames import SceneFrames
     from studio.live.time.document_source import DocumentSource
     from studio.protocol import Event
-    from studio.protocol.listeners import Audience, Listener
+    from studio.protocol.listeners import Audience
 
 
 _TICK_S: Final = 1 / 30
@@ -94,7 +90,7 @@ class DocumentDisplays:
         audience: Is sent the displays; they are drawn as long as it is not empty.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913, PLR0917 - each is another part of the document
         self,
         robot: ShownRobot,
         meshes: Meshes,
@@ -123,11 +119,13 @@ class DocumentDisplays:
         self._keeper = Keeper(file)
         self._seen_s = time.monotonic()
         self.times = SceneTimes(lambda: self._room, self._look, self._changed)
+        self.frames = AskedFrames(lambda: self._room, self._look)
         self._fault = ""
         self._checked_s = 0.0
         self._asked_until_s = 0.0
         self._states = LastSent[DisplayStates](audience)
         self._settings = LastSent[LiveDisplays](audience)
+        self._subscribing = asyncio.Lock()
         self._closed = False
         self.on_list: Callable[[], object] = lambda: None
         """Called when displays, tools or views were added, removed or changed."""
@@ -378,57 +376,31 @@ class DocumentDisplays:
         frames = self._room.frames
         return AllDrawn(self._room.running, self._robot.robot, frames.lookup, frames.fixed)
 
-    async def tf(self, command: GetTf) -> TfFrames:
-        """Return all frames, and the pose of one in another; subscribes to TF for a while."""
-        frames = await self._frames(wait=not command.pose_only)
-        if command.pose_only:
-            return frames.answer(command, frames.fixed)
-        # Thousands of frames as JSON take a while, and the loop has other work.
-        return await asyncio.to_thread(frames.answer, command, frames.fixed)
-
     async def tool_use(self, pointed: Pointed) -> ToolUse:
         """Return what a tool is to send; subscribes to TF and the clock for a while.
 
         Raises:
-            StudioError: There is no connection, or the tool cannot be used so.
+            StudioError: There is no connection, or the tool cannot be used so, or a recording is
+                shown: nobody is to drive where a robot once was.
         """
-        if self._source.is_live:
-            await self._wire.link()  # frames and the time come over it
-        frames = await self._frames(wait=True)
+        if not self._source.is_live:
+            raise ToolError("The view shows a recording: go back to what runs now to point there.")
+        await self._wire.link()  # frames and the time come over it
+        frames = await self.frames.now(wait=True)
         await frames.wait_for_clock()
         return self.tools.use(pointed, frames)
-
-    async def _frames(self, *, wait: bool) -> SceneFrames:
-        """Return the frames of now; subscribes to TF for a while.
-
-        Args:
-            wait: Whether the first transforms are waited for, if TF was not subscribed before.
-        """
-        is_first = not self._is_on
-        self._asked_until_s = time.monotonic() + _ASKED_FOR_S
-        self._go_on()
-        frames = self._room.frames
-        if is_first and wait:
-            await frames.wait_for_first()
-        frames.step()
-        return frames
-
-    def follow(self, command: FollowFrame, who: Listener) -> FrameFollowed:
-        """Keep a frame in the scene for a camera to follow; subscribes to TF for a while."""
-        self._look()
-        frame = command.frame.strip().removeprefix("/")
-        trouble = self._room.follow(frame, time.time_ns(), Visitor(who.role, who.person))
-        return FrameFollowed(request=command.request, trouble=trouble)
 
     @property
     def is_paused(self) -> bool:
         """Whether drawing is paused."""
         return self._made is not None and self._made.is_paused
 
-    def _look(self) -> None:
-        """Subscribe to TF and the clock for a while."""
+    def _look(self) -> bool:
+        """Subscribe to TF and the clock for a while; return whether nothing was subscribed."""
+        is_first = not self._is_on
         self._asked_until_s = time.monotonic() + _ASKED_FOR_S
         self._go_on()
+        return is_first
 
     def let_go(self) -> None:
         """Receive nothing until it is drawn again."""
@@ -543,10 +515,13 @@ class DocumentDisplays:
         self._ticking = None
         self._go_on()  # somebody may have asked meanwhile
 
-    def draw(self) -> None:
-        """Draw what came, before the next tick does."""
-        if self._ticking is not None and not self._ticking.done():
-            self._step()
+    async def draw(self) -> None:
+        """Draw what came, before the next tick does; what is new is subscribed first."""
+        if self._ticking is None or self._ticking.done():
+            return
+        if not self._checked_s or self._subscribing.locked():
+            await self._subscribe()
+        self._step()
 
     def begin_source(self) -> None:
         """Subscribe soon where the topics come from now."""
@@ -574,7 +549,9 @@ class DocumentDisplays:
 
     async def _subscribe(self) -> None:
         """Subscribe to what is shown."""
-        await self._room.subscribe({one.id for one in self._list if self._list.is_shown(one)})
+        async with self._subscribing:
+            shown = {one.id for one in self._list if self._list.is_shown(one)}
+            await self._room.subscribe(shown)
 
     def _send_states(self) -> None:
         self._states.send(self._room.states(self._list, self._source.now_ns))
@@ -612,8 +589,7 @@ COMMANDS.controller(SwitchDisplays, lambda displays, c, _: displays.switch(c))
 COMMANDS.controller(SetDisplayTopic, lambda displays, c, _: displays.set_topic(c))
 COMMANDS.controller(SetDisplayProperty, lambda displays, c, _: displays.set_property(c))
 COMMANDS.controller(SetFixedFrame, lambda displays, c, _: displays.fix(c.frame))
-COMMANDS.viewer(GetTf, lambda displays, c, _: displays.tf(c))
-COMMANDS.viewer(FollowFrame, lambda displays, c, who: displays.follow(c, who))
+COMMANDS.include(FRAME_COMMANDS, lambda displays, _: displays.frames)
 COMMANDS.include(MARKER_COMMANDS, lambda displays, _: displays.markers)
 COMMANDS.include(VIEW_COMMANDS, lambda displays, _: displays.views)
 COMMANDS.include(TIME_COMMANDS, lambda displays, _: displays.times)

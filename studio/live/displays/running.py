@@ -171,8 +171,11 @@ class RunningDisplay:
         before, self._beginnings = self._beginnings, self._begun()
         if before == self._beginnings and before:
             self.placing.renew()
-        else:
-            self.forget()
+            return
+        self.forget()
+        for role, subscription in self._subscriptions.items():
+            if before.get(role) == subscription.beginnings:
+                subscription.give_again()  # it stays as it was, and will not come by itself
 
     def _begun(self) -> dict[str, int]:
         """Return by role how often its subscription began anew."""

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Final
 
 from studio.displays.drawing import NO_TURN, ORIGIN
 from studio.displays.properties import FIXED_FRAME
-from studio.errors import CdrError, FrameError
+from studio.errors import CdrError, ExtrapolationError, FrameError
 from studio.live.displays.clock_watch import CLOCK, ClockWatch
+from studio.live.displays.later_frames import LaterFrames
 from studio.live.displays.own_frames import OwnFrames
 from studio.live.topics.request import Request
 from studio.protocol.displays import FixedFrameState, FrameView, GetTf, TfFrames, TfPose
@@ -50,6 +51,7 @@ class SceneFrames:
     def __init__(self, robot: PosedRobot, source: TopicSource) -> None:
         self.buffer = TransformBuffer(clock=lambda: source.now_ns)
         self.own = OwnFrames(robot, self.buffer)
+        self._later = LaterFrames(self.buffer)
         self.chosen = ""
         """The fixed frame as chosen; empty: the root link of the robot."""
         self._source, self._epoch = source, source.epoch
@@ -179,7 +181,14 @@ class SceneFrames:
             return STILL
         if stamp_ns == 0 and (now := self._newest().pose_of(frame)):
             return now[:4], now[4:]
-        pose = self.buffer.fixed_from(fixed, frame, stamp_ns)
+        try:
+            pose = self.buffer.fixed_from(fixed, frame, stamp_ns)
+        except ExtrapolationError as error:
+            later = self._source.later_tf
+            if not later or not error.may_come:
+                raise
+            found = self._later.pose(later, fixed, frame, stamp_ns)
+            return found[:4], found[4:]
         return pose.wxyz, pose.xyz
 
     def now(self) -> FramesNow:
@@ -290,9 +299,7 @@ class SceneFrames:
         publisher = self._publisher(sample.attachment.gid)
         self.own.leave_to_others(columns.children, publisher)
         at_ns = sample.received_ns
-        for one in self.buffer.put(
-            columns, static=static, publisher=publisher, received_ns=at_ns
-        ):
+        for one in self.buffer.put(columns, static=static, publisher=publisher, received_ns=at_ns):
             self._note(one)
             self._jumped |= one.kind == "time_jumped"
 

@@ -58,9 +58,9 @@ class Parts:
                 self._reports.clear()
                 self._left_out.clear()
 
-    def take(self, array: MessageValue) -> None:
-        """Keep a `diagnostic_msgs/msg/DiagnosticArray`."""
-        now_s = self._clock()
+    def take(self, array: MessageValue, at_s: float | None = None) -> None:
+        """Keep a `diagnostic_msgs/msg/DiagnosticArray` that came at a time; None: now."""
+        now_s = self._clock() if at_s is None else at_s
         with self._lock:
             for status in array.status:
                 name = status.name[:_TEXT_MAX]
@@ -91,7 +91,7 @@ class PartDiagnostics:
 
     def __init__(self, source: TopicSource, changed: Callable[[], object] | None = None) -> None:
         self._source, self._changed = source, changed
-        self._parts = Parts()
+        self._parts = Parts(time.monotonic if source.is_live else lambda: source.now_ns / 1e9)
         self._decode = decoder(source, _TYPE)
         self._subscription: Subscription | None = None
 
@@ -107,9 +107,15 @@ class PartDiagnostics:
             request=command.request, connected=connected, parts=parts, more=more
         )
 
+    def close(self) -> None:
+        """Receive no more."""
+        if self._subscription is not None:
+            self._subscription.close()
+
     def _take(self, sample: RawSample) -> None:
         self._parts.keep_epoch(self._source.epoch)
-        self._parts.take(self._decode(sample))
+        at_s = None if self._source.is_live else sample.received_ns / 1e9
+        self._parts.take(self._decode(sample), at_s)
         if self._changed is not None:
             self._changed()
 

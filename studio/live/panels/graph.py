@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final, Literal, Protocol
 
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.graph import (
@@ -27,6 +27,18 @@ if TYPE_CHECKING:
     from studio.ros.graph.graph import Graph, NamesAndTypes
 
 
+class AnswersGraph(Protocol):
+    """A system whose graph is asked for."""
+
+    async def graph(self, command: GetGraph, /) -> GraphAnswer:
+        """Return the graph; nothing if it is the version known."""
+        ...
+
+    async def node(self, command: GetNode, /) -> NodeAnswer:
+        """Return the topics, services and actions of a node."""
+        ...
+
+
 class GraphViews:
     """Views of the connection's graph; empty without a connection."""
 
@@ -47,7 +59,7 @@ class GraphViews:
         """Return the topics, services and actions of a node."""
         link = self._wire.current
         if link is None:
-            return _node_answer(command, 0, {})
+            return node_answer(command, 0, {})
         return await asyncio.to_thread(_node, link.graph, command)
 
 
@@ -133,12 +145,14 @@ def _node(graph: Graph, command: GetNode) -> NodeAnswer:
 
     same = [one for one in graph.nodes() if one.path == command.name]
     parts = parts_of(graph, same[0], hidden=False)._asdict() if same else {}
-    return _node_answer(command, len(same), parts)
+    return node_answer(command, len(same), parts)
 
 
-def _node_answer(
+def node_answer(
     command: GetNode, count: int, parts: Mapping[str, list[tuple[str, str]]]
 ) -> NodeAnswer:
+    """Return the answer about so many nodes of a name, with what they have by its kind."""
+
     def ends(group: str) -> tuple[EndView, ...]:
         return tuple(EndView(name=name, type=kind) for name, kind in parts.get(group, ()))
 
@@ -155,6 +169,6 @@ def _node_answer(
     )
 
 
-COMMANDS: Final = Commands[GraphViews](Scope.ROS)
+COMMANDS: Final = Commands[AnswersGraph](Scope.ROS)
 COMMANDS.viewer(GetGraph, lambda one, c, _: one.graph(c))
 COMMANDS.viewer(GetNode, lambda one, c, _: one.node(c))

@@ -24,6 +24,8 @@ from studio.protocol.interfaces import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.errors import InterfaceTextError
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
@@ -129,6 +131,8 @@ class InterfaceTypes:
     def __init__(self, wire: RosConnection) -> None:
         self._wire = wire
         self._learner = TypeLearner(wire)
+        self.recorded_for: Callable[[str], TypeLibrary | None] = lambda _: None
+        """Gives the types of the recording that a document shows; None: it shows none."""
         self._texts: dict[str, str] = {}
         """Definitions, with comments, from nodes: of types that only a distribution has."""
 
@@ -139,6 +143,8 @@ class InterfaceTypes:
             RosNameError: It is not a valid name of a type.
             UnknownTypeError: It, or a type it uses, is neither known nor described by a node.
         """
+        if (recorded := self.recorded_for(command.document)) is not None:
+            return await asyncio.to_thread(self._answer, command, recorded)
         try:
             answer = await asyncio.to_thread(self._answer, command)
         except UnknownTypeError:
@@ -198,11 +204,13 @@ class InterfaceTypes:
             faults=tuple(map(_fault_view, islice(faults.values(), _FAULTS_MAX))),
         )
 
-    def _answer(self, command: GetInterface) -> InterfaceAnswer:
+    def _answer(
+        self, command: GetInterface, recorded: TypeLibrary | None = None
+    ) -> InterfaceAnswer:
         from studio.ros.names import split_type_name  # noqa: PLC0415
         from studio.ros.types.definitions import messages_of  # noqa: PLC0415
 
-        library = self.library()
+        library = self.library() if recorded is None else recorded
         kind = split_type_name(command.name)[1]
         parts = messages_of(library.interface(command.name))
         return InterfaceAnswer(

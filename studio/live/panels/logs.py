@@ -59,6 +59,12 @@ class LogRing:
             lines = tuple(itertools.islice(self._lines, begin, begin + LINES_MAX))
             return lines, first, last
 
+    def clear(self) -> None:
+        """Keep nothing of what came; numbers go on."""
+        with self._lock:
+            self._lines.clear()
+            self._characters = 0
+
     @property
     def last(self) -> int:
         """Number of the newest line, 0 without one."""
@@ -115,13 +121,15 @@ _REQUEST: Final = Request(
 class NodeLogs:
     """Keeps the newest lines for later pages, also after the connection has ended.
 
+    Of a recording it has those up to where that stands, and no others.
+
     Args:
         source: The source of topics.
         grew: Called after each new line, in a thread of the source.
     """
 
     def __init__(self, source: TopicSource, grew: Callable[[], object] | None = None) -> None:
-        self._source = source
+        self._source, self._epoch = source, source.epoch
         self._ring = LogRing()
         self._decode = decoder(source, _TYPE)
         self._subscription: Subscription | None = None
@@ -131,6 +139,7 @@ class NodeLogs:
     def log(self, command: GetLog) -> LogAnswer:
         """Return the lines after one; no new ones come while there is no connection."""
         self.listen()
+        self._keep_epoch()
         lines, first, last = self._ring.after(command.after)
         return LogAnswer(
             request=command.request,
@@ -145,6 +154,11 @@ class NodeLogs:
         if self._subscription is None:
             self._subscription = self._source.subscribe(_REQUEST, take=self._take)
         return self._ring.last
+
+    def close(self) -> None:
+        """Receive no more."""
+        if self._subscription is not None:
+            self._subscription.close()
 
     async def newest_warning(
         self, nodes: Iterable[str], *, after: int, since_s: float, patience_s: float
@@ -176,7 +190,14 @@ class NodeLogs:
         finally:
             self._waiting = tuple(one for one in self._waiting if one is not wake)
 
+    def _keep_epoch(self) -> None:
+        """Keep nothing of a recording that is of another moment."""
+        if not self._source.is_live and self._epoch != self._source.epoch:
+            self._epoch = self._source.epoch
+            self._ring.clear()
+
     def _take(self, sample: RawSample) -> None:
+        self._keep_epoch()
         self._ring.take(self._decode(sample))
         for wake in self._waiting:
             wake()

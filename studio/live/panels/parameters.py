@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.debounce import Throttle
 from studio.live.topics.request import Request
@@ -28,6 +28,8 @@ from studio.protocol.parameters import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.live.connection.link import WireLink
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.panels.parameter_work import RemoteParameters
@@ -47,6 +49,18 @@ _CHANGES_MAX: Final = 2_000
 """Changes of one node in one event."""
 
 
+class AnswersParameters(Protocol):
+    """Parameters that are read and not set."""
+
+    async def nodes(self, command: GetParameterNodes, /) -> ParameterNodes:
+        """Return the nodes that have parameters."""
+        ...
+
+    async def parameters(self, command: GetParameters, /) -> Parameters:
+        """Return all parameters of a node; raises a StudioError."""
+        ...
+
+
 class NodeParameters:
     """Keeps clients of the nodes asked last, and one subscription of all parameter events."""
 
@@ -59,9 +73,13 @@ class NodeParameters:
         self._subscribed = asyncio.Event()
         self._changes: dict[str, dict[str, ParameterView | None]] = {}
         self._throttle = Throttle(self._send, pause_s=_PAUSE_S)
+        self.recorded_for: Callable[[str], AnswersParameters | None] = lambda _: None
+        """Gives those of the recording that a document shows; None: it shows none."""
 
     async def nodes(self, command: GetParameterNodes) -> ParameterNodes:
         """Return the nodes that have parameters."""
+        if (recorded := self.recorded_for(command.document)) is not None:
+            return await recorded.nodes(command)
         link = self._wire.current
         found = await asyncio.to_thread(_nodes, link) if link is not None else ()
         return ParameterNodes(request=command.request, nodes=found)
@@ -72,6 +90,8 @@ class NodeParameters:
         Raises:
             StudioError: The node does not answer.
         """
+        if (recorded := self.recorded_for(command.document)) is not None:
+            return await recorded.parameters(command)
         remote = await self._remote(command.node)
         views = await remote.views()
         return Parameters(request=command.request, node=remote.node, parameters=views)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import RouterGoneError
@@ -25,9 +26,12 @@ from studio.live.panels import (
     parameters,
     publishing,
     rates,
+    recorded,
+    recording,
     tool_publishing,
     topics,
 )
+from studio.live.time.recording_source import RecordingSource
 from studio.live.topics.browsers import BrowserTopics
 from studio.protocol.calls import FollowOperations
 from studio.protocol.commands import Commands, Scope
@@ -36,6 +40,7 @@ if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
     from studio.live.connection.ros_connection import RosConnection
+    from studio.live.time.document_source import DocumentSource
     from studio.protocol.listeners import Listener
 
 
@@ -44,15 +49,26 @@ _STOP_S: Final = 3.0
 
 
 class RosSystem:
-    """One part for each subject of panels; used on the event loop only."""
+    """One part for each subject of panels; used on the event loop only.
 
-    def __init__(self, wire: RosConnection) -> None:
+    Args:
+        wire: The connection.
+        bags: The folder in which topics are recorded.
+    """
+
+    def __init__(self, wire: RosConnection, bags: Path = Path(recording.FOLDER)) -> None:
         self.connection = wire
         self.changes = changes.Changes()
         self._epoch = wire.topics.epoch
         wire.on_change = self._connection_changed
         self.interfaces = interfaces.InterfaceTypes(wire)
+        self.source_of: Callable[[str], DocumentSource | None] = lambda _: None
+        """The topics that an open document shows; None: it is not open."""
+        self._recorded: dict[str, recorded.RecordedSystem] = {}
+        """By document, while that shows a recording."""
+        self.topics = topics.LiveTopics(wire)
         self.browser_topics = BrowserTopics(wire.topics)
+        self.browser_topics.source_of = self._recording_of
         self.logs = logs.NodeLogs(wire.topics, lambda: self.changes.changed_elsewhere("log"))
         self.graph = graph.GraphViews(wire)
         self.lifecycle = lifecycle.LifecycleNodes(wire)
@@ -74,9 +90,16 @@ class RosSystem:
         self.publishing = publishing.Publishing(wire)
         self.tools = tool_publishing.ToolPublishing(wire, self.goals)
         self.parameters = parameters.NodeParameters(wire)
+        self.parameters.recorded_for = lambda name: (
+            one.parameters if (one := self.recorded_for(name)) else None
+        )
+        self.interfaces.recorded_for = lambda name: (
+            one.types if (one := self._recording_of(name)) else None
+        )
         self.driving = driving.Driving(wire)
         self.lessons = lessons.CourseDemos(wire, partial(self.changes.changed, "lessons"))
         self.doctor = doctor.Doctor(wire, self._unanswered)
+        self.recording = recording.BagRecording(wire, bags)
         self.end_programs: Callable[[], Awaitable[None]] = _nothing
         """Ends what the owner runs, for it has joined the same system."""
         self._stopping: asyncio.Task[None] | None = None
@@ -108,6 +131,40 @@ class RosSystem:
             if state == "failed"
         )
 
+    def recorded_for(self, document: str) -> recorded.RecordedSystem | None:
+        """Return the system of the recording that a document shows; None: it shows none."""
+        source = self._recording_of(document)
+        known = self._recorded.get(document)
+        if known is not None and known.source is source:
+            return known
+        self._forget_recorded(document)
+        if source is None:
+            return None
+        made = recorded.RecordedSystem(source, self.changes.changed_elsewhere)
+        self._recorded[document] = made
+        return made
+
+    def time_switched(self, document: str) -> None:
+        """A document shows another time: what its pages follow is another's."""
+        self._forget_recorded(document)
+        self.browser_topics.switch(document)
+        self.changes.all_changed()
+
+    def moment_changed(self, document: str) -> None:
+        """A document shows another moment of its recording."""
+        if document in self._recorded:
+            self.changes.changed("log")
+            self.changes.changed("diagnostics")
+
+    def _forget_recorded(self, document: str) -> None:
+        if (known := self._recorded.pop(document, None)) is not None:
+            known.close()
+
+    def _recording_of(self, document: str) -> RecordingSource | None:
+        source = self.source_of(document) if document else None
+        current = None if source is None else source.current
+        return current if isinstance(current, RecordingSource) else None
+
     def check_router(self) -> None:
         """Pass if the router is there, or if there is no connection yet: one is made then.
 
@@ -129,6 +186,7 @@ class RosSystem:
     def attach(self, listener: Listener) -> None:
         """A page is there."""
         self.publishing.attach(listener)
+        self.recording.attach(listener)
 
     def detach(self, listener: Listener) -> None:
         """Remove a page: what it drove stops, and what it began goes on.
@@ -140,6 +198,7 @@ class RosSystem:
         self.parameters.detach(listener)
         self.changes.detach(listener)
         self.publishing.detach(listener)
+        self.recording.detach(listener)
         self.driving.detach(listener)
 
     def release(self, may_go_on: Callable[[str], bool]) -> None:
@@ -167,6 +226,7 @@ class RosSystem:
     async def let_go(self) -> None:
         """Let go of the connection, which is about to end."""
         await asyncio.gather(
+            self.recording.close(),
             self.let_go_of_operations(),
             self.doctor.let_go(),
             self.driving.let_go(),
@@ -189,6 +249,7 @@ class RosSystem:
     async def close(self) -> None:
         """End all that runs."""
         await asyncio.gather(
+            self.recording.close(),
             self.changes.close(),
             self.browser_topics.close(),
             self.let_go_of_operations(),
@@ -208,18 +269,24 @@ COMMANDS: Final = Commands[RosSystem](Scope.ROS)
 COMMANDS.viewer(FollowOperations, lambda ros, c, who: ros.follow(c, who))
 COMMANDS.include(calls.COMMANDS, lambda ros, _: ros.calls)
 COMMANDS.include(changes.COMMANDS, lambda ros, _: ros.changes)
-COMMANDS.include(diagnostics.COMMANDS, lambda ros, _: ros.diagnostics)
+COMMANDS.include(
+    diagnostics.COMMANDS, lambda ros, c: (ros.recorded_for(c.document) or ros).diagnostics
+)
 COMMANDS.include(doctor.COMMANDS, lambda ros, _: ros.doctor)
 COMMANDS.include(driving.COMMANDS, lambda ros, _: ros.driving)
 COMMANDS.include(goal_statuses.COMMANDS, lambda ros, _: ros.goal_statuses)
 COMMANDS.include(goals.COMMANDS, lambda ros, _: ros.goals)
-COMMANDS.include(graph.COMMANDS, lambda ros, _: ros.graph)
+COMMANDS.include(graph.COMMANDS, lambda ros, c: (ros.recorded_for(c.document) or ros).graph)
 COMMANDS.include(interfaces.COMMANDS, lambda ros, _: ros.interfaces)
 COMMANDS.include(lessons.COMMANDS, lambda ros, _: ros.lessons)
 COMMANDS.include(lifecycle.COMMANDS, lambda ros, _: ros.lifecycle)
-COMMANDS.include(logs.COMMANDS, lambda ros, _: ros.logs)
+COMMANDS.include(logs.COMMANDS, lambda ros, c: (ros.recorded_for(c.document) or ros).logs)
 COMMANDS.include(offers.COMMANDS, lambda ros, _: ros.offers)
 COMMANDS.include(parameters.COMMANDS, lambda ros, _: ros.parameters)
 COMMANDS.include(publishing.COMMANDS, lambda ros, _: ros.publishing)
-COMMANDS.include(rates.COMMANDS, lambda ros, _: ros.connection.topics)
-COMMANDS.include(topics.COMMANDS, lambda ros, _: ros.connection)
+COMMANDS.include(
+    rates.COMMANDS,
+    lambda ros, c: one.source if (one := ros.recorded_for(c.document)) else ros.connection.topics,
+)
+COMMANDS.include(recording.COMMANDS, lambda ros, _: ros.recording)
+COMMANDS.include(topics.COMMANDS, lambda ros, c: ros.recorded_for(c.document) or ros.topics)

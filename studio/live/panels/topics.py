@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.live.connection.topic_kinds import carried_types, kind_for
 from studio.protocol.commands import Commands, Scope
@@ -25,10 +25,57 @@ if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
     from studio.ros.duration import Duration
     from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.qos import QoSProfile
 
 ENDS_MAX: Final = 100
 """Endpoints listed of one side; `/rosout` has one for every node."""
 MISFITS_MAX: Final = 20
+
+
+class OffersQos(Protocol):
+    """An endpoint."""
+
+    @property
+    def type_name(self) -> str:
+        """Of its messages."""
+        ...
+
+    @property
+    def type_hash(self) -> str:
+        """As its token has it."""
+        ...
+
+    @property
+    def qos(self) -> QoSProfile:
+        """How it publishes or subscribes."""
+        ...
+
+
+class AnswersTopics(Protocol):
+    """A system whose topics are asked for."""
+
+    async def topics(self, command: ListTopics, /) -> TopicTable:
+        """Return every topic."""
+        ...
+
+    def ends(self, command: GetTopicEnds, /) -> TopicEnds:
+        """Return who is at the ends of a topic; raises a StudioError."""
+        ...
+
+
+class LiveTopics:
+    """The topics of the system that the studio is connected with."""
+
+    def __init__(self, connection: RosConnection) -> None:
+        self._connection = connection
+
+    async def topics(self, command: ListTopics, /) -> TopicTable:
+        """Return every topic; without a connection there is none."""
+        return await topic_table(self._connection, command)
+
+    def ends(self, command: GetTopicEnds, /) -> TopicEnds:
+        """Return who is at the ends of a topic; errors as for `topic_ends`."""
+        return topic_ends(self._connection, command)
 
 
 async def topic_table(connection: RosConnection, command: ListTopics) -> TopicTable:
@@ -82,10 +129,15 @@ def _others(ends: Iterable[GraphEndpoint], own_zid: str) -> int:
 
 
 def _end(endpoint: GraphEndpoint, own_zid: str) -> TopicEnd:
+    return end_of(endpoint.node.path, endpoint, own=endpoint.node.zid == own_zid)
+
+
+def end_of(node: str, endpoint: OffersQos, *, own: bool) -> TopicEnd:
+    """Return the view of an endpoint of a node."""
     qos = endpoint.qos
     return TopicEnd(
-        node=endpoint.node.path,
-        own=endpoint.node.zid == own_zid,
+        node=node,
+        own=own,
         type_name=endpoint.type_name,
         reliability=_policy(qos.reliability.name),
         durability=_policy(qos.durability.name),
@@ -141,6 +193,6 @@ def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
     return []
 
 
-COMMANDS: Final = Commands["RosConnection"](Scope.ROS)
-COMMANDS.viewer(ListTopics, lambda one, c, _: topic_table(one, c))
-COMMANDS.viewer(GetTopicEnds, lambda one, c, _: topic_ends(one, c))
+COMMANDS: Final = Commands[AnswersTopics](Scope.ROS)
+COMMANDS.viewer(ListTopics, lambda one, c, _: one.topics(c))
+COMMANDS.viewer(GetTopicEnds, lambda one, c, _: one.ends(c))

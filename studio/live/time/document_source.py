@@ -100,6 +100,11 @@ class DocumentSource:
         """Implement `TopicSource.types`."""
         return self._current.types
 
+    @property
+    def later_tf(self) -> Sequence[RawSample]:
+        """Implement `TopicSource.later_tf`."""
+        return self._current.later_tf
+
     def catalogue(self) -> list[Topic]:
         """Implement `TopicSource.catalogue`."""
         return self._current.catalogue()

@@ -30,7 +30,6 @@ from studio.protocol.playback import (
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
@@ -72,9 +71,9 @@ class DocumentTime:
         self._closed = False
         self.past: Callable[[], ShownRecording | None] = lambda: None
         """Gives what is kept of the last minutes, held once more; None: nothing is."""
-        self.on_switch: Callable[[], Awaitable[None] | None] = lambda: None
+        self.on_switch: Callable[[], Awaitable[None]] = _nothing
         """Called once topics come from elsewhere."""
-        self.on_moment: Callable[[], object] = lambda: None
+        self.on_moment: Callable[[], Awaitable[None]] = _nothing
         """Called once all have been given another moment: it is drawn at once."""
 
     @property
@@ -173,8 +172,7 @@ class DocumentTime:
         self._send()
         if self._shown is not None:
             self._audience.send(_topics_event(self._shown.recording))
-        if (waiting := self.on_switch()) is not None:
-            await waiting
+        await self.on_switch()
 
     # Where it stands
 
@@ -267,7 +265,7 @@ class DocumentTime:
         if (trouble := await done) is not None:
             raise trouble
         if source is self._playing:
-            self.on_moment()
+            await self.on_moment()
             self._send()
 
     async def _keep_telling(self) -> None:
@@ -312,9 +310,8 @@ class DocumentTime:
         return (at_ns - self._zero_ns) / _S
 
 
-def title_of(path: Path) -> str:
-    """Return the name of a bag, by its folder or file."""
-    return path.name if path.is_dir() else path.stem
+async def _nothing() -> None:
+    return
 
 
 def _end(source: RecordingSource | None, shown: ShownRecording | None) -> None:

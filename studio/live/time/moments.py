@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 TF: Final = "/tf"
 TF_STATIC: Final = "/tf_static"
+LOG: Final = "/rosout"
 LATCHED_BY_NAME: Final = frozenset({TF_STATIC, "/robot_description", "/map"})
 """Taken as latched where a recording does not say how they were published."""
 TF_HISTORY_NS: Final = 10_000_000_000
@@ -43,8 +44,9 @@ class Wanted(NamedTuple):
 
 
 def is_latched(topic: RecordedTopic) -> bool:
-    """Return whether a topic was latched, by its QoS or else by its name."""
-    return topic.is_latched or (not topic.qos and topic.name in LATCHED_BY_NAME)
+    """Return whether a topic was latched, by its QoS or else by its name; a log always is."""
+    is_so_by_name = not topic.qos and topic.name in LATCHED_BY_NAME
+    return topic.is_latched or is_so_by_name or topic.name == LOG
 
 
 @dataclass(slots=True)
@@ -100,9 +102,7 @@ class Moments:
     def _is_single(self, one: Wanted) -> bool:
         return one.depth == 1 and not one.is_latched and one.topic.name != TF
 
-    def _last(
-        self, one: Wanted, at_ns: int, since_ns: int, *, settled: bool
-    ) -> list[RawSample]:
+    def _last(self, one: Wanted, at_ns: int, since_ns: int, *, settled: bool) -> list[RawSample]:
         name = one.topic.name
         if name == TF:
             return self._tf(at_ns, max(since_ns, at_ns - TF_HISTORY_NS), settled=settled)
@@ -119,8 +119,10 @@ class Moments:
     def _kept(self, name: str, at_ns: int, most: int) -> list[RawSample]:
         """Return the last of a latched topic; while they are the same, the same list."""
         held = self._held.get((name, most))
-        if held is not None and held.begin_ns <= at_ns and (
-            held.end_ns is None or at_ns < held.end_ns
+        if (
+            held is not None
+            and held.begin_ns <= at_ns
+            and (held.end_ns is None or at_ns < held.end_ns)
         ):
             return held.samples
         samples = self.recording.last(name, at_ns, most)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import logging
 import threading
 import time
@@ -43,6 +44,9 @@ _READING_S: Final = 0.05
 """So long a tick reads at most: what is slower to read makes the time go slower."""
 _ELAPSED_MAX_NS: Final = 250_000_000
 """Time does not go further in a tick, as after the machine slept."""
+_AHEAD_NS: Final = 300_000_000
+_AHEAD_MAX: Final = 200
+"""Messages wait that long for their transforms, and so many come then."""
 _FLOW_NS: Final = 2_000_000_000
 _SILENT_S: Final = 3.0
 _WINDOW_MAX: Final = 10_000
@@ -121,6 +125,8 @@ class RecordingSource(SharedSource):
         self._readers: dict[_Reader, None] = {}
         self._reading: Iterator[Recorded] = iter(())
         self._next: Recorded | None = None
+        self._later: Sequence[RawSample] = ()
+        self._later_at_ns = -1
         self._begins_reading, self._read_end_ns = True, 0
         self._feeding = threading.RLock()
         """Held while anybody is given anything."""
@@ -196,6 +202,11 @@ class RecordingSource(SharedSource):
 
     @property
     @override
+    def later_tf(self) -> Sequence[RawSample]:
+        return () if self._head.playing else self._later
+
+    @property
+    @override
     def types(self) -> TypeLibrary:
         return self.recording.types
 
@@ -207,8 +218,7 @@ class RecordingSource(SharedSource):
     @override
     def catalogue(self) -> list[Topic]:
         return [
-            Topic(one.name, (one.type_name,), self._ends(one), ())
-            for one in self.recording.topics
+            Topic(one.name, (one.type_name,), self._ends(one), ()) for one in self.recording.topics
         ]
 
     @override
@@ -240,9 +250,7 @@ class RecordingSource(SharedSource):
 
     @override
     def begin(self, topic: str, fit: Fit) -> Stream:
-        stream = Stream(
-            fit, lambda made: self.open(topic, fit, made), self.hand_over, keeps=True
-        )
+        stream = Stream(fit, lambda made: self.open(topic, fit, made), self.hand_over, keeps=True)
         for one in tuple(self._readers):
             if one.stream is stream:
                 self.give_again(one)
@@ -340,6 +348,8 @@ class RecordingSource(SharedSource):
             self._make_jump()
         if self._head.playing:
             self._go_on()
+        elif self._later_at_ns != self._given_ns:
+            self._look_ahead(self._given_ns)
 
     def _stop(self, why: str) -> None:
         with self._heads:
@@ -376,6 +386,8 @@ class RecordingSource(SharedSource):
                 if name not in wanted or wanted[name].depth < one.stream.depth:
                     wanted[name] = one.wanted
             found = self._moments.at(wanted.values(), at_ns, since_ns, settled=settled)
+            if not self._head.playing:
+                self._look_ahead(at_ns)
             with self._settling:
                 self._give(readers, found, goes_on=goes_on)
                 self._given_ns, self._is_rough = at_ns, not settled
@@ -393,13 +405,19 @@ class RecordingSource(SharedSource):
                 reader.given = {} if samples else reader.given
                 reader.stream.take_past(samples)
             return
-        same = {one for one in readers if _stays(one, of_each[one])}
-        staying = {each for one in same for each in one.stream.subscribers()}
-        self.change_epoch(staying)
-        for reader, samples in of_each.items():
-            if reader not in same:
-                reader.given = numbered(samples)
-                reader.stream.begin_anew(samples)
+        others = [one for one in readers if not _stays(one, of_each[one])]
+        self.change_epoch([each for one in others for each in one.stream.subscribers()])
+        for reader in others:
+            reader.given = numbered(of_each[reader])
+            reader.stream.begin_anew(of_each[reader])
+
+    def _look_ahead(self, at_ns: int) -> None:
+        """Read the transforms for which messages wait that are there at a time."""
+        self._later_at_ns = at_ns
+        is_wanted = any(one.topic.name == TF for one in self._readers)
+        until_ns = at_ns + _AHEAD_NS
+        found = self.recording.messages([TF], at_ns + 1, until_ns) if is_wanted else ()
+        self._later = [one.sample for one in itertools.islice(found, _AHEAD_MAX)]
 
     def _go_on(self) -> None:
         """Let the time go on, and give all what came meanwhile."""

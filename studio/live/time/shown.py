@@ -29,7 +29,8 @@ class ShownRecording:
         path: str = "",
         close: Callable[[], object] | None = None,
     ) -> None:
-        self.recording, self.mode, self.title, self.path = recording, mode, title, path
+        self.recording, self.title, self.path = recording, title, path
+        self.mode: Literal["past", "bag"] = mode
         self._close, self._holders = close, 1
         self._lock = threading.Lock()
 

@@ -56,6 +56,10 @@ class DataLaneEnd(Protocol):
         """Queue what came; it never waits."""
         ...
 
+    def sees(self, document: str, /) -> bool:
+        """Whether its person may look at a document."""
+        ...
+
 
 class _Channel:
     """A topic as some browsers want it: one subscription, each message framed once for all."""
@@ -134,6 +138,7 @@ class _Browser:
 
     def __init__(self, lane: DataLaneEnd) -> None:
         self._lane = lane
+        self.commands: dict[int, Subscribe] = {}
         self.channels: dict[int, _Channel] = {}
         self.numbers: tuple[int, ...] = ()
         """Of its channels, each once and in order: read in every tick."""
@@ -147,11 +152,13 @@ class _Browser:
                 self._sent[subscription] = view
                 self._lane.send(view)
 
-    def put(self, subscription: int, channel: _Channel) -> None:
-        self.channels[subscription] = channel
+    def put(self, command: Subscribe, channel: _Channel) -> None:
+        self.commands[command.subscription] = command
+        self.channels[command.subscription] = channel
         self._number()
 
     def remove(self, subscription: int) -> None:
+        self.commands.pop(subscription, None)
         self.channels.pop(subscription, None)
         self._sent.pop(subscription, None)
         self._number()
@@ -164,10 +171,17 @@ class BrowserTopics:
     """The subscriptions of all browsers' data lanes, and what they receive.
 
     Used on the event loop only.
+
+    Args:
+        source: The topics of what runs now.
+
+    Attributes:
+        source_of: Gives those that a document shows; None: those of what runs now.
     """
 
     def __init__(self, source: TopicSource) -> None:
         self._source = source
+        self.source_of: Callable[[str], TopicSource | None] = lambda _: None
         self._browsers: dict[DataLaneEnd, _Browser] = {}
         self._channels: dict[_Key, _Channel] = {}
         self._numbers = itertools.count(1)
@@ -194,8 +208,19 @@ class BrowserTopics:
             case Subscribe() if len(browser.channels) >= SUBSCRIPTIONS_MAX:
                 reason = f"{SUBSCRIPTIONS_MAX} topics are shown by this page: close a panel first."
                 lane.send(NotSubscribed(subscription=command.subscription, reason=reason))
+            case Subscribe() if command.document and not lane.sees(command.document):
+                reason = "There is no such document."
+                lane.send(NotSubscribed(subscription=command.subscription, reason=reason))
             case Subscribe():
                 self._put(lane, browser, command)
+        self._close_unwanted()
+
+    def switch(self, document: str) -> None:
+        """A document shows another time: subscribe again what was subscribed for it."""
+        for lane, browser in tuple(self._browsers.items()):
+            for command in tuple(browser.commands.values()):
+                if command.document == document:
+                    self._put(lane, browser, command)
         self._close_unwanted()
 
     async def close(self) -> None:
@@ -209,20 +234,22 @@ class BrowserTopics:
 
     def _put(self, lane: DataLaneEnd, browser: _Browser, command: Subscribe) -> None:
         browser.remove(command.subscription)
-        key = tuple(command.model_dump(exclude={"subscription"}).values())
+        source = (command.document and self.source_of(command.document)) or self._source
+        # Of documents that show what runs now all share a channel.
+        key = (id(source), *command.model_dump(exclude={"subscription", "document"}).values())
         if channel := self._channels.get(key):
             # To those who wait for it first: what is kept would come to this one twice.
             self._hand_on((channel,), asyncio.get_running_loop().time())
         else:
-            channel = self._open(key, command)
-        browser.put(command.subscription, channel)
+            channel = self._open(key, command, source)
+        browser.put(command, channel)
         browser.send_states()
         if kept := channel.kept():
             lane.take(Tick((kept,)))
         if self._ticking is None or self._ticking.done():
             self._ticking = asyncio.create_task(self._tick())
 
-    def _open(self, key: _Key, command: Subscribe) -> _Channel:
+    def _open(self, key: _Key, command: Subscribe, source: TopicSource) -> _Channel:
         loop = asyncio.get_running_loop()
 
         def arrived() -> None:
@@ -236,7 +263,7 @@ class BrowserTopics:
                 loop.call_soon_threadsafe(self._send_states)
 
         number = next(self._numbers)
-        channel = self._channels[key] = _Channel(number, command, self._source, arrived, changed)
+        channel = self._channels[key] = _Channel(number, command, source, arrived, changed)
         return channel
 
     def _close_unwanted(self) -> None:

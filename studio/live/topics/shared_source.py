@@ -15,7 +15,7 @@ from studio.live.topics.subscription import Stream, Subscription
 from studio.live.topics.topic_rates import TopicRates
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from studio.live.topics.request import Endpoint, Fit, Request, StateKind
     from studio.live.topics.source import Connection, Topic
@@ -168,15 +168,15 @@ class SharedSource(ABC):
         for stream in streams.values():
             stream.close()
 
-    def change_epoch(self, staying: Container[Subscription] = ()) -> None:
+    def change_epoch(self, anew: Iterable[Subscription] | None = None) -> None:
         """Begin a new epoch: earlier messages do not belong to those that follow.
 
         Args:
-            staying: For these what came before is still what they would be given now.
+            anew: For the others what came before is still what they would be given now; None: it is
+                so for none.
         """
-        for one in self._wanted():
-            if one not in staying:
-                one.beginnings += 1
+        for one in self._wanted() if anew is None else anew:
+            one.beginnings += 1
         self._epoch += 1
 
     @property
@@ -188,6 +188,11 @@ class SharedSource(ABC):
     def now_ns(self) -> int:
         """The time of the messages that come now, since the Unix epoch."""
         return time.time_ns()
+
+    @property
+    def later_tf(self) -> Sequence[RawSample]:
+        """The messages of /tf that come next, where the time stands still; else none."""
+        return ()
 
     @property
     def is_refused(self) -> bool:

@@ -65,6 +65,11 @@ class TopicSource(Protocol):
         """Message types as this source defines them."""
         ...
 
+    @property
+    def later_tf(self) -> Sequence[RawSample]:
+        """The messages of /tf that come next, where the time stands still; else none."""
+        ...
+
     def catalogue(self) -> list[Topic]:
         """Return all topics by name."""
         ...

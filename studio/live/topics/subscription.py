@@ -104,6 +104,13 @@ class Subscription:
         stream, fit = self._stream, self.fit
         return [] if stream is None or fit is None else stream.kept(fit.depth)
 
+    def give_again(self) -> None:
+        """Put in what is kept once more: its subscriber forgot it."""
+        kept = self.kept()
+        self.clear()
+        if kept:
+            self.post(kept)
+
     def close(self) -> None:
         """Receive nothing more; afterwards `take` of the subscriber is not called any more."""
         self.is_closed = True

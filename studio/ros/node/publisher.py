@@ -22,23 +22,15 @@ if TYPE_CHECKING:
     from studio.ros.wire.zenoh import Outgoing
 
 
-class Publisher:
-    """Publishes on one topic; thread-safe.
+class RawPublisher:
+    """Publishes bytes on one topic, of a type that need not be known here; thread-safe."""
 
-    Attributes:
-        events: Handlers that call back on its events, work of its node.
-    """
-
-    def __init__(self, endpoint: Endpoint, msg_type: type[MessageValue]) -> None:
+    def __init__(self, endpoint: Endpoint) -> None:
         self.endpoint = endpoint
-        self.msg_type = msg_type
-        self._definition = definition_of(msg_type)
-        self._codec = codec_of(msg_type)
         self._lock = threading.Lock()
         self._sequence = 0
         self._gid = endpoint.gid
         self._outgoing: Outgoing | None = _declared(endpoint)
-        self.events: list[Work] = []
         endpoint.show()
 
     @property
@@ -53,14 +45,12 @@ class Publisher:
         """The profile asked for."""
         return self.endpoint.token.qos
 
-    def publish(self, msg: MessageValue | bytes | bytearray) -> None:
-        """Send a message, or one that is written as CDR already.
+    def send(self, payload: bytes | bytearray) -> None:
+        """Send a message that is written as CDR.
 
         Raises:
-            MessageValueError: It is of another type, or a field holds what it does not take.
             DestroyedError: The publisher was destroyed.
         """
-        payload = self._written(msg)
         with self._lock:
             outgoing = self._outgoing
             if outgoing is None:
@@ -90,6 +80,30 @@ class Publisher:
             outgoing, self._outgoing = self._outgoing, None
         if outgoing is not None:
             self.endpoint.hide(outgoing)
+
+
+class Publisher(RawPublisher):
+    """Publishes on one topic; thread-safe.
+
+    Attributes:
+        events: Handlers that call back on its events, work of its node.
+    """
+
+    def __init__(self, endpoint: Endpoint, msg_type: type[MessageValue]) -> None:
+        self.msg_type = msg_type
+        self._definition = definition_of(msg_type)
+        self._codec = codec_of(msg_type)
+        self.events: list[Work] = []
+        super().__init__(endpoint)
+
+    def publish(self, msg: MessageValue | bytes | bytearray) -> None:
+        """Send a message, or one that is written as CDR already.
+
+        Raises:
+            MessageValueError: It is of another type, or a field holds what it does not take.
+            DestroyedError: The publisher was destroyed.
+        """
+        self.send(self._written(msg))
 
     def _written(self, msg: MessageValue | bytes | bytearray) -> bytes | bytearray:
         if isinstance(msg, self.msg_type):  # the usual case comes first

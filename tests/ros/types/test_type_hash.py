@@ -41,6 +41,10 @@ GOLDEN = {
     "lifecycle_msgs/srv/GetState": "800a0a5aae599782...",
     "lifecycle_msgs/srv/ChangeState": "356fe34f0475a43a...",
     "lifecycle_msgs/msg/TransitionEvent": "d5f8873a2f014649...",
+    "rosbag2_interfaces/srv/Burst":
+        "3cba361b055bbec262593fcb727aeb9fb6d096f70b50e6cd9b548b63296f2380",
+    "rosbag2_interfaces/srv/Play":
+        "e87b287e52219f5f32127c876a0688c537b8a5762612f33b8e740c3b89d19d2b",
     "std_srvs/srv/Trigger": "eeff2cd6fa5ad9d2...",
     "std_srvs/srv/SetBool": "abe9e4bb6b41b40e...",
     "std_srvs/srv/Empty": "5888399dedec5ccc...",

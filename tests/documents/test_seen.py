@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from studio.documents.engine import seen_document
+from studio.documents.seen import seen_document
 from studio.protocol.displays import AddDisplay
 from studio.protocol.doctor import ExamineSystem
 from tests.support.open_documents import engine, opened, until

@@ -1,0 +1,92 @@
+"""Writing a part of a recording into a bag: a cut of a file, or the last minutes in memory."""
+
+from __future__ import annotations
+
+import shutil
+from typing import TYPE_CHECKING, Final
+
+from studio.bags.writer import BagWriter
+from studio.errors import RecordingError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from pathlib import Path
+
+    from studio.bags.recording import RecordedTopic, Recording
+    from studio.bags.writer import Storing, Written
+
+_TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
+_BROADCASTERS_MAX: Final = 1_000
+_DEPTH_MAX: Final = 100
+_REPORT_EVERY: Final = 500
+"""Messages between two reports of progress."""
+
+
+def write_recording(  # noqa: PLR0913 - a part has two ends
+    recording: Recording,
+    folder: Path,
+    topics: Iterable[str],
+    begin_ns: int,
+    end_ns: int,
+    progress: Callable[[float], object],
+    *,
+    storing: Storing | None = None,
+) -> Written:
+    """Write the messages of [begin_ns, end_ns) into a new bag, with their times.
+
+    What a late subscriber would have been given at the beginning, the last messages of latched
+    topics, comes first, with the time of the beginning: a cut without it would show no robot.
+
+    Args:
+        recording: Where they are.
+        folder: Of the new bag.
+        topics: Names of those that are wanted; empty: all.
+        begin_ns: ns since the Unix epoch; `end_ns` likewise.
+        end_ns: Behind the last message.
+        progress: Is told the share that is done, 0 to 1; what it raises ends the writing, and no
+            bag is left.
+        storing: How it is written.
+
+    Raises:
+        BagNotWrittenError: There is something at the path, or the disk refuses it.
+        RecordingError: There is no such topic, or the range is empty.
+    """
+    chosen = _chosen(recording, topics)
+    if end_ns <= begin_ns:
+        raise RecordingError("The end of the part comes before its beginning: give a later end.")
+    writer = BagWriter(folder, recording.types, storing)
+    try:
+        numbers = {topic.name: writer.add_topic(topic) for topic in chosen}
+        for topic in chosen:
+            if topic.is_latched:
+                for sample in recording.last(topic.name, begin_ns - 1, _kept(topic)):
+                    writer.write(numbers[topic.name], sample._replace(received_ns=begin_ns))
+        for count, (topic, sample) in enumerate(recording.messages(numbers, begin_ns, end_ns)):
+            if count % _REPORT_EVERY == 0:
+                progress((sample.received_ns - begin_ns) / (end_ns - begin_ns))
+            writer.write(numbers[topic], sample)
+        written = writer.close()
+    except BaseException:
+        writer.abandon()
+        shutil.rmtree(writer.path, ignore_errors=True)
+        raise
+    progress(1.0)
+    return written
+
+
+def _chosen(recording: Recording, topics: Iterable[str]) -> list[RecordedTopic]:
+    known = {one.name: one for one in recording.topics}
+    names = list(dict.fromkeys(topics))
+    missing = [name for name in names if name not in known]
+    if missing:
+        raise RecordingError(
+            f"It has no topic {missing[0][:200]}: studio bag info names those that it has."
+        )
+    return [known[name] for name in names] if names else list(known.values())
+
+
+def _kept(topic: RecordedTopic) -> int:
+    """Return how many messages of a latched topic a late subscriber would have been given."""
+    if topic.type_name == _TRANSFORMS:  # many nodes broadcast, each keeps its last
+        return _BROADCASTERS_MAX
+    return min(max(one.depth for one in topic.qos), _DEPTH_MAX)

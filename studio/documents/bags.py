@@ -1,0 +1,166 @@
+"""Bags as documents: opened, shown in an open document, or with the robot that is in them."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import os
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import CdrError, CommandError, StudioError, UnknownTypeError
+from studio.files import is_file, is_folder
+from studio.live.time.recorded_robot import DESCRIPTION
+from studio.live.time.shown import ShownRecording
+from studio.packages.manifest import FILE_NAME as MANIFEST
+from studio.packages.received_texts import choose_packages, keep_description
+from studio.packages.workspace import bare_location
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from studio.bags.recording import Recording
+    from studio.packages.index import PackageIndex
+    from studio.packages.workspace import Location
+
+_SUFFIXES: Final = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
+_METADATA: Final = "metadata.yaml"
+_LISTED_MAX: Final = 1_000
+_STRING: Final = "std_msgs/msg/String"
+_TF: Final = ("/tf_static", "/tf")
+_TF_READ: Final = 2_000
+_TF_NS: Final = 10_000_000_000
+_NO_FRAME: Final = "map"
+_TELL_EVERY_S: Final = 0.2
+
+
+def is_bag(path: Path) -> bool:
+    """Return whether a path is a bag's: its folder, or a file of one; reads the disk."""
+    if path.name == _METADATA and is_file(path):
+        return is_bag(path.parent)
+    if not is_folder(path):
+        return path.name.lower().endswith(_SUFFIXES) and is_file(path)
+    if is_file(path / MANIFEST):
+        return False
+    try:
+        with os.scandir(path) as found:
+            names = [one.name for one, _ in zip(found, range(_LISTED_MAX), strict=False)]
+    except OSError:
+        return False
+    return any(one.lower().endswith(_SUFFIXES) for one in names)
+
+
+def bag_in(folder: Path) -> Path | None:
+    """Return the bag that a folder without a robot is or has in it, if that is a single one."""
+    if is_bag(folder):
+        return folder
+    try:
+        with os.scandir(folder) as found:
+            inside = [one.path for one, _ in zip(found, range(_LISTED_MAX), strict=False)]
+    except OSError:
+        return None
+    bags = [Path(one) for one in sorted(inside) if is_bag(Path(one))]
+    return bags[0] if len(bags) == 1 else None
+
+
+def folder_of_bag(path: Path) -> Path:
+    """Return what a bag is called by: the folder for its `metadata.yaml`."""
+    return path.parent if path.name == _METADATA else path
+
+
+async def opened_bag(path: Path, told: Callable[[float], object]) -> ShownRecording:
+    """Open a bag, to be let go once.
+
+    Args:
+        path: As `is_bag` takes it.
+        told: Told how far the reading of a damaged or unfinished file is, 0 to 1.
+
+    Raises:
+        BagNotReadableError: Nothing of it can be read.
+    """
+    from studio.bags.opening import open_bag  # noqa: PLC0415 - imports mcap
+
+    loop, told_s = asyncio.get_running_loop(), 0.0
+
+    def progress(share: float) -> None:  # in the thread that reads
+        nonlocal told_s
+        now_s = time.monotonic()
+        if now_s - told_s >= _TELL_EVERY_S and not loop.is_closed():
+            told_s = now_s
+            loop.call_soon_threadsafe(told, share)
+
+    path = folder_of_bag(path)
+    bag = await asyncio.to_thread(open_bag, path, progress)
+    return ShownRecording(bag, "bag", bag.title, str(path), bag.close)
+
+
+def location_of_bag(
+    shown: ShownRecording, path: Path, data_folder: Path, known: Iterable[PackageIndex]
+) -> Location | Path:
+    """Return the file of the robot that a bag describes, or the place of a bare document.
+
+    Args:
+        shown: The bag.
+        path: Its folder or file.
+        data_folder: Where descriptions are kept.
+        known: Indexes of open documents, which may have the packages of its meshes.
+
+    Raises:
+        StudioError: The bag cannot be read, or the data folder cannot take it.
+    """
+    text = _description(shown.recording)
+    if text:
+        digest = hashlib.sha256(os.fsencode(path)).hexdigest()[:8]
+        try:
+            file = keep_description(data_folder, f"{path.stem} {digest}", text)
+        except StudioError:
+            file = None  # no robot: then the rest of the bag is shown
+        if file is not None:
+            choose_packages(data_folder, file, text, known)
+            return file
+    return bare_location(path, _root_frame(shown.recording), data_folder)
+
+
+def _description(recording: Recording) -> str:
+    """Return the first description of a robot in a recording; empty: it has none."""
+    found = next((one for one in recording.topics if one.name == DESCRIPTION), None)
+    first_ns = None if found is None else recording.next_ns(DESCRIPTION, recording.begin_ns - 1)
+    if found is None or first_ns is None or found.type_name != _STRING:
+        return ""
+    from studio.ros.cdr import codec_of  # noqa: PLC0415 - takes its time
+
+    sample = recording.latest([DESCRIPTION], first_ns)[DESCRIPTION]
+    try:
+        return str(codec_of(recording.types.message(_STRING)).decode(sample.payload).data)
+    except (CdrError, UnknownTypeError):
+        return ""
+
+
+def _root_frame(recording: Recording) -> str:
+    """Return the frame that most others of a recording hang on."""
+    from studio.ros.columns.transforms import TransformCodec  # noqa: PLC0415 - takes its time
+    from studio.tf.buffer import TransformBuffer  # noqa: PLC0415 - as above
+
+    buffer, codec = TransformBuffer(), TransformCodec()
+    known = {one.name for one in recording.topics}
+    until_ns = recording.begin_ns + _TF_NS
+    for topic in _TF:
+        for sample in recording.last(topic, until_ns, _TF_READ) if topic in known else ():
+            try:
+                buffer.put(codec.decode(sample.payload), static=topic == "/tf_static")
+            except CdrError:
+                continue
+    return next(iter(buffer.roots()), _NO_FRAME)
+
+
+def demand_bag(path: Path) -> None:
+    """Pass if a path is a bag's; reads the disk.
+
+    Raises:
+        CommandError: It is not.
+    """
+    if not is_bag(path):
+        raise CommandError(
+            f"{path.name} is no bag: choose a folder with metadata.yaml, or a .mcap or .db3 file."
+        )
