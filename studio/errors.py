@@ -61,6 +61,7 @@ StudioError
             InterfaceTextError
             UnknownTypeError
             InterfaceClassError
+            FieldPathError
         MessageValueError
             OtherMessageError
         CdrError
@@ -693,6 +694,14 @@ class InterfaceClassError(InterfaceError, AttributeError):
             + ", from the package that defines it."
         )
         self.given, self.word = given, word
+
+
+class FieldPathError(InterfaceError):
+    """Messages have no number at a path."""
+
+    def __init__(self, path: str, reason: str) -> None:
+        super().__init__(f'There is no number at "{path[:200]}": {reason}.')
+        self.path, self.reason = path, reason
 
 
 class MessageValueError(WireError, AssertionError):
