@@ -31,6 +31,8 @@ SOURCE_SIZE_LIMIT_BYTES = 20 << 20
 MESH_SIZE_LIMIT_BYTES = 512 << 20
 ZIP_SIZE_LIMIT_BYTES = 1 << 30
 """Unpacked size of an opened zip."""
+REWIND_BYTES = 256 << 20
+"""Memory for the last minutes of the topics that somebody looks at."""
 UPLOADS_QUOTA_BYTES = 4 << 30
 """Limit of all opened zips in the data folder together."""
 
@@ -84,6 +86,8 @@ class Settings:
     """Each Python file in one is a display of the owner's own, which is run."""
     run_folders: tuple[Path, ...] = ()
     """Whose launch files and nodes the owner may run, and whose programs edit, out of the page."""
+    rewind_bytes: int = REWIND_BYTES
+    """Memory for the last minutes of the ROS system; 0: they are not kept."""
     trusted: bool = False
     open_browser: bool = True
     wire: WireChoice = WireChoice()

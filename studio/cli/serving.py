@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 
 from studio.cli.joining import JOINING, add_joining_options
 from studio.errors import SettingsError
-from studio.settings import DEFAULT_HOST, DEFAULT_PORT
+from studio.settings import DEFAULT_HOST, DEFAULT_PORT, REWIND_BYTES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 
 _HIGHEST_PORT = 65535
+_REWIND_MB_MAX = 65536
 _EVERYWHERE = "0.0.0.0"
 _NEW_OBJECTS_MAX = 5_000
 """Between two garbage collections: an edit makes up to a thousand objects, which are collected
@@ -40,6 +41,14 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
         "auto",
         "where no router answers: auto starts one in this process for this machine, off starts "
         "none (default: auto)",
+    )
+    wire.add_argument(
+        "--rewind-mb",
+        type=_megabytes,
+        default=REWIND_BYTES >> 20,
+        metavar="N",
+        help="memory for the last minutes of what is looked at, to go back to; 0 keeps nothing "
+        f"(default: {REWIND_BYTES >> 20})",
     )
     parser.add_argument(
         "--lessons",
@@ -126,6 +135,13 @@ def _port(text: str) -> int:
     return number
 
 
+def _megabytes(text: str) -> int:
+    number = int(text)
+    if not 0 <= number <= _REWIND_MB_MAX:
+        raise argparse.ArgumentTypeError(f"{number} is not from 0 to {_REWIND_MB_MAX} megabytes")
+    return number
+
+
 def package_paths(options: argparse.Namespace) -> tuple[Path, ...]:
     """Return all `--package-path`, each of which may hold several, as PATH does."""
     parts = (part for given in options.package_path for part in given.split(os.pathsep))
@@ -163,6 +179,7 @@ def server_settings(options: argparse.Namespace) -> Settings:
         lesson_folders=tuple(one.expanduser().absolute() for one in options.lessons),
         display_folders=_folders("--displays", options.displays),
         run_folders=_run_folders(options.allow_run),
+        rewind_bytes=options.rewind_mb << 20,
         trusted=options.trust,
         open_browser=not options.no_browser,
         wire=WireChoice(options.router, tuple(options.connect), options.domain),

@@ -58,7 +58,7 @@ class Services:
         self._pool = mesh_pool()
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
-        self.wire = RosConnection(settings.wire)
+        self.wire = RosConnection(settings.wire, settings.rewind_bytes)
         self.run_folders = RunFolders(settings.run_folders, settings.data_folder)
         self.plugins = Plugins(settings.display_folders)
         self.on_time_switch: Callable[[str], object] = lambda _: None

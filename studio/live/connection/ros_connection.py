@@ -9,6 +9,8 @@ from studio.debounce import Throttle
 from studio.errors import CommandError, StudioError
 from studio.live.connection.nearby import Nearby
 from studio.live.connection.plan import planned_wire
+from studio.live.time.keeping import Keeping
+from studio.live.time.past import LivePast
 from studio.live.topics.zenoh_source import ZenohSource
 from studio.protocol.connection import WireState
 from studio.protocol.listeners import Audience, LastSent, send
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 
     from studio.live.connection.link import WireLink
     from studio.protocol.listeners import Listener
+    from studio.ros.qos import QoSProfile
     from studio.settings import WireChoice
 
 
@@ -36,9 +39,13 @@ class RosConnection:
     """Holds the connection for all documents, and sends every page its state.
 
     Zenoh is imported with the first `link` only: users without ROS do not pay for it.
+
+    Args:
+        choice: How ROS 2 is joined.
+        rewind_bytes: Memory for the last minutes of its topics; 0: they are not kept.
     """
 
-    def __init__(self, choice: WireChoice) -> None:
+    def __init__(self, choice: WireChoice, rewind_bytes: int = 0) -> None:
         self._choice = choice
         self._audience = Audience()
         self._link: WireLink | None = None
@@ -51,6 +58,11 @@ class RosConnection:
         self._closed = False
         self.topics = ZenohSource()
         """The topics of whatever system it is connected with."""
+        self.past = LivePast(rewind_bytes, lambda: self.topics.types, self._offered)
+        """The last minutes of them."""
+        self._keeping = Keeping(self.past, self.topics)
+        if rewind_bytes:
+            self.topics.past = self.past
         self.on_link: Callable[[WireLink | None], None] = _nobody
         """Called with each connection that is made, and with None when one was ended on demand."""
         self.on_change: Callable[[], None] = _nothing
@@ -61,12 +73,14 @@ class RosConnection:
     def attach(self, listener: Listener) -> None:
         """Send a page the state, now and whenever it changes."""
         self._audience.add(listener)
+        self._keeping.check(len(self._audience))
         send(listener, self._state())
         self._nearby.check()
 
     def detach(self, listener: Listener) -> None:
         """Forget a page; it need not be there."""
         self._audience.remove(listener)
+        self._keeping.check(len(self._audience))
 
     @property
     def current(self) -> WireLink | None:
@@ -117,6 +131,7 @@ class RosConnection:
         if self._opening is not None:
             await asyncio.wait({self._opening}, timeout=_OPENING_PATIENCE_S)
         link, self._link = self._link, None
+        await asyncio.to_thread(self._keeping.close)
         await asyncio.to_thread(self.topics.close)
         if link is not None:
             await asyncio.to_thread(link.close)
@@ -144,6 +159,7 @@ class RosConnection:
             raise CommandError(_CLOSING)
         self._link = link
         self.topics.attach(link)
+        self._keeping.check(len(self._audience))
         self.on_link(link)
         self._send()
         return link
@@ -157,6 +173,9 @@ class RosConnection:
                 loop.call_soon_threadsafe(self._trigger)
 
         return WireLink(self._choice, changed)
+
+    def _offered(self, topic: str) -> list[QoSProfile]:
+        return [one.qos for one in self.topics.publishers(topic)]
 
     def _is_alone(self) -> bool:
         """Whether there is a page but no connection."""

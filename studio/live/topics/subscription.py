@@ -13,6 +13,7 @@ from studio.live.topics.request import WAITING_BYTES_MAX, SubscriptionState
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from studio.live.time.past import Inbox
     from studio.live.topics.request import Fit, Request
     from studio.ros.node.samples import RawSample
 
@@ -249,6 +250,8 @@ class Stream:
         """By sender: samples up to this number came before the depth grew, and come again."""
         self._late: frozenset[Subscription] = frozenset()
         """Subscribers that joined since then, and take those that come again."""
+        self.inbox: Inbox | None = None
+        """Keeps what comes for those who look back."""
         self._wire = subscribe(self)
 
     @property
@@ -318,10 +321,14 @@ class Stream:
     def close(self) -> None:
         """Receive nothing more; in a thread, for it may wait."""
         self._wire.close()
+        if self.inbox is not None:
+            self.inbox.close()
 
     def take(self, samples: list[RawSample], count: int, _size: int) -> None:
         """Pass samples to all subscribers; called in a thread of the source."""
         self.arrivals.add(samples[-1].received_ns, count)
+        if self.inbox is not None:
+            self.inbox.put(samples)
         with self._lock:
             fresh = samples
             if self._cache is not None:

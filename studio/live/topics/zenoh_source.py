@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from typing_extensions import override
 
-from studio.errors import RosNameError, UnknownTypeError
+from studio.errors import RosNameError, StudioError, UnknownTypeError
 from studio.live.topics.request import Endpoint
 from studio.live.topics.shared_source import SharedSource
 from studio.live.topics.source import Topic
@@ -18,6 +18,7 @@ from studio.live.topics.source import Topic
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from studio.live.time.past import LivePast
     from studio.live.topics.request import Fit
     from studio.live.topics.source import Connection
     from studio.live.topics.subscription import Stream, Subscription
@@ -81,6 +82,8 @@ class ZenohSource(SharedSource):
     def __init__(self) -> None:
         super().__init__()
         self._link: Link | None = None
+        self.past: LivePast | None = None
+        """Keeps what comes; to be set before anything is subscribed."""
         self._due_to_fit = threading.Event()
         self._closed = False
         self._due: deque[Subscription] = deque()
@@ -174,7 +177,14 @@ class ZenohSource(SharedSource):
     @override
     def open(self, topic: str, fit: Fit, stream: Stream) -> RawSubscription:
         assert self._link is not None
-        return self._link.receive(topic, fit, stream)
+        if self.past is None:
+            return self._link.receive(topic, fit, stream)
+        stream.inbox = self.past.begin(topic, fit, lambda: stream.kept(stream.depth))
+        try:
+            return self._link.receive(topic, fit, stream)
+        except StudioError:
+            stream.inbox.close()
+            raise
 
     @override
     def measure(self, topic: str, kept_s: float) -> Meter | None:
