@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
@@ -127,10 +128,11 @@ class BlockTable:
     ) -> BlockTable:
         """Make a table of blocks by their begins, and of channel, block and mark in any order."""
         order = np.lexsort((pairs[1], pairs[0]))
-        channels, blocks, marks = (part[order] for part in pairs)
-        edges = [0, *(np.flatnonzero(np.diff(channels)) + 1).tolist(), len(channels)]
+        channels, blocks, marks = pairs[0][order], pairs[1][order], pairs[2][order]
+        cuts = (np.flatnonzero(np.diff(channels)) + 1).tolist()
+        edges = [0, *cuts, len(channels)]
         presence: dict[int, Presence] = {}
-        for first, last in zip(edges, edges[1:], strict=False):
+        for first, last in pairwise(edges):
             if first < last:
                 own = blocks[first:last]
                 presence[int(channels[first])] = Presence(
@@ -189,7 +191,7 @@ class BlockFile(Protocol):
         ...
 
     def sample(self, block: int, channel: int, place: int, gid: bytes) -> RawSample | None:
-        """Return one message; None: it is damaged, and another call of `entries` may name others."""
+        """Return one message; None: it is damaged, and `entries` may know better now."""
         ...
 
     def scanned(self, block: int, wanted: Mapping[int, Outline]) -> list[Recorded]:

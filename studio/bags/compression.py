@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Final, cast
+from typing import TYPE_CHECKING, Final, Protocol, cast
 
 import zstandard
-from lz4.frame import LZ4FrameDecompressor
+from lz4 import frame as _frame
 
 from studio.errors import DamagedPartError
 
@@ -21,6 +21,17 @@ ZSTD_MAGIC: Final = b"\x28\xb5\x2f\xfd"
 _STEP_BYTES: Final = 2**20
 _UNKNOWN: Final = (2**64 - 1, -1)
 """What frames say that do not tell their size."""
+
+
+class _LZ4Decompressor(Protocol):
+    """What is used of lz4's, which has no types."""
+
+    def decompress(self, data: bytes | memoryview, max_length: int) -> bytes:
+        """Return at most so many bytes."""
+        ...
+
+
+_LZ4: Final = cast("Callable[[], _LZ4Decompressor]", cast("object", _frame.LZ4FrameDecompressor))
 
 
 class _Tools(threading.local):
@@ -112,7 +123,7 @@ def _plain(data: bytes | memoryview, _size: int) -> bytes:
 
 
 def _content_size(data: bytes | memoryview) -> int:
-    """Return what a frame of zstd says to hold, or more than it may: by that much memory is taken."""
+    """Return what a frame of zstd says to hold; so much memory is taken for it."""
     try:
         size = zstandard.frame_content_size(data)
     except zstandard.ZstdError as error:
@@ -133,6 +144,6 @@ def _zstd(data: bytes | memoryview, size: int) -> bytes:
 def _lz4(data: bytes | memoryview, size: int) -> bytes:
     try:
         # One byte more than it should have, so that what is larger is noticed.
-        return cast("bytes", LZ4FrameDecompressor().decompress(data, max_length=size + 1))
+        return _LZ4().decompress(data, size + 1)
     except (RuntimeError, ValueError, EOFError) as error:
         raise DamagedPartError(f"it cannot be decompressed ({error})") from None

@@ -1,11 +1,11 @@
-"""An MCAP file, read chunk by chunk: whole chunks are kept a while, and scanned without a library."""
+"""An MCAP file, read chunk by chunk; the last chunks are kept, and scanned without a library."""
 
 from __future__ import annotations
 
 import os
 import threading
 import zlib
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol, TypeVar, cast
 
 import numpy as np
 
@@ -39,7 +39,19 @@ if TYPE_CHECKING:
 _INDEX_REGION_MAX: Final = 64 * 2**20
 _INDEX_HEAD_BYTES: Final = HEAD.size + 6
 TROUBLES_MAX: Final = 20
-_new = tuple.__new__
+_T = TypeVar("_T")
+
+
+class _Maker(Protocol):
+    """What makes a value of a named tuple."""
+
+    def __call__(self, kind: type[_T], values: tuple[object, ...], /) -> _T:
+        """Make it of its fields."""
+        ...
+
+
+_new = cast("_Maker", vars(tuple)["__new__"])
+"""Makes a named tuple without the call of its own constructor, which takes as long again."""
 
 
 class McapFile:
@@ -139,8 +151,7 @@ class McapFile:
             return region, len(region) + 100
 
         region = self._indexes.get((self.path, block, "index"), made)
-        assert isinstance(region, bytes)
-        return region, begin
+        return cast("bytes", region), begin
 
     def _found_by_scan(self, block: int) -> dict[int, Entries]:
         """Return which messages of each channel a block holds, by looking at all of it."""
@@ -150,13 +161,12 @@ class McapFile:
             return found, sum(one.times_ns.nbytes * 2 + 300 for one in found.values())
 
         found = self._indexes.get((self.path, block, "scan"), made)
-        assert isinstance(found, dict)
-        return found
+        return cast("dict[int, Entries]", found)
 
     # Its messages
 
     def sample(self, block: int, channel: int, place: int, gid: bytes) -> RawSample | None:
-        """Return one message; None: it is damaged, and another call of `entries` may name others."""
+        """Return one message; None: it is damaged, and `entries` may know better now."""
         data = self._data(block)
         if data is None:
             return None
@@ -317,7 +327,7 @@ def _message_at(data: bytes, channel: int, place: int) -> tuple[int, int, int, i
 
 
 def scan_messages(data: bytes, wanted: Mapping[int, Outline]) -> list[Recorded]:
-    """Return the messages of some channels among records, in their order; to where they are whole."""
+    """Return the messages of some channels among records, in their order; to the first damage."""
     found: list[Recorded] = []
     take, unpack, outline_of = found.append, MESSAGE_HEAD.unpack_from, wanted.get
     head, at, last = MESSAGE_HEAD.size, 0, len(data) - MESSAGE_HEAD.size

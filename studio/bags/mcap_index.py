@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from studio.bags.blocks import BlockTable
 from studio.bags import mcap_records
+from studio.bags.blocks import BlockTable
 from studio.bags.mcap_records import (
     CHUNK_INDEX,
     FOOTER,

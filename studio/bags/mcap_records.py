@@ -25,6 +25,7 @@ FOOTER_RECORD: Final = struct.Struct("<BQQQI")
 TAIL_BYTES: Final = FOOTER_RECORD.size + len(MAGIC)
 CHUNK_HEAD: Final = struct.Struct("<qqQII")
 """Of a chunk after opcode and length: begin, end, bytes inside, CRC, length of the name."""
+_COUNT: Final = struct.Struct("<HQ")
 U16, U32, U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 TEXT_BYTES_MAX: Final = 2**20
 """Of a schema, or of what stands with a channel."""
@@ -158,12 +159,10 @@ def read_statistics(data: bytes | memoryview) -> tuple[int, int, dict[int, int]]
     fields = Fields(data)
     messages, _schemas, _channels, _attachments, _metadata, chunks = fields.numbers("<QHIIII")
     fields.numbers("<QQ")
-    pairs = Fields(fields.raw(fields.number(U32)))
-    counts: dict[int, int] = {}
-    while pairs._at < len(pairs._data):  # noqa: SLF001
-        key, count = pairs.numbers("<HQ")
-        counts[key] = count
-    return messages, chunks, counts
+    pairs = fields.raw(fields.number(U32))
+    if len(pairs) % _COUNT.size:
+        raise DamagedPartError("the counts of channels are cut off")
+    return messages, chunks, dict(_COUNT.iter_unpack(pairs))
 
 
 def records(data: bytes | memoryview) -> Iterator[tuple[int, int, int]]:

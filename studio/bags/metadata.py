@@ -97,18 +97,16 @@ def metadata_of(text: str) -> BagMetadata:
         ValueError: It is no YAML, or says something else than it should.
     """
     whole = _loaded(text)
-    about = whole.get("rosbag2_bagfile_information", whole) if isinstance(whole, dict) else None
-    if not isinstance(about, dict):
-        raise ValueError("it has no rosbag2_bagfile_information")  # noqa: TRY004 - a text is wrong
     try:
-        return _metadata(cast("_Fields", about))
+        fields = cast("_Fields", whole)
+        return _metadata(fields.get("rosbag2_bagfile_information", fields))
     except (TypeError, KeyError, AttributeError) as error:
         raise ValueError(f"it lacks something, or has it in another form ({error!s:.60})") from None
 
 
 def _loaded(text: str) -> object:
     try:
-        return yaml.load(text, Loader=_LOADER)  # noqa: S506 - a safe loader
+        return yaml.load(text, Loader=_LOADER)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         reason = str(error).partition("\n")[0]
         raise ValueError(f"it is no YAML ({reason:.100})") from None

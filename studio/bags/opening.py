@@ -81,7 +81,7 @@ def _storage_of(file: Path) -> str | None:
 
 
 def _of_folder(folder: Path) -> _Found:
-    """Find the files of a folder, by its `metadata.yaml` or, without a sound one, by their names."""
+    """Find the files of a folder by its `metadata.yaml` or, without a sound one, by name."""
     listed = sorted(
         (one for one in folder.iterdir() if _storage_of(one) and is_file(one)), key=_natural
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -36,6 +37,7 @@ def newest(
     file: BlockFile, channels: Mapping[int, Outline], at_ns: int, most: int, since_ns: int
 ) -> list[RawSample]:
     """Return the newest messages of some channels in [since, at], at most so many, oldest first."""
+    whole: list[RawSample] = []
     for _ in range(_ATTEMPTS):
         places = [
             place for key in channels for place in _newest_places(file, key, at_ns, most, since_ns)
@@ -46,7 +48,7 @@ def newest(
         ]
         whole = [one for one in found if one is not None]
         if len(whole) == len(found):
-            return whole
+            break
     return whole
 
 
@@ -77,8 +79,9 @@ def _in_block(
     last = int(np.searchsorted(times_ns, span_ns[1], "right"))
     first = max(first, last - most)
     start = int(file.table.starts[block])
-    pairs = zip(times_ns[first:last].tolist(), places[first:last].tolist(), strict=True)
-    return [Place(time_ns, start, place, block, channel) for time_ns, place in pairs]
+    return [
+        Place(int(times_ns[i]), start, int(places[i]), block, channel) for i in range(first, last)
+    ]
 
 
 def next_time(file: BlockFile, channel: int, after_ns: int) -> int | None:
@@ -153,7 +156,7 @@ def messages(
 def _blocks_of(
     file: BlockFile, channels: Mapping[int, Outline], begin_ns: int, end_ns: int
 ) -> list[int]:
-    """Return the blocks that may hold messages of some channels in [begin, end), by their begins."""
+    """Return the blocks that may hold messages of some channels in [begin, end)."""
     table = file.table
     parts = [table.presence[key].blocks for key in channels if key in table.presence]
     if not parts:
@@ -173,7 +176,7 @@ def _whole_block(
     if table.begins_ns[block] < begin_ns or table.ends_ns[block] >= end_ns:
         found = [one for one in found if begin_ns <= one.sample.received_ns < end_ns]
     times_ns = [sample.received_ns for _, sample in found]
-    if any(one > other for one, other in zip(times_ns, times_ns[1:], strict=False)):
+    if any(one > other for one, other in pairwise(times_ns)):
         found.sort(key=lambda one: one.sample.received_ns)
     return found
 
