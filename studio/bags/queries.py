@@ -122,8 +122,8 @@ def add_counts(
     if presence is None:
         return
     edges = np.array(edges_ns, np.int64)
-    first = int(np.searchsorted(presence.ends_max_ns, edges[0], "left"))
-    last = int(np.searchsorted(presence.begins_ns, edges[-1], "left"))
+    first = int(np.searchsorted(presence.ends_max_ns, edges_ns[0], "left"))
+    last = int(np.searchsorted(presence.begins_ns, edges_ns[-1], "left"))
     for block in presence.blocks[first:last].tolist():
         times_ns = file.entries(block, channel).times_ns
         counts += np.diff(np.searchsorted(times_ns, edges, "left"))
