@@ -177,7 +177,6 @@ class RecordingSeries:
     def __init__(self, recording: Recording, memory: SeriesMemory = MEMORY) -> None:
         self._recording, self._memory = recording, memory
         self._lock = threading.RLock()
-        self._changed = threading.Condition(self._lock)
         self._lines: dict[tuple[str, str], _Line] = {}
         """The one that was asked for last is the last."""
         self._readings: list[_Reading] = []
@@ -191,7 +190,6 @@ class RecordingSeries:
             thread = self._thread
             for line in self._lines.values():
                 line.fail("The recording was closed.")
-            self._changed.notify_all()
         if thread is not None and thread is not threading.current_thread():
             thread.join()
         with self._lock:
@@ -228,17 +226,20 @@ class RecordingSeries:
         return SeriesPicture(found, exact or bool(trouble), done, count, trouble)
 
     def samples(self, topic: str, path: str) -> Samples:
-        """Return all samples of a number, as soon as all are read.
+        """Return all samples of a number that has been read.
 
         Raises:
-            RecordingError: There are none, or the recording was closed.
+            RecordingError: It has not, or not wholly, or there is none.
         """
-        with self._changed:
+        with self._lock:
             line = self._line(topic, path)
             self._begin()
-            self._changed.wait_for(lambda: line.trouble or self._is_read(line) or self._closed)
-            if line.trouble or self._closed:
-                raise RecordingError(line.trouble or "The recording was closed.")
+            if line.trouble:
+                raise RecordingError(line.trouble)
+            if not self._is_read(line) and not (
+                line.values and line.reading and line.reading.done == 1
+            ):
+                raise RecordingError(f"{topic} is still being read: try again in a moment.")
             return _pieces(line)[0]
 
     # With the lock held
@@ -305,12 +306,11 @@ class RecordingSeries:
                 raise
 
     def _give_up(self, lines: Sequence[_Line], trouble: str) -> None:
-        with self._changed:
+        with self._lock:
             for line in lines:
                 line.fail(trouble)
                 line.values = line.coarse = None
             self._readings = [one for one in self._readings if one.lines is not lines]
-            self._changed.notify_all()
 
     def _new_lines(self) -> list[_Line]:
         """Return the lines of one topic of which nothing was read."""
@@ -337,7 +337,7 @@ class RecordingSeries:
         if many > 2 * COARSE_PARTS:
             parts = list(self._parts(topic, begin_ns, end_ns, every=many // COARSE_PARTS))
             found = [_joined(parts, line) for line in lines]
-        with self._changed:
+        with self._lock:
             known = self._topic(topic)
             expected = min(known.count, _EXPECTED_MAX) if known else 0
             times = GrowingArray(self._memory, np.int64, expected)
@@ -374,7 +374,7 @@ class RecordingSeries:
             self._finish(reading)
             return
         values = [_read(line, part) for line in reading.lines]
-        with self._changed:
+        with self._lock:
             first_ns, last_ns = int(part.times_ns[0]), int(part.times_ns[-1])
             if reading.last_ns is not None and first_ns < reading.last_ns:
                 reading.ordered = False
@@ -391,7 +391,7 @@ class RecordingSeries:
         order = None
         if not reading.ordered:
             order = np.argsort(reading.times.filled(), kind="stable")
-        with self._changed:
+        with self._lock:
             if order is not None:
                 reading.times.reorder(order)
             for line in reading.lines:
@@ -405,7 +405,6 @@ class RecordingSeries:
                 if line.values is not None:
                     line.count = int(np.isfinite(line.values.filled()).sum())
                 line.show()
-            self._changed.notify_all()
 
     def _drop_old(self, reading: _Reading) -> None:
         """Drop what the recording itself has forgotten, if it is much."""

@@ -205,18 +205,22 @@ class GetSeries(Command):
 class Series(Event):
     """Answer to `get_series`: the least and the largest value of each column, in their order.
 
-    A column without a message has None for both.
+    A column without a message has None for both. What is not finite is left out.
     """
 
     type: Literal["series"] = "series"
     request: int
     first: tuple[float | None, ...]
     second: tuple[float | None, ...]
+    before: tuple[float, float] | None
+    """The last one before the range, its time and value; None: there is none near."""
+    after: tuple[float, float] | None
+    """The first one after it."""
     exact: bool
     """Whether every message was read; else only some were, and it is to be asked again."""
     done: float
     """The share that was read, 0 to 1."""
     count: int
-    """Messages that were read, of the whole recording."""
+    """Numbers that were read, of the whole recording."""
     trouble: str
     """Why there is no such number, in a sentence; else empty."""

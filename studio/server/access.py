@@ -29,6 +29,9 @@ ROUTES: Final = {
         "export_package", Role.PRESENTER, Scope.DOCUMENT
     ),
     "/api/documents/{document}/export/page": Permission("export_page", Role.GUEST, Scope.DOCUMENT),
+    "/api/documents/{document}/export/series": Permission(
+        "export_series", Role.GUEST, Scope.DOCUMENT
+    ),
     "/api/bags/{bag}/{file}": Permission("download_bag", Role.PRESENTER),
     "/api/copies": Permission("download_copies", Role.HELPER),
     "/api/commands": Permission("command", Role.GUEST),

@@ -3,10 +3,10 @@
 import asyncio
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any, Final, Literal, Protocol
+from typing import Annotated, Any, Final, Literal, Protocol
 from urllib.parse import quote
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Query, Request
 from pydantic import BaseModel
 from starlette.background import BackgroundTask
 from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
@@ -191,6 +191,9 @@ _PLAIN: Final = frozenset("-_.() ")
 """What a name in plain quotes may contain besides letters and digits of ASCII."""
 
 
+_Names = Annotated[list[str], Query(min_length=1, max_length=64)]
+
+
 class Exports:
     """The routes, and the engine that makes what they send."""
 
@@ -200,8 +203,10 @@ class Exports:
     def router(self) -> APIRouter:
         """Return all routes."""
         router = APIRouter(prefix="/api/documents/{document}/export")
-        for path, endpoint in (("urdf", self.urdf), ("package", self.package), ("page", self.page)):
-            router.add_api_route(f"/{path}", endpoint, response_class=Response, responses=_REFUSED)
+        for endpoint in (self.urdf, self.package, self.page, self.series):
+            router.add_api_route(
+                f"/{endpoint.__name__}", endpoint, response_class=Response, responses=_REFUSED
+            )
         return router
 
     async def urdf(
@@ -220,6 +225,12 @@ class Exports:
     async def page(self, document: str, theme: Literal["dark", "light"] = "dark") -> Response:
         """Return the 3D view as one page that needs no server."""
         return _sent(await self._engine.document(document).exports.page(dark=theme == "dark"))
+
+    async def series(self, document: str, topic: _Names, path: _Names) -> Response:
+        """Return plotted numbers over the whole recording as CSV, by topics and as many paths."""
+        lines = list(zip(topic, path, strict=False))
+        table = await self._engine.document(document).time.table(lines)
+        return _sent(Download("plot.csv", "text/csv", table))
 
 
 class HandedIn:

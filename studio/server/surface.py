@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+    from collections.abc import AsyncIterator, Awaitable, Callable, Iterator, Mapping, Sequence
     from pathlib import Path
 
     from studio.classroom.classroom import Classroom
@@ -43,8 +43,25 @@ class MakesDownloads(Protocol):
         ...
 
 
+class MakesTables(Protocol):
+    """The time that a document shows."""
+
+    async def table(self, lines: Sequence[tuple[str, str]], /) -> Iterator[bytes]:
+        """Return all samples of numbers over a recording, by topic and path, as CSV.
+
+        Raises:
+            StudioError: Not all were read yet, or there are none.
+        """
+        ...
+
+
 class OpenDocument(Protocol):
     """One document."""
+
+    @property
+    def time(self) -> MakesTables:
+        """The time that it shows."""
+        ...
 
     @property
     def scene(self) -> OpenScene:

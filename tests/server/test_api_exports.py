@@ -43,6 +43,16 @@ def test_what_cannot_be_exported_is_said(web: RunningWeb):
         assert client.get("/api/documents/gone/export/urdf").status_code == 404
 
 
+def test_a_table_has_a_path_of_each_topic(web: RunningWeb):
+    with web.client(Role.GUEST) as client:
+        answer = client.get(f"{EXPORT}/series?topic=/a&topic=/b&path=.x&path=.y[0]")
+        assert (answer.status_code, answer.text) == (200, "topic,path\n/a,.x\n/b,.y[0]\n")
+        assert "plot.csv" in answer.headers["content-disposition"]
+        refused = client.get(f"{EXPORT}/series?topic=/none&path=.x")
+        assert (refused.status_code, refused.json()["reason"]) == (409, "/none has no number.")
+        assert client.get(f"{EXPORT}/series?topic=/a").status_code == 422
+
+
 @pytest.mark.parametrize(
     "name",
     ['a"b.urdf', "a\\b.urdf", "../../etc/passwd", "a\r\nset-cookie: x=1", "🤖", "", "ünï code"],

@@ -11,7 +11,13 @@ from starlette.requests import ClientDisconnect
 
 from studio.classroom.classroom import Classroom
 from studio.documents.exports import Download
-from studio.errors import ExportError, SaveConflictError, UnknownDocumentError, UploadError
+from studio.errors import (
+    ExportError,
+    RecordingError,
+    SaveConflictError,
+    UnknownDocumentError,
+    UploadError,
+)
 from studio.live.topics.frames import Tick, chunk_of
 from studio.protocol.documents import CloseDocument, DocumentEntry, Documents, Done
 from studio.protocol.edits import Redo, Undo
@@ -69,8 +75,18 @@ class SmallExports:
         return Download("small.html", "text/html", (b"page",))
 
 
+class SmallTime:
+    """One table, of which `/none` has nothing."""
+
+    async def table(self, lines: Sequence[tuple[str, str]], /) -> Iterator[bytes]:
+        if ("/none", ".x") in lines:
+            raise RecordingError("/none has no number.")
+        return iter((b"topic,path\n", *(f"{topic},{path}\n".encode() for topic, path in lines)))
+
+
 class SmallDocument:
     def __init__(self) -> None:
+        self.time = SmallTime()
         self.scene = SmallScene()
         self.exports = SmallExports()
 

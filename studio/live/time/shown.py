@@ -5,6 +5,8 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Literal
 
+from studio.bags.series import RecordingSeries
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -19,6 +21,7 @@ class ShownRecording:
         title: Its name; of the last minutes none.
         path: Of its files, if it has any.
         mode: Whether it is a bag, or the last minutes of the live system.
+        series: The numbers of its messages that are plotted.
     """
 
     def __init__(
@@ -31,6 +34,7 @@ class ShownRecording:
     ) -> None:
         self.recording, self.title, self.path = recording, title, path
         self.mode: Literal["past", "bag"] = mode
+        self.series = RecordingSeries(recording)
         self._close, self._holders = close, 1
         self._lock = threading.Lock()
 
@@ -46,6 +50,8 @@ class ShownRecording:
         """Hold it no more; its files are closed after the last one. In a thread."""
         with self._lock:
             self._holders -= 1
-            if self._holders or self._close is None:
+            if self._holders:
                 return
-        self._close()
+        self.series.close()
+        if self._close is not None:
+            self._close()
