@@ -55,8 +55,15 @@ DISPLAYS_NAMED = {
     ("studio/live/displays/robot_models.py", "RobotModelDisplay"): "its meshes are read there",
 }
 COMMANDS_PASSED_ON = {
+    **dict.fromkeys(
+        ("AddDisplay", "RemoveDisplay", "SetDisplayProperty"), {"studio/live/displays/ghost.py"}
+    ),
     "AddToPackage": {"studio/live/programs/making.py"},
     "CreatePackage": {"studio/live/programs/making.py"},
+    **dict.fromkeys(
+        ("GetGraph", "GetNode", "GetParameterNodes", "GetParameters", "GetTopicEnds", "ListTopics"),
+        {"studio/live/panels/recorded.py"},
+    ),
     "GetTf": {"studio/live/displays/scene_frames.py"},
     "InteractWithMarker": {"studio/live/displays/marker_servers.py"},
     "GetUrdf": {"studio/server/api.py"},

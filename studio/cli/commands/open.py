@@ -1,4 +1,4 @@
-"""`studio open`: open a .xacro or .urdf file, a folder, a .zip, or what a .rviz file shows."""
+"""`studio open`: open a robot (.xacro, .urdf, folder, .zip), a bag, or what a .rviz file shows."""
 
 from __future__ import annotations
 
