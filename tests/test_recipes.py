@@ -55,15 +55,15 @@ DISPLAYS_NAMED = {
     ("studio/live/displays/robot_models.py", "RobotModelDisplay"): "its meshes are read there",
 }
 COMMANDS_PASSED_ON = {
-    **dict.fromkeys(
-        ("AddDisplay", "RemoveDisplay", "SetDisplayProperty"), {"studio/live/displays/ghost.py"}
-    ),
+    "AddDisplay": {"studio/live/displays/ghost.py"},
     "AddToPackage": {"studio/live/programs/making.py"},
     "CreatePackage": {"studio/live/programs/making.py"},
-    **dict.fromkeys(
-        ("GetGraph", "GetNode", "GetParameterNodes", "GetParameters", "GetTopicEnds", "ListTopics"),
-        {"studio/live/panels/recorded.py"},
-    ),
+    "GetGraph": {"studio/live/panels/recorded.py"},
+    "GetNode": {"studio/live/panels/recorded.py"},
+    "GetParameterNodes": {"studio/live/panels/recorded.py"},
+    "GetParameters": {"studio/live/panels/recorded.py"},
+    "GetTopicEnds": {"studio/live/panels/recorded.py"},
+    "ListTopics": {"studio/live/panels/recorded.py"},
     "GetTf": {"studio/live/displays/scene_frames.py"},
     "InteractWithMarker": {"studio/live/displays/marker_servers.py"},
     "GetUrdf": {"studio/server/api.py"},
@@ -72,7 +72,9 @@ COMMANDS_PASSED_ON = {
         "studio/live/displays/robot_models.py",
     },
     "Publish": {"studio/live/panels/publication_work.py"},
+    "RemoveDisplay": {"studio/live/displays/ghost.py"},
     "SendGoal": {"studio/live/panels/goal_work.py"},
+    "SetDisplayProperty": {"studio/live/displays/ghost.py"},
 }
 """Commands whose work a second file does, or that come by HTTP, too."""
 VERBS_IMPORTED = {"demo": {"studio/cli/commands/open.py"}}
