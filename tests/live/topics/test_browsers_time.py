@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
 
 from studio.live.time.recording_source import RecordingSource
 from studio.live.topics.browsers import BrowserTopics
@@ -15,9 +14,6 @@ from tests.support.open_documents import until
 from tests.support.topic_worlds import STRING, text_of, text_payload
 from tests.support.transforms import S
 
-if TYPE_CHECKING:
-    from studio.live.topics.source import TopicSource
-
 
 def heard(hearer: KeepingHearer) -> list[str]:
     return [text_of(one.payload) for one in hearer.came]
@@ -26,7 +22,7 @@ def heard(hearer: KeepingHearer) -> list[str]:
 def test_a_page_hears_the_time_of_the_document_that_it_names_and_shares_what_runs_now():
     async def run() -> None:
         live, recording = MemorySource(), RecordingSource(words(), "/bag", BEGIN + 30 * S)
-        publisher, shown = live.offer("/words", STRING), dict[str, TopicSource]()
+        publisher, shown = live.offer("/words", STRING), dict[str, RecordingSource]()
         topics = BrowserTopics(live)
         topics.source_of = shown.get
         one, other = KeepingHearer(), KeepingHearer()
