@@ -31,7 +31,7 @@ float64 y
 float64 z
 """
 PATH: Final = ".point.x"
-_CDR: Final = struct.Struct("<4xiII4s4x3d").pack
+_CDR: Final = struct.Struct("<4xiII4s3d").pack
 
 
 def point_cdr(number: float, frame: bytes = b"map\0") -> bytes:
