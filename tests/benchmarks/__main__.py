@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
+    bag_plot,
     classroom,
     copies,
     data_images,
@@ -59,6 +60,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "tf": tf.run,
     "wire": wire.run,
     "recording": recording.run,
+    "bag_plot": bag_plot.run,
     "displays": displays.run,
     "loop": loop.run,
     "data": data_lane.run,
