@@ -61,7 +61,7 @@ const FIRST = 1024;
 /** Ten minutes at a thousand in a second: 10 MB. */
 const MOST = 600_000;
 /** Two that are further apart have nothing between them. */
-const GAP_S = 2;
+export const GAP_S = 2;
 
 /** What came of one number, the oldest first; in a buffer that grows, and drops the oldest at last. */
 export class Samples {

@@ -3877,13 +3877,15 @@ export interface SendGoal {
 /**
  * Answer to `get_series`: the least and the largest value of each column, in their order.
  *
- * A column without a message has None for both.
+ * A column without a message has None for both. What is not finite is left out.
  */
 export interface Series {
   type: "series";
   request: number;
   first: (number | null)[];
   second: (number | null)[];
+  before: [number, number] | null;
+  after: [number, number] | null;
   exact: boolean;
   done: number;
   count: number;

@@ -151,6 +151,10 @@ class _Line:
         self.trouble = trouble
         self.show()
 
+    def forget(self) -> None:
+        """Let go of what was read."""
+        self.coarse = self.reading = self.values = None
+
 
 class _Reading:
     """Lines of one topic that are read together: the times of all of them."""
@@ -193,6 +197,8 @@ class RecordingSeries:
         if thread is not None and thread is not threading.current_thread():
             thread.join()
         with self._lock:
+            for line in self._lines.values():
+                line.forget()
             self._lines.clear()
             self._readings.clear()
 
@@ -248,7 +254,7 @@ class RecordingSeries:
         line = self._lines.pop((topic, path), None) or self._new_line(topic, path)
         self._lines[topic, path] = line
         while len(self._lines) > LINES_MAX:
-            self._lines.pop(next(iter(self._lines)))
+            self._lines.pop(next(iter(self._lines))).forget()
         return line
 
     def _new_line(self, topic: str, path: str) -> _Line:
@@ -309,7 +315,7 @@ class RecordingSeries:
         with self._lock:
             for line in lines:
                 line.fail(trouble)
-                line.values = line.coarse = None
+                line.forget()
             self._readings = [one for one in self._readings if one.lines is not lines]
 
     def _new_lines(self) -> list[_Line]:

@@ -65,13 +65,10 @@ def test_columns_have_the_extremes_of_each_part_in_their_order(
     if width:
         assert shown == naive(numbers, begin, end, count)
     finite = [one for one in numbers if math.isfinite(one[1])]
-    assert found.before == max((one for one in finite if one[0] < begin), default=None, key=first)
+    before = [one for one in finite if one[0] < begin]
+    assert found.before == (before[-1] if before else None)
     after = [one for one in finite if one[0] > end]
     assert found.after == (after[0] if after else None)
-
-
-def first(sample: tuple[int, float]) -> int:
-    return sample[0]
 
 
 def whole(bag: Bag, series: RecordingSeries, path: str = PATH, columns: int = 10) -> SeriesPicture:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from tests.benchmarks import (
     bag_drag,
+    bag_plot,
     classroom,
     copies,
     data_images,
@@ -61,6 +62,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "wire": wire.run,
     "recording": recording.run,
     "bag_drag": bag_drag.run,
+    "bag_plot": bag_plot.run,
     "displays": displays.run,
     "loop": loop.run,
     "data": data_lane.run,

@@ -31,7 +31,7 @@ from studio.ros.node.samples import RawSample
 from studio.scene.host import SUBPROTOCOL
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable
+    from collections.abc import AsyncIterator, Callable, Iterator, Sequence
 
     from studio.documents.exports import MeshNames
     from studio.live.topics.browsers import DataLaneEnd

@@ -1,4 +1,4 @@
-/** The picture of a plot: drawn anew while it runs, held still while somebody looks closer. */
+/** The picture of what comes now: drawn anew while it runs, held still while somebody looks closer. */
 
 /** @import { Signal } from "vendor/preact.js" */
 
@@ -9,20 +9,13 @@ import { t } from "../../lib/i18n.js";
 import {
   columnsOf,
   columnTimes,
-  keyOf,
   nowOfSamples,
   samplesOf,
   series,
   span_s,
 } from "../../model/plotting.js";
 import { theme } from "../../model/view.js";
-import Plot from "../../vendor/uplot.js";
-
-const FRAME_MS = 30;
-const COLORS = 8;
-
-/** @param {number} at @returns {string} the CSS colour of a line */
-export const colorOf = (at) => `var(--plot-${(at % COLORS) + 1})`;
+import { createChart, linesOf, whileSeen } from "./lines.js";
 
 /** @param {{hidden: ReadonlySet<string>, held: Signal<Span | null>, pointed_s: Signal<number | null>}} props */
 export function PlotChart({ hidden, held, pointed_s }) {
@@ -32,19 +25,9 @@ export function PlotChart({ hidden, held, pointed_s }) {
   useEffect(() => {
     const parent = element.current;
     if (!parent) return undefined;
-    const style = getComputedStyle(parent);
-    const lines = all.map((one, at) => ({
-      label: keyOf(one),
-      color: style.getPropertyValue(`--plot-${(at % COLORS) + 1}`),
-      shown: !hidden.has(keyOf(one)),
-    }));
-    const look = {
-      grid: style.getPropertyValue("--line"),
-      text: style.getPropertyValue("--muted"),
-      font: `11px ${style.fontFamily}`,
-    };
     const time = (/** @type {number} */ axis_s) => drawn.current.now_s + axis_s;
-    const chart = createChart(parent, lines, look, {
+    const chart = createChart(parent, linesOf(all, hidden, parent), {
+      words: (times) => times.map((one) => `${round(one)} s`),
       onPoint: (axis_s) => {
         pointed_s.value = axis_s === null ? null : time(axis_s);
       },
@@ -83,114 +66,5 @@ function running() {
   return { from_s: to_s - span_s.peek(), to_s, now_s: to_s };
 }
 
-/** @param {() => void} draw as often as it can be seen @returns {() => void} the end of it */
-function whileSeen(draw) {
-  let next_ms = 0;
-  let frame = requestAnimationFrame(function step(now_ms) {
-    frame = requestAnimationFrame(step);
-    if (now_ms < next_ms) return;
-    next_ms = now_ms + FRAME_MS;
-    draw();
-  });
-  return () => cancelAnimationFrame(frame);
-}
-
-/** @typedef {{label: string, color: string, shown: boolean}} Line */
-/** @typedef {{grid: string, text: string, font: string}} Look */
-/**
- * @typedef {object} Events
- * @property {(time_s: number | null) => void} onPoint where the pointer is, in the seconds of the axis; null: elsewhere
- * @property {(from_s: number, to_s: number) => void} onZoom a span was dragged over
- * @property {() => void} onReset a double click
- */
-
-/** A drag of fewer pixels was a click. */
-const DRAG_LEAST_PX = 6;
-
-/**
- * Lines over time: uPlot, wrapped.
- *
- * @param {HTMLElement} parent
- * @param {readonly Line[]} lines
- * @param {Look} look
- * @param {Events} events
- */
-function createChart(parent, lines, look, events) {
-  const axis = {
-    stroke: look.text,
-    font: look.font,
-    grid: { stroke: look.grid, width: 1 },
-    ticks: { show: false },
-  };
-  const chart = new Plot(
-    {
-      width: Math.max(parent.clientWidth, 50),
-      height: Math.max(parent.clientHeight, 50),
-      legend: { show: false },
-      scales: { x: { time: false, auto: false }, y: { range: padded } },
-      axes: [
-        { ...axis, size: 28, values: (_, all) => all.map((one) => `${round(one)} s`) },
-        { ...axis, size: 58 },
-      ],
-      cursor: { points: { size: 5 }, drag: { x: true, y: false, setScale: false } },
-      series: [{}, ...lines.map(({ label, color, shown }) => lineOf(label, color, shown))],
-      hooks: {
-        setCursor: [
-          (one) => {
-            const left = one.cursor.left ?? -1;
-            events.onPoint(left < 0 ? null : one.posToVal(left, "x"));
-          },
-        ],
-        setSelect: [(one) => zoom(one, events)],
-      },
-    },
-    [[], ...lines.map(() => [])],
-    parent,
-  );
-  const reset = () => events.onReset();
-  chart.over.addEventListener("dblclick", reset);
-  return {
-    /** @param {readonly number[]} times @param {readonly (readonly (number | null | undefined)[])[]} values @param {number} from_s @param {number} to_s */
-    draw(times, values, from_s, to_s) {
-      chart.batch(() => {
-        chart.setData(/** @type {any} */ ([times, ...values]), false);
-        chart.setScale("x", { min: from_s, max: to_s });
-      });
-    },
-    resize() {
-      const width = Math.max(parent.clientWidth, 50);
-      const height = Math.max(parent.clientHeight, 50);
-      if (width !== chart.width || height !== chart.height) chart.setSize({ width, height });
-    },
-    width: () => Math.max(1, Math.round(chart.over.clientWidth)),
-    destroy: () => chart.destroy(),
-  };
-}
-
-/** @param {string} label @param {string} stroke @param {boolean} show */
-const lineOf = (label, stroke, show) => ({
-  label,
-  stroke,
-  show,
-  width: 1.5,
-  points: { show: false },
-});
-
 /** @param {number} value @returns {number} */
 const round = (value) => Number(value.toPrecision(6));
-
-/** @param {unknown} _plot @param {number | null} least @param {number | null} largest @returns {[number, number]} */
-function padded(_plot, least, largest) {
-  const low = least ?? 0;
-  const high = largest ?? 1;
-  const room = (high - low) * 0.06 || Math.abs(high) * 0.1 || 1;
-  return [low - room, high + room];
-}
-
-/** @param {Plot} chart @param {Events} events */
-function zoom(chart, events) {
-  const { left, width } = chart.select;
-  if (width < DRAG_LEAST_PX) return;
-  events.onZoom(chart.posToVal(left, "x"), chart.posToVal(left + width, "x"));
-  chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-}

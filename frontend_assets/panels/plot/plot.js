@@ -1,4 +1,4 @@
-/** Numbers of messages over time: every one of them, as many lines as are wished. */
+/** Numbers of messages over time, as they come or over a recording: as many lines as are wished. */
 
 /** @import { Span } from "./chart.js" */
 /** @import { Signal } from "vendor/preact.js" */
@@ -29,12 +29,16 @@ import {
   topicSubscriptions,
   unreadTopics,
 } from "../../model/plotting.js";
+import { recordedPicture, tableAddress } from "../../model/recorded-series.js";
+import { isPast, timeZoom } from "../../model/time.js";
 import { followTopics, topics } from "../../model/topics.js";
 import { stepsOf } from "../../workers/message-paths.js";
 import { ListeningMenu } from "../listening-menu.js";
 import { ConnectFirst, isUnconnected, RouterAway } from "../parts.js";
 import { dragged, endDrag, takesDrop } from "../topic-drag.js";
-import { colorOf, PlotChart } from "./chart.js";
+import { PlotChart } from "./chart.js";
+import { colorOf } from "./lines.js";
+import { CoarseNote, RecordedChart, recordedText, recordedTrouble } from "./recorded.js";
 
 const SPANS_S = [5, 10, 30, 60, 120, 300];
 
@@ -44,7 +48,7 @@ export function PlotPanel() {
   useSeen(panel, (now) => {
     seen.value = now;
   });
-  const wished = seen.value && !isUnconnected() ? series.value : [];
+  const wished = seen.value && !isUnconnected() && !isPast.value ? series.value : [];
   useEffect(() => {
     for (const one of wished) samplesOf(one);
     followSeries(wished, plotListening.value);
@@ -82,12 +86,43 @@ function Content({ seen }) {
     }
     ${isEmpty && html`<${EmptyState} icon="plot" title=${t("plot.none")} />`}
     ${!isEmpty && html`<${PlotLegend} hidden=${hidden} pointed_s=${pointed_s} />`}
-    ${!isEmpty && seen && html`<${PlotChart} hidden=${hidden.value} held=${held} pointed_s=${pointed_s} />`}`;
+    ${!isEmpty && seen && isPast.value && html`<${RecordedChart} hidden=${hidden.value} pointed_s=${pointed_s} />`}
+    ${!isEmpty && seen && !isPast.value && html`<${PlotChart} hidden=${hidden.value} held=${held} pointed_s=${pointed_s} />`}`;
 }
 
 /** @param {{picking: Signal<boolean>, held: Signal<Span | null>}} props */
 function Bar({ picking, held }) {
   const isEmpty = series.value.length === 0;
+  return html`<div class="panel-bar plot-bar">
+    <button type="button" class="button" aria-label=${t("plot.add")} aria-expanded=${picking.value} disabled=${isEmpty} onClick=${() => {
+      picking.value = !picking.value;
+    }}><${Icon} name="plus" size=${14} /><span class="plot-add-words">${t("plot.add")}</span></button>
+    ${isPast.value ? html`<${RecordedTools} isEmpty=${isEmpty} />` : html`<${LiveTools} held=${held} isEmpty=${isEmpty} />`}
+    <${IconButton} icon="trash" label=${t("plot.clear")} disabled=${isEmpty} onClick=${() => {
+      series.value = [];
+    }} />
+  </div>`;
+}
+
+/** @param {{isEmpty: boolean}} props */
+function RecordedTools({ isEmpty }) {
+  const table = isEmpty ? "" : tableAddress(recordedPicture.value, series.value);
+  const save = () => {
+    const link = document.createElement("a");
+    link.href = table;
+    link.download = "plot.csv";
+    link.click();
+  };
+  return html`<${IconButton} icon="fit" label=${t("plot.whole")} disabled=${timeZoom.value === null} onClick=${() => {
+    timeZoom.value = null;
+  }} />
+    <span class="push"></span>
+    ${!isEmpty && html`<${CoarseNote} />`}
+    <${IconButton} icon="download" label=${t("plot.csv.whole")} disabled=${table === ""} onClick=${save} />`;
+}
+
+/** @param {{held: Signal<Span | null>, isEmpty: boolean}} props */
+function LiveTools({ held, isEmpty }) {
   const seconds = t("plot.seconds", { count: span_s.value });
   const toggle = () => {
     held.value = held.value ? null : spanNow();
@@ -101,20 +136,12 @@ function Bar({ picking, held }) {
         if (held.value) held.value = { ...held.value, from_s: held.value.to_s - span };
       },
     }));
-  return html`<div class="panel-bar plot-bar">
-    <button type="button" class="button" aria-label=${t("plot.add")} aria-expanded=${picking.value} disabled=${isEmpty} onClick=${() => {
-      picking.value = !picking.value;
-    }}><${Icon} name="plus" size=${14} /><span class="plot-add-words">${t("plot.add")}</span></button>
-    <${MenuButton} label=${t("plot.span")} value=${seconds} class="button" items=${items}>${seconds}<${Icon} name="chevronDown" size=${12} /><//>
+  return html`<${MenuButton} label=${t("plot.span")} value=${seconds} class="button" items=${items}>${seconds}<${Icon} name="chevronDown" size=${12} /><//>
     <${IconButton} icon=${held.value ? "animate" : "pause"} label=${t(held.value ? "topics.go_on" : "topics.pause")} pressed=${held.value !== null} disabled=${isEmpty} onClick=${toggle} />
     <${ListeningMenu} label=${t("plot.listen")} listening=${plotListening} disabled=${isEmpty} />
     <span class="push"></span>
     ${dropped.value > 0 && html`<span class="plot-trouble" role="status">${t("plot.dropped", { count: dropped.value })}</span>`}
-    <${IconButton} icon="download" label=${t("plot.csv")} disabled=${isEmpty} onClick=${() => download(held.value ?? spanNow())} />
-    <${IconButton} icon="trash" label=${t("plot.clear")} disabled=${isEmpty} onClick=${() => {
-      series.value = [];
-    }} />
-  </div>`;
+    <${IconButton} icon="download" label=${t("plot.csv")} disabled=${isEmpty} onClick=${() => download(held.value ?? spanNow())} />`;
 }
 
 /** @returns {Span} */
@@ -180,6 +207,7 @@ function nameOf({ topic, path }) {
 
 /** @param {Series} one @param {number | null} at_s */
 function valueText(one, at_s) {
+  if (isPast.value) return recordedText(one, at_s);
   const samples = samplesOf(one);
   const value = at_s === null ? samples.newest() : samples.valueAt(at_s);
   return value === null ? "–" : shownNumber(value);
@@ -187,6 +215,7 @@ function valueText(one, at_s) {
 
 /** @param {Series} one @returns {string} why there is no line, or it goes on no more; empty: all is well */
 function troubleOf(one) {
+  if (isPast.value) return recordedTrouble(one);
   const subscription = topicSubscriptions.value.get(one.topic);
   const unread = unreadTopics.value.get(one.topic);
   if (!laneOpen.value) return t("plot.state.lane");
