@@ -39,6 +39,7 @@ USED_LATER: Final = (
         "studio.bags.cutting",
         "studio.bags.metadata",
         "studio.bags.opening",
+        "studio.bags.series",
         "studio.nodes.bag_recorder",
     ),
     *("studio.ros.messages", "studio.ros.graph.graph", "studio.ros.types.convert"),

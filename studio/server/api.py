@@ -1,6 +1,7 @@
 """The routes for scripts: documents, commands, downloads, and logging everybody out."""
 
 import asyncio
+from collections.abc import Sequence
 from http import HTTPStatus
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, Protocol
@@ -191,7 +192,7 @@ _PLAIN: Final = frozenset("-_.() ")
 """What a name in plain quotes may contain besides letters and digits of ASCII."""
 
 
-_Names = Annotated[list[str], Query(min_length=1, max_length=64)]
+_Names = Annotated[Sequence[str], Query(max_length=64)]
 
 
 class Exports:
@@ -226,10 +227,12 @@ class Exports:
         """Return the 3D view as one page that needs no server."""
         return _sent(await self._engine.document(document).exports.page(dark=theme == "dark"))
 
-    async def series(self, document: str, topic: _Names, path: _Names) -> Response:
+    async def series(self, document: str, topic: _Names = (), path: _Names = ()) -> Response:
         """Return plotted numbers over the whole recording as CSV, by topics and as many paths."""
-        lines = list(zip(topic, path, strict=False))
-        table = await self._engine.document(document).time.table(lines)
+        if len(topic) != len(path):
+            raise CommandError("Give each topic its path.")
+        lines = list(zip(topic, path, strict=True))
+        table = await self._engine.document(document).time.series.table(lines)
         return _sent(Download("plot.csv", "text/csv", table))
 
 

@@ -44,7 +44,7 @@ class MakesDownloads(Protocol):
 
 
 class MakesTables(Protocol):
-    """The time that a document shows."""
+    """Numbers over the recording that a document shows."""
 
     async def table(self, lines: Sequence[tuple[str, str]], /) -> Iterator[bytes]:
         """Return all samples of numbers over a recording, by topic and path, as CSV.
@@ -55,11 +55,20 @@ class MakesTables(Protocol):
         ...
 
 
+class ShowsTime(Protocol):
+    """The time that a document shows."""
+
+    @property
+    def series(self) -> MakesTables:
+        """Numbers over it."""
+        ...
+
+
 class OpenDocument(Protocol):
     """One document."""
 
     @property
-    def time(self) -> MakesTables:
+    def time(self) -> ShowsTime:
         """The time that it shows."""
         ...
 

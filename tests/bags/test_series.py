@@ -14,6 +14,7 @@ from studio.bags.series import COARSE_PARTS, RecordingSeries, Samples, SeriesPic
 from studio.bags.series_memory import SeriesMemory
 from studio.errors import RecordingError
 from tests.support.bags import BEGIN_NS, Told, write_mcap
+from tests.support.memory_recording import MemoryRecording
 from tests.support.number_bags import PATH, write_numbers
 from tests.support.wire import wait_until
 
@@ -217,3 +218,27 @@ def test_closing_ends_what_is_being_read(tmp_path: Path):
     shown.result(timeout=20)
     assert "closed" in whole(bag, series).trouble
     assert not any(one.name == "series" for one in threading.enumerate())
+
+
+def test_of_what_goes_on_only_what_came_since_is_read_and_what_it_forgot_is_dropped():
+    memory = SeriesMemory()
+    recording = MemoryRecording()
+    recording.topic("/numbers", "std_msgs/msg/Float64")
+    for n in range(3_000):
+        recording.say("/numbers", S + n, data=float(n))
+    series = RecordingSeries(recording, memory)
+
+    def count() -> int:
+        picture = series.picture("/numbers", ".data", recording.begin_ns, recording.end_ns, 4)
+        return picture.read if picture.exact else -1
+
+    wait_until("what there is, is read", lambda: count() == 3_000)
+    for n in range(3_000, 3_100):
+        recording.say("/numbers", S + n, data=float(n))
+    wait_until("what came since, too", lambda: count() == 3_100)
+    assert series.samples("/numbers", ".data").values.tolist() == [*map(float, range(3_100))]
+    recording.forget("/numbers", S + 2_000)
+    recording.say("/numbers", S + 3_100, data=7.0)
+    wait_until("what it forgot is gone", lambda: count() == 1_101)
+    assert series.samples("/numbers", ".data").times_ns[0] == S + 2_000
+    series.close()

@@ -116,7 +116,7 @@ FIELDS: dict[str, object] = {
     "count": 1,
     **dict.fromkeys(("seconds", "begin_s", "end_s", "at_s", "rate"), 1.0),
     "playing": True,
-    "bins": 1,
+    **dict.fromkeys(("bins", "columns"), 1),
     "replacement": "x",
     "changes": [{"start": 0, "end": 0, "text": "x"}],
     "positions": {},

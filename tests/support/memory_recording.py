@@ -59,6 +59,10 @@ class MemoryRecording:
         made = message(found.type_name)(**fields)
         self.add(name, at_ns, bytes(Codec(message(found.type_name)).encode(made)))
 
+    def forget(self, name: str, before_ns: int) -> None:
+        """Drop the messages of a topic before a time."""
+        del self._samples[name][: self._place(name, before_ns)]
+
     @property
     def begin_ns(self) -> int:
         return min((one[0].received_ns for one in self._samples.values() if one), default=0)

@@ -75,13 +75,18 @@ class SmallExports:
         return Download("small.html", "text/html", (b"page",))
 
 
-class SmallTime:
+class SmallSeries:
     """One table, of which `/none` has nothing."""
 
     async def table(self, lines: Sequence[tuple[str, str]], /) -> Iterator[bytes]:
         if ("/none", ".x") in lines:
             raise RecordingError("/none has no number.")
         return iter((b"topic,path\n", *(f"{topic},{path}\n".encode() for topic, path in lines)))
+
+
+class SmallTime:
+    def __init__(self) -> None:
+        self.series = SmallSeries()
 
 
 class SmallDocument:

@@ -10,7 +10,7 @@ from tests.support.server import running_studio
 from tests.support.studio_page import StudioPage, studio_context, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Callable, Generator
     from pathlib import Path
 
     from playwright.sync_api import Browser, FloatRect, Locator
@@ -35,6 +35,11 @@ def messages() -> list[Told]:
         for one in times
         if not GAP_S[0] < one < GAP_S[1]
     ]
+
+
+def write_chatter(file: Path) -> Path:
+    """Write a bag of those."""
+    return write_mcap(file, messages())
 
 
 class Timeline:
@@ -78,12 +83,14 @@ class Timeline:
 
 
 @contextmanager
-def shown_bag(browser: Browser, folder: Path) -> Generator[Timeline]:
-    """A robot with a bag beside it, which is shown."""
+def shown_bag(
+    browser: Browser, folder: Path, write: Callable[[Path], Path] = write_chatter
+) -> Generator[Timeline]:
+    """A robot with a bag beside it, which is shown; `write` makes the bag's file."""
     (folder / "post").mkdir()
     robot = folder / "post" / "post.urdf"
     robot.write_text(ROBOT)
-    bag = write_mcap(folder / "post" / "drive.mcap", messages())
+    bag = write(folder / "post" / "drive.mcap")
     with running_studio(["open", str(robot), "--router", "off"], folder / "data") as studio:
         context = studio_context(browser)
         tab = StudioPage(context.new_page())

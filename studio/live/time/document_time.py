@@ -12,18 +12,17 @@ import numpy as np
 
 from studio.errors import CommandError, StudioError
 from studio.live.time.recording_source import RecordingSource
-from studio.live.time.series import series_answer, table_of
+from studio.live.time.series import COMMANDS as SERIES_COMMANDS
+from studio.live.time.series import SeriesReader
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import LastSent
 from studio.protocol.playback import (
-    GetSeries,
     GetTimeMarks,
     GoLive,
     LoopTime,
     PlayTime,
     RecordedTopicView,
     SeekTime,
-    Series,
     SetTimeRate,
     StepTime,
     TimeMarks,
@@ -32,7 +31,7 @@ from studio.protocol.playback import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
+    from collections.abc import Awaitable, Callable, Iterable
 
     from numpy.typing import NDArray
 
@@ -57,10 +56,14 @@ class DocumentTime:
     Args:
         source: The topics of the document.
         audience: Is sent where it stands.
+
+    Attributes:
+        series: Answers with numbers over what is shown.
     """
 
     def __init__(self, source: DocumentSource, audience: Audience) -> None:
         self._source, self._audience = source, audience
+        self.series = SeriesReader(self)
         self._shown: ShownRecording | None = None
         self._playing: RecordingSource | None = None
         self._zero_ns = 0
@@ -239,24 +242,6 @@ class DocumentTime:
         counts = await asyncio.to_thread(_counts, recording, command.topic, range_ns, command.bins)
         return TimeMarks(request=command.request, counts=tuple(counts.tolist()))
 
-    async def series(self, command: GetSeries) -> Series:
-        """Return a number over a range, as few values as a picture can show."""
-        return await series_answer(self._demand_shown().series, command, self._zero_ns)
-
-    async def table(self, lines: Sequence[tuple[str, str]]) -> Iterator[bytes]:
-        """Return all samples of numbers that were plotted, by topic and path, as CSV.
-
-        Raises:
-            CommandError: What runs now is shown.
-            RecordingError: Not all were read yet, or there are none.
-        """
-        return await asyncio.to_thread(table_of, self._demand_shown().series, lines)
-
-    def _demand_shown(self) -> ShownRecording:
-        if self._shown is None:
-            raise CommandError(_LIVE)
-        return self._shown
-
     def _demand(self) -> RecordingSource:
         """Return the source of what is shown.
 
@@ -412,7 +397,6 @@ def _live_state(progress: float | None) -> TimeState:
 
 _SEEKS: Final = Limits(per_second=120)
 _MARKS: Final = Limits(per_second=60)
-_SERIES: Final = Limits(per_second=120)
 
 COMMANDS: Final = Commands[DocumentTime](Scope.DOCUMENT)
 COMMANDS.controller(GoLive, lambda time, _, __: time.go_live())
@@ -422,4 +406,4 @@ COMMANDS.controller(SetTimeRate, lambda time, c, _: time.set_rate(c))
 COMMANDS.controller(StepTime, lambda time, c, _: time.step(c), limits=_SEEKS)
 COMMANDS.controller(LoopTime, lambda time, c, _: time.loop(c))
 COMMANDS.viewer(GetTimeMarks, lambda time, c, _: time.marks(c), limits=_MARKS)
-COMMANDS.viewer(GetSeries, lambda time, c, _: time.series(c), limits=_SERIES)
+COMMANDS.include(SERIES_COMMANDS, lambda time, _: time.series)

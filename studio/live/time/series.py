@@ -6,8 +6,10 @@ import asyncio
 import csv
 import io
 import math
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
+from studio.errors import CommandError
+from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.playback import GetSeries, Series
 
 if TYPE_CHECKING:
@@ -16,7 +18,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from studio.bags.series import RecordingSeries, Samples
+    from studio.bags.series import RecordingSeries, Samples, SeriesPicture
+    from studio.live.time.shown import ShownRecording
 
 _S: Final = 1_000_000_000
 _FIRST_S: Final = 0.5
@@ -27,27 +30,65 @@ Line = tuple[str, str]
 """A topic, and the path of a number in its messages."""
 
 
-async def series_answer(series: RecordingSeries, command: GetSeries, zero_ns: int) -> Series:
-    """Return what can be shown now of a number; a coarse picture is better than waiting.
+class ShowsRecording(Protocol):
+    """The time of a document."""
+
+    @property
+    def shown(self) -> ShownRecording | None:
+        """The recording that is shown; None: what runs now."""
+        ...
+
+    @property
+    def zero_ns(self) -> int:
+        """What the times of pages count from, since the Unix epoch."""
+        ...
+
+
+class SeriesReader:
+    """Answers with numbers over the recording that a document shows.
 
     Args:
-        series: Of the recording that is shown.
-        command: The question; its times count from `zero_ns`.
-        zero_ns: Since the Unix epoch.
+        time: What is shown.
     """
-    shown = await asyncio.to_thread(series.ask, command.topic, command.path)
-    await asyncio.wait([asyncio.wrap_future(shown)], timeout=_FIRST_S)
-    found = await asyncio.to_thread(
-        series.picture,
-        command.topic,
-        command.path,
-        zero_ns + round(command.begin_s * _S),
-        zero_ns + round(command.end_s * _S),
-        command.columns,
-    )
+
+    def __init__(self, time: ShowsRecording) -> None:
+        self._time = time
+
+    async def series(self, command: GetSeries) -> Series:
+        """Return what can be shown now of a number; a coarse picture is better than waiting."""
+        series, zero_ns = self._series(), self._time.zero_ns
+        shown = await asyncio.to_thread(series.ask, command.topic, command.path)
+        await asyncio.wait([asyncio.wrap_future(shown)], timeout=_FIRST_S)
+        found = await asyncio.to_thread(
+            series.picture,
+            command.topic,
+            command.path,
+            zero_ns + round(command.begin_s * _S),
+            zero_ns + round(command.end_s * _S),
+            command.columns,
+        )
+        return _answer(command.request, found, zero_ns)
+
+    async def table(self, lines: Sequence[tuple[str, str]]) -> Iterator[bytes]:
+        """Return all samples of numbers that were plotted, by topic and path, as CSV.
+
+        Raises:
+            CommandError: What runs now is shown.
+            RecordingError: Not all were read yet, or there are none.
+        """
+        return await asyncio.to_thread(table_of, self._series(), lines)
+
+    def _series(self) -> RecordingSeries:
+        shown = self._time.shown
+        if shown is None:
+            raise CommandError("The document shows what runs now: open a bag first.")
+        return shown.series
+
+
+def _answer(request: int, found: SeriesPicture, zero_ns: int) -> Series:
     columns = found.columns
     return Series(
-        request=command.request,
+        request=request,
         first=_values(columns.first),
         second=_values(columns.second),
         before=_sample(columns.before, zero_ns),
@@ -97,3 +138,7 @@ def _cells(line: Line) -> str:
     harmless = [f"'{one}" if one[:1] in tuple("=+-@\t\r") else one for one in line]
     csv.writer(text, lineterminator=",").writerow(harmless)
     return text.getvalue()
+
+
+COMMANDS: Final = Commands[SeriesReader](Scope.DOCUMENT)
+COMMANDS.viewer(GetSeries, lambda one, c, _: one.series(c), limits=Limits(per_second=120))

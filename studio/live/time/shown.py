@@ -5,12 +5,13 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, Literal
 
-from studio.bags.series import RecordingSeries
+from studio.errors import RecordingError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.bags.recording import Recording
+    from studio.bags.series import RecordingSeries
 
 
 class ShownRecording:
@@ -21,7 +22,6 @@ class ShownRecording:
         title: Its name; of the last minutes none.
         path: Of its files, if it has any.
         mode: Whether it is a bag, or the last minutes of the live system.
-        series: The numbers of its messages that are plotted.
     """
 
     def __init__(
@@ -34,9 +34,25 @@ class ShownRecording:
     ) -> None:
         self.recording, self.title, self.path = recording, title, path
         self.mode: Literal["past", "bag"] = mode
-        self.series = RecordingSeries(recording)
+        self._series: RecordingSeries | None = None
         self._close, self._holders = close, 1
         self._lock = threading.Lock()
+
+    @property
+    def series(self) -> RecordingSeries:
+        """The numbers of its messages that are plotted.
+
+        Raises:
+            RecordingError: It was closed.
+        """
+        with self._lock:
+            if not self._holders:
+                raise RecordingError("The recording was closed.")
+            if self._series is None:
+                from studio.bags.series import RecordingSeries  # noqa: PLC0415 - takes its time
+
+                self._series = RecordingSeries(self.recording)
+            return self._series
 
     def hold(self) -> ShownRecording | None:
         """Hold it once more; None: it was closed meanwhile."""
@@ -52,6 +68,7 @@ class ShownRecording:
             self._holders -= 1
             if self._holders:
                 return
-        self.series.close()
+        if self._series is not None:
+            self._series.close()
         if self._close is not None:
             self._close()

@@ -9,8 +9,9 @@ import pytest
 
 from studio.bags.opening import open_bag
 from studio.bags.series import RecordingSeries
-from studio.errors import RecordingError
-from studio.live.time.series import series_answer, table_of
+from studio.errors import CommandError, RecordingError
+from studio.live.time.series import SeriesReader, table_of
+from studio.live.time.shown import ShownRecording
 from studio.protocol.playback import GetSeries
 from tests.support.bags import BEGIN_NS, Told, write_mcap
 from tests.support.number_bags import PATH, write_numbers
@@ -22,30 +23,48 @@ if TYPE_CHECKING:
     from studio.protocol.playback import Series
 
 
-def answer(series: RecordingSeries, topic: str, path: str, begin_s: float = 0.0) -> Series:
+def answer(reader: SeriesReader, topic: str, path: str, begin_s: float = 0.0) -> Series:
     command = GetSeries(topic=topic, path=path, begin_s=begin_s, end_s=3.0, columns=3, request=7)
-    return asyncio.run(series_answer(series, command, BEGIN_NS))
+    return asyncio.run(reader.series(command))
+
+
+class Shows:
+    """The time of a document that shows one recording."""
+
+    zero_ns = BEGIN_NS
+
+    def __init__(self, shown: ShownRecording | None) -> None:
+        self.shown = shown
 
 
 def test_a_small_bag_is_answered_exactly_at_once_in_seconds_of_the_page(tmp_path: Path):
     numbers = [(n * 500_000_000, float(n * n)) for n in range(8)]
-    series = RecordingSeries(open_bag(write_numbers(tmp_path / "a.mcap", numbers)))
-    found = answer(series, "/points", PATH, begin_s=1.5)
+    shown = ShownRecording(open_bag(write_numbers(tmp_path / "a.mcap", numbers)), "bag")
+    found = answer(SeriesReader(Shows(shown)), "/points", PATH, begin_s=1.5)
     assert (found.request, found.exact, found.done, found.count) == (7, True, 1.0, 8)
     assert found.first == (9.0, 16.0, 25.0)
     assert found.second == (9.0, 16.0, 36.0)
     assert (found.before, found.after) == ((1.0, 4.0), (3.5, 49.0))
-    series.close()
+    shown.let_go()
+    with pytest.raises(RecordingError, match="closed"):
+        answer(SeriesReader(Shows(shown)), "/points", PATH)
+
+
+def test_of_what_runs_now_there_is_no_series():
+    with pytest.raises(CommandError):
+        answer(SeriesReader(Shows(None)), "/points", PATH)
 
 
 def test_a_part_without_messages_has_nothing_and_why_there_is_no_line_is_said(tmp_path: Path):
-    series = RecordingSeries(open_bag(write_mcap(tmp_path / "a.mcap", [Told("/chatter", 0)])))
-    lengths = answer(series, "/chatter", ".data.@length")
+    bag = open_bag(write_mcap(tmp_path / "a.mcap", [Told("/chatter", 0)]))
+    shown = ShownRecording(bag, "bag")
+    reader = SeriesReader(Shows(shown))
+    lengths = answer(reader, "/chatter", ".data.@length")
     assert lengths.first == (5.0, None, None)
-    refused = answer(series, "/chatter", ".data")
+    refused = answer(reader, "/chatter", ".data")
     assert (refused.first, refused.exact) == ((None, None, None), True)
     assert "a text lies there" in refused.trouble
-    series.close()
+    shown.let_go()
 
 
 def test_a_table_has_every_sample_and_no_formula(tmp_path: Path):
