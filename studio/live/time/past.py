@@ -77,6 +77,10 @@ class Inbox:
         self._past.end(self)
 
 
+def _nothing() -> None:
+    """Do nothing: the default of `on_clear`."""
+
+
 def _nowhere(_samples: list[RawSample]) -> None:
     """Keep nothing."""
 
@@ -91,6 +95,8 @@ class LivePast:
     Attributes:
         size_max: Bytes of memory.
         epoch: Another number once earlier messages are forgotten.
+        zero_ns: When the first message of an epoch came, though it is gone; 0 before.
+        on_clear: Called when all is forgotten, in any thread.
     """
 
     def __init__(
@@ -99,7 +105,8 @@ class LivePast:
         types: Callable[[], TypeLibrary],
         publishers: Callable[[str], Iterable[QoSProfile]] = lambda _: (),
     ) -> None:
-        self.size_max, self.epoch = size_max, 0
+        self.size_max, self.epoch, self.zero_ns = size_max, 0, 0
+        self.on_clear: Callable[[], object] = _nothing
         self._library, self._publishers = types, publishers
         self._lock = threading.Lock()
         self._topics: dict[str, KeptTopic] = {}
@@ -146,12 +153,13 @@ class LivePast:
     def clear(self) -> None:
         """Forget all that came: it begins anew."""
         with self._lock:
-            self.epoch += 1
+            self.epoch, self.zero_ns = self.epoch + 1, 0
             self._topics, self._troubles = {}, {}
             for one in self._inboxes:
                 one.lead_to(None)
             for one in self._inboxes:
                 self._lead(one)
+        self.on_clear()
 
     def _lead(self, inbox: Inbox) -> None:
         """Lead an inbox to its topic, if there is room for that."""
@@ -215,6 +223,7 @@ class LivePast:
         for one in self._inboxes:
             if one.topic is not None and (came := one.take()):
                 one.topic.add(came, may_repeat=one.may_repeat)
+        self.zero_ns = self.zero_ns or self._begin_ns()
         size, count = self._size(), self._count()
         while size > self.size_max or count > COUNT_MAX:
             if not self._make_room():
