@@ -202,6 +202,10 @@ class BlockFile(Protocol):
         """Return the payloads of a channel in a block; None: there are none, or it is damaged."""
         ...
 
+    def load(self, block: int) -> None:
+        """Have a block at hand when it is asked for."""
+        ...
+
     def close(self) -> None:
         """Give the file back."""
         ...

@@ -63,6 +63,29 @@ def decompressed(data: bytes | memoryview, compression: str, size: int) -> bytes
     return found
 
 
+def decompressed_begin(data: bytes | memoryview, compression: str, size: int) -> bytes:
+    """Return what can be had of the begin of a frame, the end of which is missing.
+
+    Raises:
+        DamagedPartError: It is something else.
+    """
+    if compression == "zstd":
+        return _zstd_begin(data, min(size, PART_BYTES_MAX))
+    return _by_name(compression)(data, min(size, PART_BYTES_MAX))[:size]
+
+
+def _zstd_begin(data: bytes | memoryview, size: int) -> bytes:
+    found: list[bytes] = []
+    reader = _TOOLS.zstd.stream_reader(data)
+    try:
+        while size > 0 and (piece := reader.read(min(size, _STEP_BYTES))):
+            found.append(piece)
+            size -= len(piece)
+    except zstandard.ZstdError:
+        pass  # what came before it is whole
+    return b"".join(found)
+
+
 def decompressed_message(data: bytes) -> bytes:
     """Return a message that was compressed by itself, with zstd; its frame says how large it is.
 

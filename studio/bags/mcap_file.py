@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, Protocol, TypeVar, cast
 import numpy as np
 
 from studio.bags.blocks import NO_ENTRIES, Channel, Columns, Entries
-from studio.bags.compression import decompressed, decompressed_message
+from studio.bags.compression import decompressed, decompressed_begin, decompressed_message
 from studio.bags.mcap_index import McapIndex, read_exactly
 from studio.bags.mcap_records import (
     HEAD,
@@ -237,6 +237,10 @@ class McapFile:
 
     # Its bytes
 
+    def load(self, block: int) -> None:
+        """Have a block at hand when it is asked for."""
+        self._data(block)
+
     def _data(self, block: int) -> bytes | None:
         """Return the records of a block, decompressed; None: it is damaged, which is said."""
         if block in self._bad:
@@ -301,13 +305,15 @@ def opened(path: Path) -> int:
 
 
 def chunk_data(record: bytes) -> bytes:
-    """Return the records in a chunk's record.
+    """Return the records in a chunk's record; of one that is cut off, those before the cut.
 
     Raises:
         DamagedPartError: It is no chunk, cannot be decompressed, or has a wrong checksum.
     """
     head = read_chunk(record)
     stored = memoryview(record)[head.data_at : head.data_at + head.stored]
+    if len(stored) < head.stored:
+        return decompressed_begin(stored, head.compression, head.size)
     data = decompressed(stored, head.compression, head.size)
     if head.crc and zlib.crc32(data) != head.crc:
         raise DamagedPartError("its checksum is wrong")

@@ -15,7 +15,9 @@ MAGIC: Final = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX = 1, 2, 3, 4, 5, 6, 7
 CHUNK_INDEX, ATTACHMENT, METADATA, STATISTICS, DATA_END = 8, 9, 12, 11, 15
 OPCODES: Final = range(1, 16)
-"""Those of the specification; those from 0x80 on are a user's own."""
+"""Those of the specification."""
+PRIVATE: Final = 0x80
+"""From here on they are a user's own."""
 HEAD: Final = struct.Struct("<BQ")
 """Of each record: opcode and length of what follows."""
 MESSAGE_HEAD: Final = struct.Struct("<BQHIqq")
@@ -25,6 +27,8 @@ FOOTER_RECORD: Final = struct.Struct("<BQQQI")
 TAIL_BYTES: Final = FOOTER_RECORD.size + len(MAGIC)
 CHUNK_HEAD: Final = struct.Struct("<qqQII")
 """Of a chunk after opcode and length: begin, end, bytes inside, CRC, length of the name."""
+CHUNK_HEAD_BYTES: Final = HEAD.size + CHUNK_HEAD.size + 64
+"""What stands before the data of a chunk is no longer."""
 _COUNT: Final = struct.Struct("<HQ")
 U16, U32, U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 TEXT_BYTES_MAX: Final = 2**20
@@ -137,7 +141,7 @@ def read_chunk(data: bytes | memoryview) -> Chunk:
     Raises:
         DamagedPartError: It is none.
     """
-    fields = Fields(data[: HEAD.size + CHUNK_HEAD.size + 64])
+    fields = Fields(data[:CHUNK_HEAD_BYTES])
     opcode, length = fields.numbers("<BQ")
     begin_ns, end_ns, size, crc, name_length = fields.numbers("<qqQII")
     if opcode != CHUNK or name_length > 32:
@@ -148,6 +152,16 @@ def read_chunk(data: bytes | memoryview) -> Chunk:
     if HEAD.size + length != data_at + stored:
         raise DamagedPartError("the lengths of a chunk disagree")
     return Chunk(begin_ns, end_ns, size, crc, name, data_at, stored)
+
+
+def read_metadata_record(data: bytes | memoryview) -> dict[str, str]:
+    """Return what a record of metadata holds, if it is the one of rosbag2.
+
+    Raises:
+        DamagedPartError: It is none.
+    """
+    fields = Fields(data)
+    return fields.texts() if fields.text() == "rosbag2" else {}
 
 
 def read_statistics(data: bytes | memoryview) -> tuple[int, int, dict[int, int]]:

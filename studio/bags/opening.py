@@ -4,51 +4,153 @@ from __future__ import annotations
 
 import os
 import re
+import tempfile
+import time
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from studio.bags import index_cache, queries, unpacking
 from studio.bags.bag import Bag
+from studio.bags.blocks import Outline
 from studio.bags.bounded_cache import BoundedCache
+from studio.bags.compression import ZSTD_MAGIC
+from studio.bags.index_cache import IndexCache
 from studio.bags.mcap_file import McapFile, opened
-from studio.bags.mcap_index import read_summary
+from studio.bags.mcap_index import McapIndex, read_summary
+from studio.bags.mending import rebuilt_index
 from studio.bags.metadata import METADATA_NAME, BagMetadata, read_metadata
-from studio.errors import BagNotReadableError, DamagedPartError
+from studio.bags.sqlite_file import SqliteFile
+from studio.bags.unpacking import UnpackedFiles
+from studio.errors import BagNotReadableError, DamagedPartError, DataFolderError
 from studio.files import is_file, is_folder, stamp_of
+from studio.settings import data_folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from studio.bags.blocks import BlockFile
+    from studio.files import Stamp
 
 CHUNK_CACHE_BYTES: Final = 64 * 2**20
 INDEX_CACHE_BYTES: Final = 32 * 2**20
 STORAGES: Final = {".mcap": "mcap", ".db3": "sqlite3"}
 ZSTD: Final = ".zstd"
+KEPT_AFTER_S: Final = 0.5
+"""An index that took longer to make is kept in the data folder."""
 
 
-def open_bag(path: Path, progress: Callable[[float], None] | None = None) -> Bag:
+def open_bag(
+    path: Path,
+    progress: Callable[[float], None] | None = None,
+    *,
+    kept_in: Path | None = None,
+) -> Bag:
     """Open a bag.
+
+    Of a bag of any size, its chunks take 64 MB at most, what is in them 32 MB, one chunk more than
+    that only if it alone is larger; beside these a chunk takes 41 bytes, and 20 for each topic in it.
 
     Args:
         path: A folder of rosbag2, its `metadata.yaml`, or one `.mcap` or `.db3` file.
         progress: Is told the share that is done, 0 to 1, while an index has to be made.
+        kept_in: The folder where indexes and unpacked files are kept; None: the studio's.
 
     Raises:
         BagNotReadableError: There is no bag, or nothing of it can be read.
     """
     found = _found(path)
-    caches = (BoundedCache[bytes](CHUNK_CACHE_BYTES), BoundedCache[object](INDEX_CACHE_BYTES))
+    reading = _Reading(_kept_in(kept_in), found, progress)
     files: list[BlockFile] = []
     troubles = list(found.troubles)
     for one in found.files:
         try:
-            files.append(_opened(one, caches))
+            files.append(reading.opened(one))
         except BagNotReadableError as error:
             troubles.append(f"{one.name} is left out: {error.reason}.")
     if not files:
-        raise BagNotReadableError(str(path), " ".join(troubles) or "it holds no files of a bag")
+        reason = " ".join(troubles).removesuffix(".") or "it holds no files of a bag"
+        raise BagNotReadableError(str(path), reason)
     return Bag(path, found.storage, files, found.files, found.metadata, troubles)
+
+
+def _kept_in(chosen: Path | None) -> Path:
+    """Return the folder for what is kept; where the studio has none, one of the system's."""
+    try:
+        return data_folder(chosen)
+    except DataFolderError:
+        return Path(tempfile.gettempdir()) / "studio-bags"
+
+
+class _Reading:
+    """Opens the files of one bag, which share what is kept of them."""
+
+    def __init__(
+        self, folder: Path, found: _Found, progress: Callable[[float], None] | None
+    ) -> None:
+        self._found, self._progress = found, progress
+        self._kept = IndexCache(folder / index_cache.FOLDER)
+        self._unpacked = UnpackedFiles(folder / unpacking.FOLDER)
+        self._chunks = BoundedCache[bytes](CHUNK_CACHE_BYTES)
+        self._indexes = BoundedCache[object](INDEX_CACHE_BYTES)
+        self._done = 0
+
+    def opened(self, file: Path) -> BlockFile:
+        """Open one file.
+
+        Raises:
+            BagNotReadableError: Nothing of it can be read.
+        """
+        if file.name.endswith(ZSTD):
+            file = self._unpacked.unpacked(file, self._told)
+        if file.name.endswith(".db3"):
+            made = SqliteFile(file, self._indexes, self._told)
+        else:
+            made = self._mcap(file)
+        self._done += 1
+        made.compresses_messages = self._compresses(made)
+        return made
+
+    def _told(self, share: float) -> None:
+        if self._progress is not None:
+            self._progress((self._done + share) / len(self._found.files))
+
+    def _compresses(self, file: McapFile | SqliteFile) -> bool:
+        """Whether each message was compressed; without `metadata.yaml` the first one tells."""
+        metadata = self._found.metadata
+        if metadata is not None:
+            return metadata.compression_mode == "message"
+        for key in file.table.presence:
+            for sample in queries.newest(file, {key: Outline("", b"")}, 2**63 - 1, 1, -(2**63)):
+                return sample.payload.startswith(ZSTD_MAGIC)
+        return False
+
+    def _mcap(self, file: Path) -> McapFile:
+        stamp = stamp_of(file)
+        handle = opened(file)
+        try:
+            index = self._index(file, handle, stamp)
+        except DamagedPartError as error:
+            raise BagNotReadableError(str(file), error.reason) from None
+        except OSError as error:
+            raise BagNotReadableError(str(file), error.strerror or "the disk fails") from None
+        finally:
+            os.close(handle)
+        return McapFile(file, index, stamp, (self._chunks, self._indexes))
+
+    def _index(self, file: Path, handle: int, stamp: Stamp | None) -> McapIndex:
+        try:
+            return read_summary(handle, os.fstat(handle).st_size)
+        except DamagedPartError as error:
+            reason = error.reason
+        kept = self._kept.get(file)
+        if kept is not None:
+            return kept
+        begun_s = time.monotonic()
+        made = rebuilt_index(handle, file.name, reason, self._told)
+        if time.monotonic() - begun_s > KEPT_AFTER_S:
+            self._kept.keep(file, stamp, made)
+        return made
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,17 +216,3 @@ def _natural(file: Path) -> list[tuple[int, str]]:
         (int(part), "") if part.isdigit() else (-1, part)
         for part in re.split(r"(\d{1,9})", file.name)
     ]
-
-
-def _opened(file: Path, caches: tuple[BoundedCache[bytes], BoundedCache[object]]) -> BlockFile:
-    stamp = stamp_of(file)
-    handle = opened(file)
-    try:
-        index = read_summary(handle, os.fstat(handle).st_size)
-    except DamagedPartError as error:
-        raise BagNotReadableError(str(file), error.reason) from None
-    except OSError as error:
-        raise BagNotReadableError(str(file), error.strerror or "the disk fails") from None
-    finally:
-        os.close(handle)
-    return McapFile(file, index, stamp, caches)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections import deque
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -21,6 +24,9 @@ _ATTEMPTS: Final = 8
 """For as many blocks that turn out to be damaged, what lies before them is looked for."""
 
 _ALL: Final = 2**62
+_AHEAD: Final = 3
+"""So many blocks are read before they are asked for, by threads: decompression runs beside us."""
+_AHEAD_THREADS: Final = 2
 
 
 class Place(NamedTuple):
@@ -136,12 +142,47 @@ def messages(
 
     Blocks that overlap in time are merged message by message, the others handed out as they lie.
     """
-    table = file.table
     blocks = _blocks_of(file, channels, begin_ns, end_ns)
-    waiting: list[Place] = []
+    with _ahead(file, blocks) as coming:
+        yield from _merged(file, channels, (begin_ns, end_ns), coming)
+
+
+@contextmanager
+def _ahead(file: BlockFile, blocks: list[int]) -> Iterator[Iterator[tuple[int, int | None]]]:
+    """Give blocks, each with the one that follows, while threads read those that come next."""
+    following = [*blocks[1:], None]
+    if len(blocks) < _AHEAD * 2:
+        yield zip(blocks, following, strict=False)
+        return
+    threads = ThreadPoolExecutor(_AHEAD_THREADS, "bag")
+    try:
+        yield _coming(threads, file, blocks, following)
+    finally:
+        threads.shutdown(wait=True, cancel_futures=True)
+
+
+def _coming(
+    threads: ThreadPoolExecutor, file: BlockFile, blocks: list[int], following: list[int | None]
+) -> Iterator[tuple[int, int | None]]:
+    waiting = deque(threads.submit(file.load, block) for block in blocks[:_AHEAD])
     for at, block in enumerate(blocks):
-        until_ns = int(table.begins_ns[blocks[at + 1]]) if at + 1 < len(blocks) else end_ns
-        if not waiting and table.ends_ns[block] < until_ns:
+        waiting.popleft().result()
+        if at + _AHEAD < len(blocks):
+            waiting.append(threads.submit(file.load, blocks[at + _AHEAD]))
+        yield block, following[at]
+
+
+def _merged(
+    file: BlockFile,
+    channels: Mapping[int, Outline],
+    span_ns: tuple[int, int],
+    coming: Iterator[tuple[int, int | None]],
+) -> Iterator[Recorded]:
+    table, (begin_ns, end_ns) = file.table, span_ns
+    waiting: list[Place] = []
+    for block, following in coming:
+        until_ns = end_ns if following is None else int(table.begins_ns[following])
+        if not waiting and (following is None or table.ends_ns[block] < until_ns):
             yield from _whole_block(file, block, channels, (begin_ns, end_ns))
             continue
         for key in channels:
