@@ -14,7 +14,7 @@ import numpy as np
 
 from studio.bags.blocks import Definition
 from studio.bags.mcap_index import McapBlocks, McapIndex
-from studio.bags.mcap_records import ChannelRecord
+from studio.bags.mcap_records import ChannelRecord  # noqa: TC001 - msgspec reads it
 from studio.files import stamp_of, write_whole
 
 if TYPE_CHECKING:

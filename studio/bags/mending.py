@@ -1,4 +1,4 @@
-"""The index of an MCAP file made anew, where it has none or a damaged one: all that is whole is found."""
+"""The index of an MCAP file, made anew where it has none or a damaged one."""
 
 from __future__ import annotations
 
@@ -265,7 +265,7 @@ class _Rebuilding:
             self._indexed.append((channel, at, size // 16))
 
     def _close_chunk(self) -> None:
-        """Take the last chunk by its message indexes, or by what is in it where they tell too little."""
+        """Take the last chunk by its message indexes; where they tell too little, by its data."""
         if self._open is None:
             return
         at, head = self._open
@@ -321,7 +321,7 @@ class _Rebuilding:
     # Messages that stand in no chunk
 
     def _stretch(self, at: int) -> int:
-        """Take the messages from here on, to the next other record or as many as are read at once."""
+        """Take the messages up to the next other record, or as many as are read at once."""
         end = at
         while end - at < _STRETCH_BYTES:
             opcode, length = self._head(end)

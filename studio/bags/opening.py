@@ -48,8 +48,9 @@ def open_bag(
 ) -> Bag:
     """Open a bag.
 
-    Of a bag of any size, its chunks take 64 MB at most, what is in them 32 MB, one chunk more than
-    that only if it alone is larger; beside these a chunk takes 41 bytes, and 20 for each topic in it.
+    For a bag of any size, decompressed chunks take 64 MB of memory, and the indexes of their
+    messages 32 MB, unless one chunk alone is larger. Besides, each chunk of a file takes 41 bytes,
+    and 20 for each topic in it.
 
     Args:
         path: A folder of rosbag2, its `metadata.yaml`, or one `.mcap` or `.db3` file.

@@ -13,7 +13,7 @@ import numpy as np
 from studio.bags.recording import Recorded
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Generator, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -148,7 +148,7 @@ def messages(
 
 
 @contextmanager
-def _ahead(file: BlockFile, blocks: list[int]) -> Iterator[Iterator[tuple[int, int | None]]]:
+def _ahead(file: BlockFile, blocks: list[int]) -> Generator[Iterator[tuple[int, int | None]]]:
     """Give blocks, each with the one that follows, while threads read those that come next."""
     following = [*blocks[1:], None]
     if len(blocks) < _AHEAD * 2:

@@ -113,8 +113,8 @@ class SqliteFile:
         except sqlite3.Error as error:
             if is_there(self.path.with_name(f"{self.path.name}-wal")):
                 self._tell(
-                    f"{self.path.name}: its last messages are left out: they are in a log beside it "
-                    f"that cannot be read ({error})."
+                    f"{self.path.name}: its last messages are left out: they are in a log beside "
+                    f"it that cannot be read ({error})."
                 )
         try:
             return self._tried(f"{place}?mode=ro&immutable=1")
@@ -124,7 +124,7 @@ class SqliteFile:
     def _tried(self, uri: str) -> sqlite3.Connection:
         database = sqlite3.connect(uri, uri=True, check_same_thread=False, isolation_level=None)
         try:
-            database.text_factory = lambda data: data.decode(errors="replace")
+            database.text_factory = _text
             database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, PART_BYTES_MAX)
             database.setlimit(sqlite3.SQLITE_LIMIT_ATTACHED, 0)
             database.execute("PRAGMA trusted_schema=OFF")
@@ -183,7 +183,8 @@ class SqliteFile:
         if not needed <= columns.get("message_definitions", set()):
             return []
         rows = self._database.execute(
-            "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions LIMIT ?",
+            "SELECT topic_type, encoding, encoded_message_definition "
+            "FROM message_definitions LIMIT ?",
             (_DEFINITIONS_MAX,),
         )
         return [Definition(*(str(one) for one in row)) for row in rows]
@@ -299,7 +300,7 @@ class SqliteFile:
 
     def _of_block(self, block: int, channels: Sequence[int]) -> list[tuple[object, ...]]:
         """Return the rows of a block, without those of other topics where few are wanted."""
-        few = channels if len(channels) <= 20 else []
+        few = tuple(channels) if len(channels) <= 20 else ()
         only = f" AND topic_id IN ({','.join('?' * len(few))})" if few else ""
         return self._asked(
             "SELECT topic_id, timestamp, data FROM messages "
@@ -327,6 +328,11 @@ class SqliteFile:
         with self._lock:
             if sentence not in self._troubles and len(self._troubles) < _TROUBLES_MAX:
                 self._troubles.append(sentence)
+
+
+def _text(data: bytes) -> str:
+    """Return a text of the database; it need not be sound UTF-8."""
+    return data.decode(errors="replace")
 
 
 def _is_plain(sql: str) -> bool:

@@ -7,7 +7,6 @@ import hashlib
 import os
 import shutil
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.bags.compression import decompress_file
@@ -16,6 +15,7 @@ from studio.files import stamp_of, temporary_beside
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
 FOLDER: Final = "bag-files"
 FILE_BYTES_MAX: Final = 64 * 2**30
