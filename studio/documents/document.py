@@ -181,7 +181,7 @@ class Document:
             self.source,
             audience,
         )
-        self.time = DocumentTime(self.source, audience)
+        self.time = DocumentTime(self.source, audience, services.rewinding)
         self.time.on_moment = self._draw_moment
         self.time.on_switch = self._time_switched
         self._joints_before: JointSource | None = None

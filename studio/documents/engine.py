@@ -6,6 +6,7 @@ import asyncio
 import gc
 import os
 import re
+from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -131,6 +132,8 @@ class Engine:
         self.classroom.on_control = self._lent
         self.classroom.nodes.choice = lambda: wire.choice
         self.ros.source_of = self._source_of
+        self.ros.recording.shown = lambda name: self.document(name).time.held()
+        self.ros.recording.past = lambda _: nullcontext(self._services.rewinding.looked_at())
         self._services.on_time_switch = self._time_switched
         self._services.on_moment = self.ros.moment_changed
         self.copies = Copies(self.classroom.folder, self, self._services, self.classroom)

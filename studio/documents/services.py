@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 from studio.description.client import DescriptionWorker
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.displays.plugins import Plugins
+from studio.live.time.rewinding import Rewinding
 from studio.packages.run_folders import RunFolders
 from studio.robot.meshes.library import MeshLibrary
 from studio.robot.worker_client import UrdfValidator, mesh_pool
@@ -60,6 +61,7 @@ class Services:
         self.meshes = MeshLibrary(settings.data_folder / "meshes", self._pool)
         self.validator = UrdfValidator()
         self.wire = RosConnection(settings.wire, settings.rewind_bytes)
+        self.rewinding = Rewinding(self.wire.past)
         self.run_folders = RunFolders(settings.run_folders, settings.data_folder)
         self.plugins = Plugins(settings.display_folders)
         self.on_time_switch: Callable[[str], object] = lambda _: None

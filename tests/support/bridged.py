@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from contextlib import asynccontextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, cast, get_args
 
 from studio.live.connection.ros_connection import RosConnection
@@ -52,13 +54,14 @@ class Bridged:
 @asynccontextmanager
 async def bridged(endpoint: str) -> AsyncGenerator[Bridged]:
     """A bridge that has joined the router; its ear follows calls, goals and publications."""
-    wire = RosConnection(WireChoice("off", (endpoint,)))
-    ros, ear = RosSystem(wire), Ear()
-    try:
-        await wire.link()
-        for kind in get_args(FollowOperations.model_fields["operations"].annotation):
-            await ask_ros(ros, FollowOperations(operations=kind), ear)
-        yield Bridged(ros, ear)
-    finally:
-        await ros.close()
-        await wire.close()
+    with TemporaryDirectory() as folder:
+        wire = RosConnection(WireChoice("off", (endpoint,)))
+        ros, ear = RosSystem(wire, Path(folder) / "bags"), Ear()
+        try:
+            await wire.link()
+            for kind in get_args(FollowOperations.model_fields["operations"].annotation):
+                await ask_ros(ros, FollowOperations(operations=kind), ear)
+            yield Bridged(ros, ear)
+        finally:
+            await ros.close()
+            await wire.close()

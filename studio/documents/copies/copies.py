@@ -106,7 +106,7 @@ class CopyServices(Services):
         self.settings = replace(base.settings, trusted=False, run_folders=())
         self.quiet_s, self.patience_s = 2.0, base.patience_s
         self.meshes, self.validator, self.wire = base.meshes, base.validator, base.wire
-        self.plugins = base.plugins
+        self.plugins, self.rewinding = base.plugins, base.rewinding
         self.on_time_switch, self.on_moment = base.on_time_switch, base.on_moment
         # Nothing in a student's copy is run, or changed as a program.
         self.run_folders = RunFolders((), base.settings.data_folder)
@@ -369,7 +369,7 @@ class Copies:
         if original := self._engine.documents.get(record.of):
             original.live.on_list = partial(self._mirror_displays, original)
             document.live.mirror(original.live.kept)
-            document.time.past = partial(_bag_of, original, document.time.past)
+            document.time.others = partial(_bag_of, original)
             document.follow_time(original)
         if self._watching is None or self._watching.done():
             self._watching = asyncio.create_task(self._put_to_rest())
@@ -468,10 +468,10 @@ class Copies:
         return member.name if member else "?"
 
 
-def _bag_of(original: Document, past: Callable[[], ShownRecording | None]) -> ShownRecording | None:
-    """Return what a copy goes back to: the bag of the class, else the last minutes."""
+def _bag_of(original: Document) -> ShownRecording | None:
+    """Return what a copy goes back to instead of the last minutes: the bag of the class."""
     shown = original.time.shown
-    return shown.hold() if shown is not None and shown.mode == "bag" else past()
+    return shown if shown is not None and shown.mode == "bag" else None
 
 
 def _read_all(folder: Path) -> Iterator[tuple[str, CopyRecord]]:

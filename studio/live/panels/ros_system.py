@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import RouterGoneError
@@ -38,6 +37,7 @@ from studio.protocol.commands import Commands, Scope
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
+    from pathlib import Path
 
     from studio.live.connection.ros_connection import RosConnection
     from studio.live.time.document_source import DocumentSource
@@ -56,7 +56,7 @@ class RosSystem:
         bags: The folder in which topics are recorded.
     """
 
-    def __init__(self, wire: RosConnection, bags: Path = Path(recording.FOLDER)) -> None:
+    def __init__(self, wire: RosConnection, bags: Path) -> None:
         self.connection = wire
         self.changes = changes.Changes()
         self._epoch = wire.topics.epoch

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import re
+import time
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Final
@@ -11,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from studio.errors import CommandError, StudioError
+from studio.live.time.playhead import Playhead
 from studio.live.time.recording_source import RecordingSource
 from studio.live.time.series import COMMANDS as SERIES_COMMANDS
 from studio.live.time.series import SeriesReader
@@ -18,6 +21,7 @@ from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import LastSent
 from studio.protocol.playback import (
     GetTimeMarks,
+    GetTimeTicks,
     GoLive,
     LoopTime,
     PlayTime,
@@ -27,26 +31,36 @@ from studio.protocol.playback import (
     StepTime,
     TimeMarks,
     TimeState,
+    TimeTick,
+    TimeTicks,
     TimeTopics,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Iterable
+    from collections.abc import Awaitable, Callable, Coroutine, Generator, Iterable, Sequence
 
     from numpy.typing import NDArray
 
-    from studio.bags.recording import Recording
+    from studio.bags.recording import RecordedTopic, Recording
     from studio.live.time.document_source import DocumentSource
-    from studio.live.time.playhead import Playhead
+    from studio.live.time.rewinding import Rewinding, Seat
     from studio.live.time.shown import ShownRecording
+    from studio.live.time.ticks import Tick
     from studio.protocol import Event
     from studio.protocol.listeners import Audience
 
 _S: Final = 1_000_000_000
 _TELL_EVERY_S: Final = 1.0
+_TOPICS_EVERY_S: Final = 5.0
+"""Their counts grow with all that comes."""
+_LEFT_S: Final = 60.0
+"""After so long without a page the last minutes are left to those who wait for a place."""
 _TOPICS_MAX: Final = 10_000
 _TROUBLES_MAX: Final = 50
 _SENTENCE_MAX: Final = 500
+_TOPICS_OFTEN: Final = 200
+"""So many are sent again and again."""
+_AT_LIVE: Final = Playhead(0)
 _LIVE: Final = "The document shows what runs now: open a bag, or drag the time back."
 
 
@@ -56,17 +70,24 @@ class DocumentTime:
     Args:
         source: The topics of the document.
         audience: Is sent where it stands.
+        rewinding: The last minutes of the live system.
 
     Attributes:
         series: Answers with numbers over what is shown.
     """
 
-    def __init__(self, source: DocumentSource, audience: Audience) -> None:
-        self._source, self._audience = source, audience
+    def __init__(self, source: DocumentSource, audience: Audience, rewinding: Rewinding) -> None:
+        self._source, self._audience, self._rewinding = source, audience, rewinding
         self.series = SeriesReader(self)
         self._shown: ShownRecording | None = None
         self._playing: RecordingSource | None = None
-        self._zero_ns = 0
+        self._seat: Seat | None = None
+        """Waited for; with the last minutes that are shown goes the place."""
+        self._seat_at_ns = 0
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._left_s: float | None = None
+        """Since when no page looks."""
+        self._told_topics: tuple[float, tuple[tuple[str, str], ...]] = 0.0, ()
         self._progress: float | None = None
         self._trouble = ""
         self._sent = LastSent[TimeState](audience)
@@ -75,12 +96,13 @@ class DocumentTime:
         self._stepping = asyncio.Lock()
         self._telling: asyncio.Task[None] | None = None
         self._closed = False
-        self.past: Callable[[], ShownRecording | None] = lambda: None
-        """Gives what is kept of the last minutes, held once more; None: nothing is."""
+        self.others: Callable[[], ShownRecording | None] = lambda: None
+        """What is gone back to instead of the last minutes, as a copy to the bag of its class."""
         self.on_switch: Callable[[], Awaitable[None]] = _nothing
         """Called once topics come from elsewhere."""
         self.on_moment: Callable[[], Awaitable[None]] = _nothing
         """Called once all have been given another moment: it is drawn at once."""
+        rewinding.follow(self._note_past)
 
     @property
     def recording(self) -> Recording | None:
@@ -100,7 +122,8 @@ class DocumentTime:
     @property
     def zero_ns(self) -> int:
         """What the times of pages count from, since the Unix epoch."""
-        return self._zero_ns
+        shown = self._shown or self.others()
+        return self._rewinding.facts.zero_ns if shown is None else shown.zero_ns
 
     @property
     def at_ns(self) -> int:
@@ -110,12 +133,11 @@ class DocumentTime:
     def events(self) -> Iterable[Event]:
         """Yield the events for a new page."""
         yield self._state()
-        if self._shown is not None:
-            yield _topics_event(self._shown.recording)
+        yield _topics_event(self._topics())
 
     def ns_of(self, at_s: float) -> int:
         """Return a time of pages as ns since the Unix epoch."""
-        return self._zero_ns + round(at_s * _S)
+        return self.zero_ns + round(at_s * _S)
 
     def note_progress(self, share: float | None) -> None:
         """Send how far the reading of a damaged or unfinished file is, 0 to 1; None: it ended."""
@@ -131,6 +153,7 @@ class DocumentTime:
             shown: The recording.
             at_ns: Where it stands at first; None: at its beginning.
         """
+        self._leave_queue()
         async with self._turn:
             if shown is None and self._shown is None:
                 return
@@ -152,6 +175,8 @@ class DocumentTime:
     async def close(self) -> None:
         """Show nothing of a recording any more."""
         self._closed = True
+        self._rewinding.unfollow(self._note_past)
+        self._leave_queue()
         if self._telling is not None:
             self._telling.cancel()
         source, self._playing = self._playing, None
@@ -162,7 +187,6 @@ class DocumentTime:
 
     def _begin(self, shown: ShownRecording, at_ns: int | None) -> None:
         recording = shown.recording
-        self._zero_ns = recording.begin_ns
         node = f"/{_node_name(shown.title)}"
         made = RecordingSource(recording, node, at_ns, self._source.settling)
         loop = asyncio.get_running_loop()
@@ -176,32 +200,90 @@ class DocumentTime:
 
     async def _tell_switch(self) -> None:
         self._send()
-        if self._shown is not None:
-            self._audience.send(_topics_event(self._shown.recording))
+        self._send_topics()
         await self.on_switch()
+
+    # The last minutes
+
+    async def _go_back(self, at_ns: int) -> bool:
+        """Show what ran; whether that can be had at once, for too many may be there."""
+        if (shown := self.others()) is not None and (held := shown.hold()) is not None:
+            await self.show(held, at_ns)
+            return True
+        self._seat_at_ns = at_ns
+        if self._seat is None:
+            self._seat = self._rewinding.ask(self._granted, self._send, self._past_ended)
+        if self._seat.place:
+            self._send()
+            return False
+        await self._take_seat()
+        return True
+
+    async def _take_seat(self) -> None:
+        """Show the last minutes, unless the place was left meanwhile."""
+        if (seat := self._seat) is not None:
+            self._seat = None
+            await self.show(seat.shown(), self._seat_at_ns)
+
+    def _granted(self) -> None:
+        self._spawn(self._take_seat())
+
+    def _leave_queue(self) -> None:
+        if (seat := self._seat) is not None:
+            self._seat = None
+            seat.leave()
+            self._send()
+
+    def _past_ended(self) -> None:
+        """All that was kept is forgotten."""
+        self._seat = None
+        self._spawn(self._leave_past())
+
+    async def _leave_past(self) -> None:
+        async with self._turn:
+            shown = self._shown
+        if shown is not None and shown.mode == "past":
+            await self.go_live()
+
+    def _note_past(self) -> None:
+        """Send what is kept by now."""
+        if self._shown is not None and self._shown.mode == "bag":
+            return
+        if len(self._audience):
+            self._left_s = None
+            self._send()
+            self._send_topics(only_news=True)
+            return
+        now_s = time.monotonic()
+        self._left_s = self._left_s or now_s
+        if now_s - self._left_s > _LEFT_S and (self._seat or self._shown):
+            self._spawn(self.go_live())
+
+    def _spawn(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
 
     # Where it stands
 
     async def seek(self, command: SeekTime) -> None:
-        """Show another moment; answered when it is drawn.
+        """Show another moment; answered when it is drawn, or when it is waited for.
 
         Raises:
             StudioError: There is none, or it cannot be read.
         """
-        if self._playing is None:
-            await self._go_back()
-        await self._jump(self.ns_of(command.at_s), settled=command.settled)
-
-    async def _go_back(self) -> None:
-        """Show the last minutes of the live system."""
-        past = self.past()
-        if past is None:
-            raise CommandError(_LIVE)
-        await self.show(past, past.recording.end_ns)
+        at_ns = self.ns_of(command.at_s)
+        if self._playing is not None or await self._go_back(at_ns):
+            await self._jump(at_ns, settled=command.settled)
 
     async def step(self, command: StepTime) -> None:
-        """Go to the next message of a topic, or the one before; without one it stays."""
+        """Go to the next message of a topic, or the one before; without one it stays.
+
+        Of what runs now, that is the last one that came.
+        """
         async with self._stepping:
+            if self._playing is None and not await self._go_back(self._rewinding.facts.end_ns):
+                return
             source = self._demand()
             self._change(lambda head: replace(head, playing=False))
             find = partial(_neighbour, source.recording, command, source.playhead.at_ns)
@@ -237,10 +319,40 @@ class DocumentTime:
 
     async def marks(self, command: GetTimeMarks) -> TimeMarks:
         """Return how many messages of a topic lie in each part of a range."""
-        recording = self._demand().recording
+        recording = self._looked_at().recording
         range_ns = self.ns_of(command.begin_s), self.ns_of(command.end_s)
         counts = await asyncio.to_thread(_counts, recording, command.topic, range_ns, command.bins)
         return TimeMarks(request=command.request, counts=tuple(counts.tolist()))
+
+    async def ticks(self, command: GetTimeTicks) -> TimeTicks:
+        """Return the errors and warnings that are known so far, and read a little further."""
+        shown = self._looked_at()
+        found, more, done = await asyncio.to_thread(shown.ticks.read)
+        ticks = tuple(_tick_view(one, shown.zero_ns) for one in found)
+        return TimeTicks(request=command.request, ticks=ticks, more=more, done=done)
+
+    @contextmanager
+    def held(self) -> Generator[ShownRecording]:
+        """Hold what the timeline is about while parts of it are written.
+
+        Raises:
+            CommandError: There is nothing.
+        """
+        held = self._looked_at().hold()
+        if held is None:
+            raise CommandError(_LIVE)
+        try:
+            yield held
+        finally:
+            asyncio.get_running_loop().run_in_executor(None, held.let_go)
+
+    def _looked_at(self) -> ShownRecording:
+        """Return what the timeline is about: what is shown, or what can be gone back to.
+
+        Raises:
+            CommandError: There is nothing.
+        """
+        return self._shown or self.others() or self._rewinding.looked_at()
 
     def _demand(self) -> RecordingSource:
         """Return the source of what is shown.
@@ -287,33 +399,59 @@ class DocumentTime:
     def _send(self) -> None:
         self._sent.send(self._state())
 
+    def _send_topics(self, *, only_news: bool = False) -> None:
+        """Send the topics, if that is due: their counts grow with each message."""
+        topics, now_s = self._topics(), time.monotonic()
+        names = tuple((one.name, one.note) for one in topics)
+        told_s, told = self._told_topics
+        is_due = names != told or (now_s - told_s > _TOPICS_EVERY_S and len(names) < _TOPICS_OFTEN)
+        if is_due or not only_news:
+            self._told_topics = now_s, names
+            self._audience.send(_topics_event(topics))
+
+    def _topics(self) -> Sequence[RecordedTopic]:
+        shown = self._shown or self.others()
+        if shown is not None and shown.mode == "bag":
+            return shown.recording.topics
+        return self._rewinding.facts.topics
+
     def _state(self) -> TimeState:
-        shown, source = self._shown, self._playing
-        if shown is None or source is None:
-            return _live_state(self._progress)
-        recording, head = shown.recording, source.playhead
+        source, shown = self._playing, self._shown or self.others()
+        head = source.playhead if source is not None else _AT_LIVE
+        begin_ns, end_ns, troubles = self._span(shown)
         loop = head.loop and (self._s_of(head.loop[0]), self._s_of(head.loop[1]))
-        troubles = (self._trouble, *recording.troubles[:_TROUBLES_MAX])
+        said = (self._trouble, *troubles[:_TROUBLES_MAX])
+        is_bag = shown is not None and shown.mode == "bag" and source is not None
         return TimeState(
-            mode=shown.mode,
-            title=shown.title,
-            path=shown.path,
-            zero_s=self._zero_ns / _S,
-            begin_s=self._s_of(recording.begin_ns),
-            end_s=self._s_of(recording.end_ns),
-            now_s=self._s_of(head.at_ns),
+            mode="live" if source is None or self._shown is None else self._shown.mode,
+            title=shown.title if shown else "",
+            path=shown.path if shown else "",
+            zero_s=self.zero_ns / _S,
+            begin_s=self._s_of(begin_ns),
+            end_s=self._s_of(end_ns),
+            now_s=self._s_of(head.at_ns if source is not None else end_ns),
             playing=head.playing,
             rate=head.rate,
             loop=loop,
-            queue=0,
+            queue=self._seat.place if self._seat is not None else 0,
             progress=self._progress,
-            troubles=tuple(one[:_SENTENCE_MAX] for one in troubles if one),
-            kept_bytes=0,
-            kept_bytes_max=0,
+            troubles=tuple(one[:_SENTENCE_MAX] for one in said if one),
+            kept_bytes=0 if is_bag else self._rewinding.facts.size,
+            kept_bytes_max=0 if is_bag else self._rewinding.past.size_max,
         )
 
+    def _span(self, shown: ShownRecording | None) -> tuple[int, int, Sequence[str]]:
+        """Return when it begins and ends, and what is left out of it."""
+        if shown is not None and shown.mode == "bag":
+            recording = shown.recording
+            return recording.begin_ns, recording.end_ns, recording.troubles
+        facts = self._rewinding.facts
+        # A page counts on by itself, though nothing may come.
+        end_ns = max(facts.end_ns, time.time_ns()) if facts.end_ns else 0
+        return facts.begin_ns, end_ns, facts.troubles
+
     def _s_of(self, at_ns: int) -> float:
-        return (at_ns - self._zero_ns) / _S
+        return (at_ns - self.zero_ns) / _S
 
 
 async def _nothing() -> None:
@@ -359,7 +497,7 @@ def _counts(
     return counts
 
 
-def _topics_event(recording: Recording) -> TimeTopics:
+def _topics_event(topics: Sequence[RecordedTopic]) -> TimeTopics:
     return TimeTopics(
         topics=tuple(
             RecordedTopicView(
@@ -370,33 +508,19 @@ def _topics_event(recording: Recording) -> TimeTopics:
                 trouble=one.trouble,
                 note=one.note,
             )
-            for one in recording.topics[:_TOPICS_MAX]
+            for one in topics[:_TOPICS_MAX]
         )
     )
 
 
-def _live_state(progress: float | None) -> TimeState:
-    return TimeState(
-        mode="live",
-        title="",
-        path="",
-        zero_s=0.0,
-        begin_s=0.0,
-        end_s=0.0,
-        now_s=0.0,
-        playing=False,
-        rate=1.0,
-        loop=None,
-        queue=0,
-        progress=progress,
-        troubles=(),
-        kept_bytes=0,
-        kept_bytes_max=0,
-    )
+def _tick_view(tick: Tick, zero_ns: int) -> TimeTick:
+    at_s = (tick.at_ns - zero_ns) / _S
+    return TimeTick(at_s=at_s, level=tick.level, source=tick.source, text=tick.text)
 
 
 _SEEKS: Final = Limits(per_second=120)
 _MARKS: Final = Limits(per_second=60)
+_TICKS: Final = Limits(per_second=10)
 
 COMMANDS: Final = Commands[DocumentTime](Scope.DOCUMENT)
 COMMANDS.controller(GoLive, lambda time, _, __: time.go_live())
@@ -406,4 +530,5 @@ COMMANDS.controller(SetTimeRate, lambda time, c, _: time.set_rate(c))
 COMMANDS.controller(StepTime, lambda time, c, _: time.step(c), limits=_SEEKS)
 COMMANDS.controller(LoopTime, lambda time, c, _: time.loop(c))
 COMMANDS.viewer(GetTimeMarks, lambda time, c, _: time.marks(c), limits=_MARKS)
+COMMANDS.viewer(GetTimeTicks, lambda time, c, _: time.ticks(c), limits=_TICKS)
 COMMANDS.include(SERIES_COMMANDS, lambda time, _: time.series)

@@ -6,6 +6,7 @@ import threading
 from typing import TYPE_CHECKING, Literal
 
 from studio.errors import RecordingError
+from studio.live.time.ticks import RecordingTicks
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,17 +23,24 @@ class ShownRecording:
         title: Its name; of the last minutes none.
         path: Of its files, if it has any.
         mode: Whether it is a bag, or the last minutes of the live system.
+        zero_ns: What the times of pages count from: its beginning, though that may be gone.
+        ticks: Its errors and warnings.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the last minutes have their own zero and ticks
         self,
         recording: Recording,
         mode: Literal["past", "bag"],
         title: str = "",
         path: str = "",
         close: Callable[[], object] | None = None,
+        *,
+        zero_ns: int | None = None,
+        ticks: RecordingTicks | None = None,
     ) -> None:
         self.recording, self.title, self.path = recording, title, path
+        self.zero_ns = recording.begin_ns if zero_ns is None else zero_ns
+        self.ticks = ticks or RecordingTicks(recording)
         self.mode: Literal["past", "bag"] = mode
         self._series: RecordingSeries | None = None
         self._close, self._holders = close, 1

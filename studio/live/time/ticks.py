@@ -53,37 +53,35 @@ class RecordingTicks:
     def __init__(self, recording: Recording) -> None:
         self._recording = recording
         self._lock = threading.Lock()
-        self._begin_anew()
-
-    def forget(self) -> None:
-        """Read the recording anew: it is another."""
-        with self._lock:
-            self._begin_anew()
+        self._ticks: list[Tick] = []
+        self._more = 0
+        self._found: tuple[tuple[Tick, ...], int, float] = ((), 0, 0.0)
+        self._reading: Iterator[Recorded] | None = None
+        self._until_ns = self._end_ns = -1
+        self._levels: dict[str, int] = {}
+        self._decoders: dict[str, Callable[[bytes], MessageValue] | None] = {}
 
     def read(self) -> tuple[tuple[Tick, ...], int, float]:
         """Read on, and return the ticks by time, how many were left out, and the share read.
 
-        In a thread, for it reads files.
+        In a thread, for it reads files; while another reads on, what that found before.
 
         Raises:
             BagError: The file cannot be read any more.
         """
-        with self._lock:
+        if not self._lock.acquire(blocking=False):
+            return self._found
+        try:
             begin_ns, end_ns = self._recording.begin_ns, self._recording.end_ns
             self._read_on(end_ns)
             kept = sorted(one for one in self._ticks if one.at_ns >= begin_ns)
             self._ticks = kept
             length_ns = max(1, end_ns - begin_ns)
             done = 1.0 if self._reading is None else (self._until_ns - begin_ns) / length_ns
-            return tuple(kept), self._more, max(0.0, min(1.0, done))
-
-    def _begin_anew(self) -> None:
-        self._ticks: list[Tick] = []
-        self._more = 0
-        self._reading: Iterator[Recorded] | None = None
-        self._until_ns = self._end_ns = -1
-        self._levels: dict[str, int] = {}
-        self._decoders: dict[str, Callable[[bytes], MessageValue] | None] = {}
+            self._found = tuple(kept), self._more, max(0.0, min(1.0, done))
+            return self._found
+        finally:
+            self._lock.release()
 
     def _read_on(self, end_ns: int) -> None:
         until_s = time.monotonic() + _READING_S

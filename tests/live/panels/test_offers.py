@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
@@ -24,7 +25,8 @@ TWIST = "geometry_msgs/msg/Twist"
 
 def asked(command: Command) -> Any:  # noqa: ANN401 - the answer
     """Ask a studio that has joined nothing."""
-    return asyncio.run(ask_ros(RosSystem(RosConnection(WireChoice("off"))), command, Ear()))
+    ros = RosSystem(RosConnection(WireChoice("off")), Path("nowhere"))
+    return asyncio.run(ask_ros(ros, command, Ear()))
 
 
 def read(text: str, name: str = TWIST, place: int = 0) -> Any:  # noqa: ANN401 - what was read

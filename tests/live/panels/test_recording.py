@@ -51,11 +51,6 @@ def talking(ros: RosSystem) -> Generator[None]:
         link.node.destroy_publisher(publisher)
 
 
-@pytest.fixture(autouse=True)
-def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-
-
 def test_b1_what_a_page_records_is_listed_whole_and_a_part_of_it_is_cut(endpoint: str):
     async def story() -> None:
         async with bridged(endpoint) as bridge:
@@ -85,7 +80,7 @@ def test_b1_what_a_page_records_is_listed_whole_and_a_part_of_it_is_cut(endpoint
                 await bridge.do(CutBag(begin_s=0.0, end_s=1.0, name="half"))
             with pytest.raises(RecordingError, match="later end"):
                 await bridge.do(CutBag(begin_s=1.0, end_s=0.5, name="none"))
-            assert not Path("bags/none").exists()
+            assert not (ros.recording.folder / "none").exists()
             ros.recording.past = ros.recording.shown
             kept = await bridge.do(SavePast(seconds=3600, name="all"))
             assert kept.messages == ended["messages"]
@@ -106,7 +101,7 @@ def test_a_recording_goes_on_without_its_page_and_is_whole_when_the_connection_e
                 ros.attach(later)
                 await until(lambda: state(later)["messages"] >= 10)
                 await ros.let_go()
-            with Reader(Path("bags/left")) as reader:
+            with Reader(ros.recording.folder / "left") as reader:
                 assert reader.topics["/words"].msgcount >= 10
             assert not state(later)["recording"]
 
