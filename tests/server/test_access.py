@@ -40,7 +40,7 @@ VIEWER_COMMANDS = {
         "get_graph",
         "get_node",
     ),
-    *("list_topics", "get_topic_ends", "get_time_marks", "get_series"),
+    *("list_topics", "get_topic_ends", "get_time_marks", "get_time_ticks", "get_series"),
     *("set_name", "follow"),
     *("get_rviz_text", "get_rviz_view"),
 }

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+from collections import Counter
 from contextlib import asynccontextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -18,7 +20,6 @@ from tests.support.wired_studio import joint_states_of, studio, tf_of
 
 if TYPE_CHECKING:
     from collections.abc import AsyncGenerator
-    from pathlib import Path
 
     from studio.protocol import Command
     from studio.ros.client import Node
@@ -88,3 +89,40 @@ def test_a_live_document_shows_what_was_and_then_again_what_runs(
             await past.stand(0.75)
 
     asyncio.run(story())
+
+
+def test_the_past_is_marked_while_the_document_is_live_and_a_part_of_it_is_a_bag(
+    endpoint: str, tmp_path: Path, tester: Node
+):
+    async def story() -> None:
+        async with past_of(endpoint, tmp_path, tester) as past:
+            await past.stand(0.25)
+            last_s = await past.stand(-0.5)
+            await until(lambda: past.state["end_s"] > last_s)
+            topics = {one["name"] for one in past.seen.ear.last("time_topics")["topics"]}
+            assert {"/joint_states", "/tf"} <= topics
+            begin_s = past.state["begin_s"]
+            asked = GetTimeMarks(topic="/tf", begin_s=begin_s, end_s=last_s + 1.0, bins=10)
+            marks = await past.ask(asked, "time_marks")
+            ticks = await past.ask(GetTimeTicks(), "time_ticks")
+            assert (ticks["ticks"], ticks["more"]) == ([], 0)
+            saved = await past.ask(SavePast(seconds=600, name="saved"), "bag_written")
+            counts = counted(saved["path"])
+            assert sum(counts.values()) == saved["messages"]
+            assert counts["/tf"] == sum(marks["counts"]) > 1
+            half_s = begin_s + (last_s - begin_s) / 2
+            cut = CutBag(begin_s=begin_s, end_s=half_s, topics=("/tf",), name="half")
+            part = await past.ask(cut, "bag_written")
+            assert list(counted(part["path"])) == ["/tf"]
+            assert 0 < part["messages"] < counts["/tf"]
+
+    asyncio.run(story())
+
+
+def counted(bag: str) -> Counter[str]:
+    """How many messages of each topic the library of MCAP reads in a bag."""
+    found = Counter[str]()
+    for file in Path(bag).glob("*.mcap"):
+        with file.open("rb") as stream:
+            found.update(one.topic for _, one, _ in make_reader(stream).iter_messages())
+    return found
