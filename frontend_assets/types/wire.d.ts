@@ -3918,6 +3918,15 @@ export interface SetArguments {
   values: Record<string, string | null>;
 }
 
+/** Keep these bookmarks, and no others. */
+export interface SetBookmarks {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "set_bookmarks";
+  bookmarks: Bookmark[];
+}
+
 /** Change how others join; what is None stays as it is. */
 export interface SetClass {
   request?: number;
@@ -5055,6 +5064,7 @@ export type Command =
   | SendGoal
   | SetArgument
   | SetArguments
+  | SetBookmarks
   | SetClass
   | SetDisplay
   | SetDisplayProperty

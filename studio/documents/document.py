@@ -66,6 +66,7 @@ from studio.live.displays.rviz_configs import COMMANDS as CONFIG_COMMANDS
 from studio.live.displays.rviz_configs import RvizConfigs
 from studio.live.displays.selecting import COMMANDS as SELECTION_COMMANDS
 from studio.live.displays.selecting import Selecting
+from studio.live.time.bookmarks import BookmarkFile
 from studio.live.time.document_source import DocumentSource
 from studio.live.time.document_time import COMMANDS as TIME_COMMANDS
 from studio.live.time.document_time import DocumentTime
@@ -74,6 +75,7 @@ from studio.protocol.commands import Commands, Scope
 from studio.protocol.documents import ChoosePackage, DocumentState, Progress
 from studio.protocol.listeners import Audience, Listener, send
 from studio.protocol.robot import Displays, SetDisplay
+from studio.protocol.roles import owner_of
 from studio.scene import DocumentScene
 
 if TYPE_CHECKING:
@@ -181,7 +183,13 @@ class Document:
             self.source,
             audience,
         )
-        self.time = DocumentTime(self.source, audience, services.rewinding)
+        self.time = DocumentTime(
+            self.source,
+            audience,
+            services.rewinding,
+            lambda path: BookmarkFile(Path(path), data_folder),
+            writes=not owner_of(self.id),
+        )
         self.time.on_moment = self._draw_moment
         self.time.on_switch = self._time_switched
         self._joints_before: JointSource | None = None

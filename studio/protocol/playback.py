@@ -16,6 +16,8 @@ from studio.protocol.message import Command, Event, Message
 RATE_MIN, RATE_MAX = 0.1, 10.0
 BINS_MAX = 4_000
 BOOKMARKS_MAX = 200
+FAR_S = 1e9
+"""No recording is so long: thirty years."""
 
 
 class OpenBag(Command):
@@ -170,7 +172,7 @@ class TimeTicks(Event):
 class Bookmark(Message):
     """A moment with a name."""
 
-    at_s: float
+    at_s: Annotated[float, Field(ge=-FAR_S, le=FAR_S)]
     name: Annotated[str, Field(max_length=200)]
 
 

@@ -151,7 +151,7 @@ FIELDS: dict[str, object] = {
     "action": "press",
     "paused": False,
     "displays": ("d1",),
-    **dict.fromkeys(("nodes", "items"), ()),
+    **dict.fromkeys(("nodes", "items", "bookmarks"), ()),
     **dict.fromkeys(("package", "executable"), "x"),
     **dict.fromkeys(("run", "process", "edit"), 1),
     "on": True,

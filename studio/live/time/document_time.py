@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from studio.errors import CommandError, StudioError
+from studio.live.time.bookmarks import COMMANDS as BOOKMARK_COMMANDS
+from studio.live.time.bookmarks import Bookmarks
 from studio.live.time.playhead import Playhead
 from studio.live.time.recording_source import RecordingSource
 from studio.live.time.series import COMMANDS as SERIES_COMMANDS
@@ -20,6 +22,7 @@ from studio.live.time.series import SeriesReader
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import LastSent
 from studio.protocol.playback import (
+    FAR_S,
     GetTimeMarks,
     GetTimeTicks,
     GoLive,
@@ -42,6 +45,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from studio.bags.recording import RecordedTopic, Recording
+    from studio.live.time.bookmarks import BookmarkFile
     from studio.live.time.document_source import DocumentSource
     from studio.live.time.rewinding import Rewinding, Seat
     from studio.live.time.shown import ShownRecording
@@ -71,13 +75,25 @@ class DocumentTime:
         source: The topics of the document.
         audience: Is sent where it stands.
         rewinding: The last minutes of the live system.
+        bookmark_file: Gives the file of bookmarks for the bag at a path; in a thread.
+        writes: Whether that is written.
 
     Attributes:
         series: Answers with numbers over what is shown.
+        bookmarks: Moments of it with names.
     """
 
-    def __init__(self, source: DocumentSource, audience: Audience, rewinding: Rewinding) -> None:
+    def __init__(
+        self,
+        source: DocumentSource,
+        audience: Audience,
+        rewinding: Rewinding,
+        bookmark_file: Callable[[str], BookmarkFile],
+        *,
+        writes: bool,
+    ) -> None:
         self._source, self._audience, self._rewinding = source, audience, rewinding
+        self.bookmarks = Bookmarks(self, audience, bookmark_file, writes=writes)
         self.series = SeriesReader(self)
         self._shown: ShownRecording | None = None
         self._playing: RecordingSource | None = None
@@ -116,8 +132,9 @@ class DocumentTime:
 
     @property
     def path(self) -> str:
-        """Where the files of the bag are; empty: no bag is shown."""
-        return "" if self._shown is None else self._shown.path
+        """Where the files of the bag are that the timeline is about; empty: it is of none."""
+        shown = self._shown or self.others()
+        return "" if shown is None else shown.path
 
     @property
     def zero_ns(self) -> int:
@@ -134,10 +151,11 @@ class DocumentTime:
         """Yield the events for a new page."""
         yield self._state()
         yield _topics_event(self._topics())
+        yield self.bookmarks.event()
 
     def ns_of(self, at_s: float) -> int:
         """Return a time of pages as ns since the Unix epoch."""
-        return self.zero_ns + round(at_s * _S)
+        return self.zero_ns + round(max(-FAR_S, min(FAR_S, at_s)) * _S)
 
     def note_progress(self, share: float | None) -> None:
         """Send how far the reading of a damaged or unfinished file is, 0 to 1; None: it ended."""
@@ -201,6 +219,7 @@ class DocumentTime:
     async def _tell_switch(self) -> None:
         self._send()
         self._send_topics()
+        await self.bookmarks.turn()
         await self.on_switch()
 
     # The last minutes
@@ -253,6 +272,8 @@ class DocumentTime:
             self._left_s = None
             self._send()
             self._send_topics(only_news=True)
+            if self.bookmarks.are_others:
+                self._spawn(self.bookmarks.turn())
             return
         now_s = time.monotonic()
         self._left_s = self._left_s or now_s
@@ -531,4 +552,5 @@ COMMANDS.controller(StepTime, lambda time, c, _: time.step(c), limits=_SEEKS)
 COMMANDS.controller(LoopTime, lambda time, c, _: time.loop(c))
 COMMANDS.viewer(GetTimeMarks, lambda time, c, _: time.marks(c), limits=_MARKS)
 COMMANDS.viewer(GetTimeTicks, lambda time, c, _: time.ticks(c), limits=_TICKS)
+COMMANDS.include(BOOKMARK_COMMANDS, lambda time, _: time.bookmarks)
 COMMANDS.include(SERIES_COMMANDS, lambda time, _: time.series)

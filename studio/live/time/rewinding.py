@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 
 SEATS: Final = 8
 """Each shown past costs a reader of its own, and drawing."""
-NOTHING_KEPT: Final = "Nothing is kept of what ran: connect with a robot first, and look at it."
+NOTHING_KEPT: Final = (
+    "The document shows what runs now, and nothing of that is kept: open a bag, or connect with a "
+    "robot first."
+)
 _LOOK_EVERY_S: Final = 1.0
 
 
