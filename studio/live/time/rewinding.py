@@ -26,8 +26,12 @@ _LOOK_EVERY_S: Final = 1.0
 
 
 class PastFacts(NamedTuple):
-    """What was kept when it was looked at; times since the Unix epoch, 0: nothing."""
+    """What was kept when it was looked at; times since the Unix epoch, 0: nothing.
 
+    `epoch` is that of the past: with another one all of this is forgotten.
+    """
+
+    epoch: int = -1
     zero_ns: int = 0
     begin_ns: int = 0
     end_ns: int = 0
@@ -57,7 +61,8 @@ class Rewinding:
     @property
     def is_possible(self) -> bool:
         """Whether anything is kept."""
-        return self.past.is_keeping and self.facts.end_ns > 0
+        facts, past = self.facts, self.past
+        return past.is_keeping and facts.epoch == past.epoch and facts.end_ns > 0
 
     # Places
 
@@ -139,8 +144,10 @@ class Rewinding:
     async def _keep_looking(self) -> None:
         while self.past.is_keeping and self._followers:
             # While much comes, its lock is held for a while.
-            self.facts = await asyncio.to_thread(_facts_of, self.past)
-            self._tell()
+            found = await asyncio.to_thread(_facts_of, self.past)
+            if found.epoch == self.past.epoch:
+                self.facts = found
+                self._tell()
             await asyncio.sleep(_LOOK_EVERY_S)
 
     def _tell(self) -> None:
@@ -200,5 +207,5 @@ class Seat:
 
 def _facts_of(past: LivePast) -> PastFacts:
     """In a thread, for it waits until what comes is taken in."""
-    begin_ns, end_ns = past.begin_ns, past.end_ns
-    return PastFacts(past.zero_ns, begin_ns, end_ns, past.size, past.topics, past.troubles)
+    epoch, begin_ns, end_ns = past.epoch, past.begin_ns, past.end_ns
+    return PastFacts(epoch, past.zero_ns, begin_ns, end_ns, past.size, past.topics, past.troubles)
