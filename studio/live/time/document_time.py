@@ -205,6 +205,8 @@ class DocumentTime:
 
     def _begin(self, shown: ShownRecording, at_ns: int | None) -> None:
         recording = shown.recording
+        if at_ns is not None:
+            at_ns = max(recording.begin_ns, min(recording.end_ns, at_ns))
         node = f"/{_node_name(shown.title)}"
         made = RecordingSource(recording, node, at_ns, self._source.settling)
         loop = asyncio.get_running_loop()
@@ -300,14 +302,16 @@ class DocumentTime:
     async def step(self, command: StepTime) -> None:
         """Go to the next message of a topic, or the one before; without one it stays.
 
-        Of what runs now, that is the last one that came.
+        Before what runs now, that is the last one that came.
         """
         async with self._stepping:
-            if self._playing is None and not await self._go_back(self._rewinding.facts.end_ns):
+            was_live = self._playing is None
+            if was_live and (command.forward or not await self._go_back(time.time_ns())):
                 return
             source = self._demand()
             self._change(lambda head: replace(head, playing=False))
-            find = partial(_neighbour, source.recording, command, source.playhead.at_ns)
+            from_ns = source.playhead.at_ns + (1 if was_live else 0)
+            find = partial(_neighbour, source.recording, command, from_ns)
             at_ns = await asyncio.to_thread(find)
             if at_ns is not None:
                 await self._jump(at_ns, settled=True)
