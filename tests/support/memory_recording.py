@@ -46,14 +46,19 @@ class MemoryRecording:
 
     def add(self, name: str, at_ns: int, payload: bytes) -> None:
         """Record a message; those of a topic come in order."""
-        kept = self._samples[name]
         gid = hashlib.sha256(name.encode()).digest()[:16]
-        kept.append(RawSample(payload, Attachment(len(kept) + 1, at_ns, gid), at_ns))
+        number = len(self._samples[name]) + 1
+        self.put(name, RawSample(payload, Attachment(number, at_ns, gid), at_ns))
+
+    def put(self, name: str, sample: RawSample) -> None:
+        """Record a message as it came."""
+        kept = self._samples[name]
+        kept.append(sample)
         self.topics = tuple(
             replace(one, count=len(kept)) if one.name == name else one for one in self.topics
         )
 
-    def say(self, name: str, at_ns: int, **fields: Any) -> None:  # noqa: ANN401
+    def say(self, name: str, at_ns: int, /, **fields: Any) -> None:  # noqa: ANN401
         """Record a message of these fields."""
         found = next(one for one in self.topics if one.name == name)
         made = message(found.type_name)(**fields)

@@ -132,7 +132,7 @@ class RecordingTicks:
 
     def _of_diagnostics(self, message: MessageValue, at_ns: int) -> Iterator[Tick]:
         for status in message.status:
-            level = _byte(status.level)
+            level = int(status.level)
             if self._levels.get(status.name, 0) == level:
                 continue
             if level or status.name in self._levels:
@@ -155,13 +155,8 @@ class RecordingTicks:
 
 
 def _of_log(message: MessageValue, at_ns: int) -> list[Tick]:
-    level = _byte(message.level)
+    level = int(message.level)
     if level < _WARN:
         return []
     grade = "error" if level >= _ERROR else "warn"
     return [Tick(at_ns, grade, message.name[:_NAME_MAX], message.msg[:_TEXT_MAX])]
-
-
-def _byte(level: int | bytes) -> int:
-    """Return a level: `byte` fields come as one byte of bytes."""
-    return level[0] if isinstance(level, bytes) else int(level)
