@@ -1397,12 +1397,13 @@ export interface GetLessons {
   type: "get_lessons";
 }
 
-/** A link that opens this robot with its arguments and unsaved edits. */
+/** A link that opens this robot with its arguments and unsaved edits, and a bag's moment. */
 export interface GetLink {
   request?: number;
   document?: string;
   id?: string;
   type: "get_link";
+  look?: LinkLook;
 }
 
 /** Ask for the lines after one; `/rosout` is subscribed from the first such request on. */
@@ -2077,6 +2078,24 @@ export interface Link {
   arguments: number;
   files: string[];
   edits: number;
+  bag: string;
+  at_s: number;
+}
+
+/** Where a page looks from, in the fixed frame, m; `field` is the angle of its picture, rad. */
+export interface LinkCamera {
+  eye: [number, number, number];
+  target: [number, number, number];
+  up: [number, number, number];
+  flat: boolean;
+  field: number;
+}
+
+/** How the page that a link is made on shows the robot; what is empty is as it was there. */
+export interface LinkLook {
+  camera: LinkCamera | null;
+  part: string;
+  layout: string;
 }
 
 /** A link with an inertial; None where no number can be given. */
@@ -2090,12 +2109,17 @@ export interface LinkMassView {
   collision: VolumeView | null;
 }
 
-/** Answer to `open_link`: go to `/d/<document>`; `left_out` lists edits that found no place. */
+/**
+ * Answer to `open_link`: go to `/d/<document>`, and show it so.
+ *
+ * `left_out` lists edits that found no place, and a bag that is not here.
+ */
 export interface LinkOpened {
   type: "link_opened";
   request: number;
   document: string;
   left_out: string[];
+  look: LinkLook;
 }
 
 /** One link as the page lists it; the parent joint is in the joints. */

@@ -32,7 +32,8 @@ from studio.documents.lessons.lesson_room import COMMANDS as LESSON_COMMANDS
 from studio.documents.lessons.lesson_room import LessonRoom
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
-from studio.documents.links import found_again, link_to, place_edits, read_link
+from studio.documents.link_opening import open_link
+from studio.documents.links import Moment, link_to
 from studio.documents.seen import seen_document
 from studio.documents.services import Services
 from studio.documents.uploads import Uploads
@@ -70,7 +71,6 @@ from studio.protocol.documents import (
     GetLink,
     Gone,
     Link,
-    LinkOpened,
     ListFolder,
     Opened,
     OpenLink,
@@ -382,6 +382,14 @@ class Engine:
         await document.show_bag(shown, with_ghost=False)
         return name
 
+    def moment_of(self, document: Document) -> Moment | None:
+        """Return what a document shows of a bag; None: it shows none."""
+        shown = document.time.shown
+        if shown is None or shown.mode != "bag":
+            return None
+        own = document.entry.is_relative_to(self._settings.data_folder)
+        return Moment(Path(shown.path), shown.title, shown.zero_ns, document.time.at_ns, own)
+
     def _with_entry(self, location: Location) -> Location:
         """Return a workspace without a robot as one that can be opened."""
         may_run = self._services.run_folders.allows(location.root)
@@ -437,19 +445,6 @@ class Engine:
             return await form_of(one.workspace, one.last_run, one.sites, command.request)
         path = self.served.resolve(Path(command.path))
         return await form_at(await self._locate(path, within=self.served), command.request)
-
-    async def open_link(self, command: OpenLink) -> LinkOpened:
-        """Open the file of a link as usual, then make its edits."""
-        shared = read_link(command.link)
-        locations = [one.location for one in self.documents.values()]
-        path = found_again(shared.entry, self.served, locations)
-        opening = OpenPath(path=str(path), arguments=shared.arguments)
-        name = await self._open_served(opening)
-        document = self.document(name)
-        edits, left_out = place_edits(document.sources, document.location, shared.files)
-        if edits:
-            await document.edits.run(edits)
-        return LinkOpened(request=command.request, document=name, left_out=left_out)
 
     async def _locate(
         self, path: Path, progress: Progress | None = None, within: ServedRoots | None = None
@@ -544,7 +539,7 @@ def _folder_of(bag: Path) -> Path:
 
 def _link_to(engine: Engine, command: GetLink) -> Link:
     document = engine.document(command.document)
-    return link_to(document.sources, document.location, command.request)
+    return link_to(document.sources, document.location, command, engine.moment_of(document))
 
 
 async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
@@ -580,7 +575,7 @@ COMMANDS.presenter(ListFolder, lambda engine, c, _: engine.list_folder(c))
 COMMANDS.presenter(GetArguments, lambda engine, c, _: engine.launch_form(c))
 COMMANDS.controller(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
 COMMANDS.controller(UseTool, _use_tool, scope=Scope.ROS, needs_router=True, limits=_TOOL_USES)
-COMMANDS.presenter(OpenLink, lambda engine, c, _: engine.open_link(c))
+COMMANDS.presenter(OpenLink, lambda engine, c, _: open_link(engine, c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
 COMMANDS.include(COPY_COMMANDS, lambda engine, _: engine.copies)
 COMMANDS.include(LESSON_COMMANDS, lambda engine, _: engine.lessons)

@@ -1,4 +1,4 @@
-"""A robot as a link: its file, its arguments and its unsaved edits in one line of text.
+"""A robot as a link: its file, arguments and unsaved edits, and a moment of a bag, in one line.
 
 Compressed JSON in base64url, behind a digit that names the format. A link may come from anybody:
 it is bounded, names files below the served folders only, and is opened and edited by the ordinary
@@ -13,7 +13,7 @@ import json
 import zlib
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final, NamedTuple
 
 from pydantic import Field, ValidationError
 
@@ -23,11 +23,11 @@ from studio.documents.edits import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError
 from studio.packages.roots import package_folder_of
 from studio.packages.run_folders import is_program
-from studio.protocol.documents import Link
+from studio.protocol.documents import GetLink, Link, LinkLook
 from studio.protocol.message import ArgumentName, Message
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from studio.description.editing.sources import Sources
     from studio.packages.roots import ServedRoots
@@ -71,16 +71,47 @@ class SharedFile(Message):
     edits: tuple[SharedEdit, ...] = Field(max_length=10_000)
 
 
+class SharedMoment(Message):
+    """A moment of a bag; `own`: the robot of the link is the bag's own, and opens with it."""
+
+    bag: SharedPath
+    at_ns: int = Field(ge=-(1 << 62), le=1 << 62)
+    own: bool = False
+
+
 class SharedRobot(Message):
     """The content of a link."""
 
     entry: SharedPath
     arguments: dict[ArgumentName, _Text] = Field(default_factory=dict[str, str], max_length=1000)
     files: tuple[SharedFile, ...] = Field(default=(), max_length=200)
+    moment: SharedMoment | None = None
+    look: LinkLook = LinkLook()
 
 
-def link_to(sources: Sources, location: Location, request: int) -> Link:
+class Moment(NamedTuple):
+    """What a document shows of a bag; times in ns since the Unix epoch.
+
+    `own`: the document was opened for the bag.
+    """
+
+    bag: Path
+    title: str
+    begin_ns: int
+    at_ns: int
+    own: bool
+
+
+def link_to(
+    sources: Sources, location: Location, command: GetLink, moment: Moment | None = None
+) -> Link:
     """Return a link that opens a document as it is now.
+
+    Args:
+        sources: Its texts.
+        location: Where its files lie.
+        command: How the page shows it, which is part of the link.
+        moment: What it shows of a bag.
 
     Raises:
         CommandError: Its unsaved edits are too many for a link.
@@ -88,18 +119,25 @@ def link_to(sources: Sources, location: Location, request: int) -> Link:
     assert location.entry is not None
     files = tuple(_shared_file(sources, location, name) for name in sources.unsaved_files)
     shared = SharedRobot(
-        entry=_shared_path(location, location.entry), arguments=sources.arguments, files=files
+        entry=_shared_path(location, location.entry),
+        arguments=sources.arguments,
+        files=files,
+        moment=moment and _shared_moment(location, moment),
+        look=command.look,
     )
-    text = json.dumps(shared.model_dump(), separators=(",", ":"), ensure_ascii=False)
+    content = shared.model_dump(exclude_defaults=True)
+    text = json.dumps(content, separators=(",", ":"), ensure_ascii=False)
     packed = base64.urlsafe_b64encode(zlib.compress(text.encode(), 9)).decode().rstrip("=")
     if len(packed) >= LINK_LIMIT or len(text.encode()) > _UNPACKED_BYTES:
         raise CommandError("The unsaved edits are too many for a link: save them, then copy it.")
     return Link(
-        request=request,
+        request=command.request,
         text=f"{_VERSION}{packed}",
         arguments=len(sources.arguments),
         files=sources.unsaved_files,
         edits=sum(len(file.edits) for file in files),
+        bag=moment.title if moment else "",
+        at_s=(moment.at_ns - moment.begin_ns) / 1e9 if moment else 0.0,
     )
 
 
@@ -137,6 +175,18 @@ def found_again(shared: SharedPath, served: ServedRoots, locations: Iterable[Loc
                 return served.resolve(path)
     name = f"{shared.package}/{shared.inside}" if shared.package else shared.path
     raise CommandError(f"The link names {name}, which is not in the opened folders: open it first.")
+
+
+def bag_places(
+    shared: SharedPath, bags_folder: Path, locations: Iterable[Location]
+) -> Iterator[Path]:
+    """Yield where the bag of a link may lie on this machine; nothing of it is looked at."""
+    yield Path(shared.path)
+    for location in locations:
+        for folder in location.index.candidates(shared.package, location.root):
+            if shared.package:
+                yield folder / shared.inside
+    yield bags_folder / Path(shared.path).name
 
 
 def place_edits(
@@ -211,6 +261,10 @@ def _shared_file(sources: Sources, location: Location, name: str) -> SharedFile:
         for hunk in hunks_between(disk, sources.text(name))
     )
     return SharedFile(file=_shared_path(location, Path(name)), digest=_digest(disk), edits=edits)
+
+
+def _shared_moment(location: Location, moment: Moment) -> SharedMoment:
+    return SharedMoment(bag=_shared_path(location, moment.bag), at_ns=moment.at_ns, own=moment.own)
 
 
 def _shared_path(location: Location, path: Path) -> SharedPath:

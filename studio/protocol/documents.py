@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -319,10 +319,31 @@ class Arguments(Event):
     missing: tuple[str, ...]
 
 
+class LinkCamera(Message, allow_inf_nan=False):
+    """Where a page looks from, in the fixed frame, m; `field` is the angle of its picture, rad."""
+
+    eye: tuple[float, float, float]
+    target: tuple[float, float, float]
+    up: tuple[float, float, float]
+    flat: bool
+    field: float
+
+
+class LinkLook(Message):
+    """How the page that a link is made on shows the robot; what is empty is as it was there."""
+
+    camera: LinkCamera | None = None
+    part: Annotated[str, Field(max_length=300)] = ""
+    """That is selected."""
+    layout: Annotated[str, Field(max_length=50_000)] = ""
+    """How its panels are arranged, as pages write it; who opens the link reads it as hostile."""
+
+
 class GetLink(Command):
-    """A link that opens this robot with its arguments and unsaved edits."""
+    """A link that opens this robot with its arguments and unsaved edits, and a bag's moment."""
 
     type: Literal["get_link"] = "get_link"
+    look: LinkLook = LinkLook()
 
 
 class OpenLink(Command):
@@ -342,12 +363,20 @@ class Link(Event):
     files: tuple[str, ...]
     """Files whose unsaved edits it holds."""
     edits: int
+    bag: str
+    """Name of the bag that is shown; empty: none is part of it."""
+    at_s: float
+    """The moment, since the bag begins."""
 
 
 class LinkOpened(Event):
-    """Answer to `open_link`: go to `/d/<document>`; `left_out` lists edits that found no place."""
+    """Answer to `open_link`: go to `/d/<document>`, and show it so.
+
+    `left_out` lists edits that found no place, and a bag that is not here.
+    """
 
     type: Literal["link_opened"] = "link_opened"
     request: int
     document: str
     left_out: tuple[str, ...]
+    look: LinkLook
