@@ -75,8 +75,21 @@ export function newOnes(layouts, own) {
 
 /** @param {string} text */
 function takePart(text) {
-  const { arrangement, layouts, open, plots, span_s: span } = readPart(text);
-  addLayouts(newOnes(layouts, ownLayouts.value));
+  addLayouts(newOnes(readPart(text).layouts, ownLayouts.value));
+  takePanels(text);
+}
+
+/** @returns {string} how the panels stand and what is plotted, without the layouts that are this person's own */
+export function toldPanels() {
+  return JSON.stringify({
+    ...toldPart(layoutControl.peek()?.present() ?? null),
+    Layouts: undefined,
+  });
+}
+
+/** @param {string} text how the panels are to stand, and what is plotted; nothing of it is believed */
+export function takePanels(text) {
+  const { arrangement, open, plots, span_s: span } = readPart(text);
   if (plots) series.value = plots;
   if (span) span_s.value = span;
   if (arrangement) layoutControl.value?.arrange(arrangement);

@@ -20,7 +20,17 @@ test("a link tells its file, its arguments and how much is edited", async () => 
     file: "mast/urdf/mast.xacro",
     arguments: { name: "Größe" },
     edits: 2,
+    bag: "",
   });
+});
+
+test("a link to a moment tells its bag, which is what is opened where the robot is the bag's own", async () => {
+  const entry = { path: "/data/from_ros/run.urdf" };
+  const bag = { path: "/bags/run", package: "", inside: "" };
+  const told = async (/** @type {boolean} */ own) =>
+    linkContents(packed({ entry, moment: { bag, at_ns: 1, own } }));
+  assert.deepEqual(await told(false), { file: entry.path, arguments: {}, edits: 0, bag: "run" });
+  assert.equal((await told(true))?.file, "/bags/run");
 });
 
 test("of a file in no package its path is told", async () => {
