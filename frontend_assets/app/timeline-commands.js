@@ -28,6 +28,8 @@ import { dialog, isFree, notify } from "../model/view.js";
 const mayMove = () => hasTimeline.value && mayMoveTime.value && isFree();
 /** Now has nothing to play: it goes on by itself. */
 const mayPlay = () => mayMove() && isPast.value;
+/** Who waits for a place to look back from waits no more. */
+const mayGoLive = () => mayMove() && (isPast.value || (timeState.value?.queue ?? 0) > 0);
 
 /** @returns {Command[]} */
 export function timeCommands() {
@@ -54,7 +56,7 @@ export function timeCommands() {
       enabled: mayPlay,
       run: () => void stepTime(true),
     },
-    { id: "time.live", icon: "live", keys: ["L"], enabled: mayPlay, run: () => void goLive() },
+    { id: "time.live", icon: "live", keys: ["L"], enabled: mayGoLive, run: () => void goLive() },
     {
       id: "time.begin",
       icon: "skipBack",

@@ -89,6 +89,7 @@ function LiveStrip({ state }) {
   return html`<section class="timeline strip" aria-label=${t("timeline")}>
     <span class="timeline-kept" title=${t("timeline.kept.hint")}><${Icon} name="history" size=${14} /><${Kept} state=${state} /></span>
     <${TimelineRuler} thin />
+    <${Waiting} state=${state} />
     <span class="timeline-live" title=${t("timeline.live.hint")}><span class="dot"></span>${t("timeline.live")}</span>
     <${FoldButton} />
   </section>`;
@@ -173,7 +174,8 @@ function Clock() {
 function Waiting({ state }) {
   if (state.queue === 0) return null;
   const place = ordinal(state.queue, language.value);
-  return html`<span class="timeline-queue" role="status"><span class="spinner"></span>${t("timeline.queue", { place })}</span>`;
+  return html`<span class="timeline-queue" role="status"><span class="spinner"></span>${t("timeline.queue", { place })}
+    <${IconButton} icon="close" size=${12} class="narrow" label=${t("timeline.queue.leave")} disabled=${!mayMoveTime.value} onClick=${goLive} /></span>`;
 }
 
 /** @param {{done: number}} props the index of a damaged file is made */
@@ -310,7 +312,8 @@ function phoneItems(state) {
     };
   };
   const moves = ["time.live", "time.back", "time.forward", "time.begin", "time.loop"];
-  const played = state.mode === "live" ? ["time.back"] : moves;
+  const waits = state.queue > 0 ? ["time.live"] : [];
+  const played = state.mode === "live" ? [...waits, "time.back"] : moves;
   const rate = {
     label: `${t("timeline.rate")}: ${rateWords(state.rate)}`,
     icon: "joints",
