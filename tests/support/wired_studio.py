@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.documents.engine import Engine
 from studio.ros.messages import message
-from studio.settings import Settings, WireChoice
+from studio.settings import REWIND_BYTES, Settings, WireChoice
 from tests.support.open_documents import opened
 
 if TYPE_CHECKING:
@@ -47,11 +47,14 @@ class Studio:
 
 
 @asynccontextmanager
-async def studio(endpoint: str, folder: Path) -> AsyncGenerator[Studio]:
+async def studio(
+    endpoint: str, folder: Path, *, rewind_bytes: int = REWIND_BYTES
+) -> AsyncGenerator[Studio]:
     """The arm, open in an engine that joins the router when asked to."""
     file = folder / "arm.urdf.xacro"
     file.write_text(ARM)
-    settings = Settings(data_folder=folder / "data", wire=WireChoice("off", (endpoint,)))
+    wire = WireChoice("off", (endpoint,))
+    settings = Settings(data_folder=folder / "data", wire=wire, rewind_bytes=rewind_bytes)
     settings.data_folder.mkdir(exist_ok=True)
     made = Engine(settings)
     try:
