@@ -194,6 +194,62 @@ def test_copies_rewind_by_themselves_and_who_finds_no_place_waits_in_what_runs(
     run_class(tmp_path, work, wire=WireChoice("off", (endpoint,)))
 
 
+def test_who_leaves_gives_the_place_up(
+    endpoint: str, tmp_path: Path, tester: Node, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("studio.live.time.rewinding.SEATS", 1)
+    monkeypatch.setattr("studio.live.time.document_time._LEFT_S", 0.5)
+    monkeypatch.setattr("studio.documents.copies.copies._LOOK_EVERY_S", 0.1)
+    monkeypatch.setattr("studio.documents.copies.copies._REST_AFTER_S", 0.1)
+
+    async def work(room: Room) -> None:
+        await room.ask(room.presenter, ConnectWire())
+        states = states_out(tester)
+        timer = tester.create_timer(0.05, lambda: states.publish(message(STATES)(name=["x"])))
+        ada, bob = await room.student("Ada"), await room.student("Bob")
+        copies = [await room.copy(ada), await room.copy(bob)]
+        await room.ask(room.presenter, Watch(document=room.shared.id))
+        await until(lambda: state_of(ada)["end_s"] > 1.0)
+        await room.ask(ada, SeekTime(document=copies[0].id, at_s=0.5))
+        await room.ask(room.presenter, SeekTime(document=room.shared.id, at_s=0.5))
+        await room.ask(bob, SeekTime(document=copies[1].id, at_s=0.5))
+        assert [told_of(one) for one in (ada, room.presenter, bob)] == [
+            ("past", 0),
+            ("live", 1),
+            ("live", 2),
+        ]
+        room.engine.detach(ada)  # the copy rests
+        await until(lambda: told_of(room.presenter) == ("past", 0))
+        assert told_of(bob) == ("live", 1)
+        room.engine.detach(room.presenter)  # the shared document stays open
+        await until(lambda: told_of(bob) == ("past", 0))
+        assert room.shared.source.is_live
+        tester.destroy_timer(timer)
+
+    run_class(tmp_path, work, wire=WireChoice("off", (endpoint,)))
+
+
+def test_of_nine_copies_eight_rewind_at_once_and_share_one_past(
+    endpoint: str, tmp_path: Path, tester: Node
+):
+    async def work(room: Room) -> None:
+        await room.ask(room.presenter, ConnectWire())
+        states = states_out(tester)
+        timer = tester.create_timer(0.05, lambda: states.publish(message(STATES)(name=["x"])))
+        students = [await room.student(f"S{number}") for number in range(9)]
+        copies = [await room.copy(one) for one in students]
+        await until(lambda: all(state_of(one)["end_s"] > 1.0 for one in students))
+        for student, copy in zip(students, copies, strict=True):
+            await room.ask(student, SeekTime(document=copy.id, at_s=0.5))
+        assert [told_of(one) for one in students] == [("past", 0)] * 8 + [("live", 1)]
+        assert {one.time.recording for one in copies[:8]} == {room.engine.ros.connection.past}
+        await room.ask(students[3], GoLive(document=copies[3].id))
+        await until(lambda: told_of(students[8]) == ("past", 0))
+        tester.destroy_timer(timer)
+
+    run_class(tmp_path, work, wire=WireChoice("off", (endpoint,)))
+
+
 def state_of(page: Page) -> dict[str, Any]:
     return page.last("time_state")
 
