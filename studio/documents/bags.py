@@ -96,13 +96,14 @@ async def opened_bag(path: Path, told: Callable[[float], object]) -> ShownRecord
 
 
 def location_of_bag(
-    shown: ShownRecording, path: Path, data_folder: Path, known: Iterable[PackageIndex]
+    shown: ShownRecording, path: Path, frame: str, data_folder: Path, known: Iterable[PackageIndex]
 ) -> Location | Path:
     """Return the file of the robot that a bag describes, or the place of a bare document.
 
     Args:
         shown: The bag.
         path: Its folder or file.
+        frame: Its `root_frame`.
         data_folder: Where descriptions are kept.
         known: Indexes of open documents, which may have the packages of its meshes.
 
@@ -119,7 +120,7 @@ def location_of_bag(
         if file is not None:
             choose_packages(data_folder, file, text, known)
             return file
-    return bare_location(path, _root_frame(shown.recording), data_folder)
+    return bare_location(path, frame or _NO_FRAME, data_folder)
 
 
 def _description(recording: Recording) -> str:
@@ -137,8 +138,12 @@ def _description(recording: Recording) -> str:
         return ""
 
 
-def _root_frame(recording: Recording) -> str:
-    """Return the frame that most others of a recording hang on."""
+def root_frame(recording: Recording) -> str:
+    """Return the frame that most others of a recording hang on; empty: it has no transforms.
+
+    Raises:
+        BagNotReadableError: The recording cannot be read.
+    """
     from studio.ros.columns.transforms import TransformCodec  # noqa: PLC0415 - takes its time
     from studio.tf.buffer import TransformBuffer  # noqa: PLC0415 - as above
 
@@ -151,7 +156,7 @@ def _root_frame(recording: Recording) -> str:
                 buffer.put(codec.decode(sample.payload), static=topic == "/tf_static")
             except CdrError:
                 continue
-    return next(iter(buffer.roots()), _NO_FRAME)
+    return next(iter(buffer.roots()), "")
 
 
 def demand_bag(path: Path) -> None:

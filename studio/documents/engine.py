@@ -22,6 +22,7 @@ from studio.documents.bags import (
     is_bag,
     location_of_bag,
     opened_bag,
+    root_frame,
 )
 from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
@@ -369,9 +370,10 @@ class Engine:
         shown = await opened_bag(path, told)
         try:
             indexes = [one.location.index for one in self.documents.values()]
-            data_folder = self._settings.data_folder
-            find = partial(location_of_bag, shown, path, data_folder, indexes)
-            found = await asyncio.to_thread(find)
+            frame = await asyncio.to_thread(root_frame, shown.recording)
+            found = await asyncio.to_thread(
+                location_of_bag, shown, path, frame, self._settings.data_folder, indexes
+            )
             location = found if isinstance(found, Location) else await self._locate(found)
             known = location.entry and self.find_open(location.entry)
             name = known.id if known else self._open(location, {}, str(path))
@@ -380,6 +382,8 @@ class Engine:
             await asyncio.to_thread(shown.let_go)
             raise
         await document.show_bag(shown, with_ghost=False)
+        if frame and not document.live.kept.fixed_frame:  # so that the robot drives through it
+            await document.live.fix(frame)
         return name
 
     def moment_of(self, document: Document) -> Moment | None:

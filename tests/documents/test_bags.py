@@ -13,7 +13,7 @@ from studio.errors import BagNotReadableError, CommandError, OutsideRootsError
 from studio.protocol.connection import SetJointSource
 from studio.protocol.diagnostics import GetDiagnostics
 from studio.protocol.displays import AddDisplay, GetTf, GetTopics, SetFixedFrame
-from studio.protocol.documents import OpenPath
+from studio.protocol.documents import CloseDocument, OpenPath
 from studio.protocol.graph import GetGraph, GetNode
 from studio.protocol.interfaces import GetInterface
 from studio.protocol.logs import GetLog
@@ -30,6 +30,7 @@ from studio.protocol.playback import (
 from studio.protocol.scene_time import GetSceneTime
 from studio.protocol.topic_rates import GetTopicRates
 from studio.protocol.topics import GetTopicEnds, ListTopics
+from studio.scene import DocumentScene
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.recorded_arm import BEGIN_NS, LENGTH_S, angle_rad, base_pose, write_arm_bag
 from tests.support.wired_studio import ARM
@@ -99,7 +100,6 @@ def test_a_bag_with_a_robot_opens_as_that_and_stands_where_tf_of_the_time_says(t
         assert shown.document.model.kinematics.movable == ("shoulder",)
         state = shown.ear.last("time_state")
         assert (state["mode"], state["title"], state["begin_s"]) == ("bag", "run", 0.0)
-        await shown.ask(SetFixedFrame(frame="map"))
         await until(lambda: shown.document.feed.source == "joint_states")
         for at_s in (3.0, 15.23, 7.777, 0.5, 19.99):
             await shown.ask(SeekTime(at_s=at_s))
@@ -117,6 +117,35 @@ def test_a_bag_with_a_robot_opens_as_that_and_stands_where_tf_of_the_time_says(t
             reach = byaw + angle_rad(upper_s)
             expected = [bx + 0.5 * math.cos(reach), by + 0.5 * math.sin(reach), 0.0]
             assert tip == pytest.approx(expected, abs=1e-6)
+
+    run(tmp_path, work)
+
+
+def test_a_robot_of_a_bag_drives_through_its_world_until_another_frame_is_chosen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    places: list[tuple[float, ...]] = []
+    place_robot = DocumentScene.place_robot
+
+    def noted(
+        scene: DocumentScene, wxyz: tuple[float, float, float, float], xyz: tuple[float, ...]
+    ) -> None:
+        places.append(xyz)
+        place_robot(scene, wxyz, (xyz[0], xyz[1], xyz[2]))
+
+    monkeypatch.setattr(DocumentScene, "place_robot", noted)
+
+    async def work(shown: Shown) -> None:
+        for at_s in (3.0, 15.23):
+            await shown.ask(SeekTime(at_s=at_s))
+            x, y, _ = base_pose(last_at(at_s, 0.05, 0.0))
+            await until(lambda: bool(places))
+            assert places[-1] == pytest.approx((x, y, 0.0), abs=1e-6)
+        await shown.ask(SetFixedFrame(frame="upper"))
+        await shown.ask(CloseDocument())
+        await shown.engine.execute(OpenPath(path=str(tmp_path / "run")), shown.ear)
+        again = shown.engine.document(shown.ear.last("opened")["document"])
+        assert again.live.kept.fixed_frame == "upper"
 
     run(tmp_path, work)
 
