@@ -229,7 +229,7 @@ class BagRecording:
             messages=sum(one.count for one in counts),
             lost=sum(one.lost for one in counts),
             bytes=recorder.size,
-            free_bytes=shutil.disk_usage(recorder.path).free,
+            free_bytes=_free_bytes(recorder.path),
             topics=tuple(
                 RecordedCount(
                     name=one.name, type_name=one.type_name, count=one.count, lost=one.lost
@@ -238,6 +238,14 @@ class BagRecording:
             ),
             trouble=recorder.trouble,
         )
+
+
+def _free_bytes(path: Path) -> int:
+    """Return the room beside a bag; 0 where its folder was taken away meanwhile."""
+    try:
+        return shutil.disk_usage(path).free
+    except OSError:
+        return 0
 
 
 def _begin(

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import asyncio
+import shutil
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -104,6 +105,28 @@ def test_a_recording_goes_on_without_its_page_and_is_whole_when_the_connection_e
             with Reader(ros.recording.folder / "left") as reader:
                 assert reader.topics["/words"].msgcount >= 10
             assert not state(later)["recording"]
+
+    asyncio.run(story())
+
+
+def test_a_recording_whose_folder_is_taken_away_ends_saying_so_and_the_next_one_begins(
+    endpoint: str,
+):
+    async def story() -> None:
+        async with bridged(endpoint) as bridge:
+            ros, ear = bridge.ros, bridge.ear
+            ros.attach(ear)
+            with talking(ros):
+                await bridge.do(StartRecording(topics=("/words",), name="gone"))
+                await until(lambda: state(ear)["messages"] > 0)
+                shutil.rmtree(ros.recording.folder / "gone")
+                await until(lambda: state(ear)["free_bytes"] == 0)
+                await bridge.do(StopRecording())
+                assert "gone" in state(ear)["trouble"]
+                await bridge.do(StartRecording(topics=("/words",), name="next"))
+                await until(lambda: state(ear)["messages"] > 0)
+                await bridge.do(StopRecording())
+            assert (state(ear)["recording"], state(ear)["trouble"]) == (False, "")
 
     asyncio.run(story())
 
