@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from studio.protocol.displays import RosName
 from studio.protocol.message import Command, Event, Message
@@ -18,6 +18,14 @@ BINS_MAX = 4_000
 BOOKMARKS_MAX = 200
 FAR_S = 1e9
 """No recording is so long: thirty years."""
+
+
+def _near(at_s: float) -> float:
+    return max(-FAR_S, min(FAR_S, at_s))
+
+
+AtS = Annotated[float, AfterValidator(_near)]
+"""A time of a page, seconds since the beginning; what is beyond every recording is `FAR_S`."""
 
 
 class OpenBag(Command):
@@ -40,7 +48,7 @@ class SeekTime(Command):
     """
 
     type: Literal["seek_time"] = "seek_time"
-    at_s: float
+    at_s: AtS
     settled: bool = True
 
 
@@ -70,8 +78,8 @@ class LoopTime(Command):
     """Play one part again and again; both None: the whole, once."""
 
     type: Literal["loop_time"] = "loop_time"
-    begin_s: float | None = None
-    end_s: float | None = None
+    begin_s: AtS | None = None
+    end_s: AtS | None = None
 
 
 class RecordedTopicView(Message):
@@ -130,8 +138,8 @@ class GetTimeMarks(Command):
 
     type: Literal["get_time_marks"] = "get_time_marks"
     topic: RosName = ""
-    begin_s: float
-    end_s: float
+    begin_s: AtS
+    end_s: AtS
     bins: Annotated[int, Field(ge=1, le=BINS_MAX)]
 
 
@@ -199,8 +207,8 @@ class GetSeries(Command):
     topic: RosName
     path: Annotated[str, Field(max_length=500)]
     """Of the number in a message, as `pose.position.x` or `ranges[3]`."""
-    begin_s: float
-    end_s: float
+    begin_s: AtS
+    end_s: AtS
     columns: Annotated[int, Field(ge=1, le=BINS_MAX)]
 
 

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from studio.protocol.displays import RosName
 from studio.protocol.message import Command, Event, Message
+from studio.protocol.playback import AtS
 
 
 class StartRecording(Command):
@@ -44,8 +45,8 @@ class CutBag(Command):
     """Write a part of what is shown into a bag; times are those of `time_state`."""
 
     type: Literal["cut_bag"] = "cut_bag"
-    begin_s: float
-    end_s: float
+    begin_s: AtS
+    end_s: AtS
     topics: Annotated[tuple[RosName, ...], Field(max_length=1_000)] = ()
     """Empty: all."""
     name: Annotated[str, Field(max_length=200)] = ""

@@ -18,6 +18,7 @@ from studio.protocol.graph import GetGraph, GetNode
 from studio.protocol.interfaces import GetInterface
 from studio.protocol.logs import GetLog
 from studio.protocol.playback import (
+    GetSeries,
     GetTimeMarks,
     GoLive,
     LoopTime,
@@ -27,6 +28,7 @@ from studio.protocol.playback import (
     SetTimeRate,
     StepTime,
 )
+from studio.protocol.recording import CutBag
 from studio.protocol.scene_time import GetSceneTime
 from studio.protocol.topic_rates import GetTopicRates
 from studio.protocol.topics import GetTopicEnds, ListTopics
@@ -258,6 +260,25 @@ def test_time_is_played_stepped_looped_and_told(tmp_path: Path):
         assert scene["ros_s"] == pytest.approx(BEGIN_NS / 1e9 + end_s, abs=1e-3)
         with pytest.raises(CommandError, match="ends after it begins"):
             await shown.ask(LoopTime(begin_s=6.0, end_s=5.0))
+
+    run(tmp_path, work)
+
+
+def test_times_beyond_every_recording_are_answered_like_others(tmp_path: Path):
+    far = {"begin_s": -1e308, "end_s": 1e308}
+
+    async def work(shown: Shown) -> None:
+        marks = await shown.ask(GetTimeMarks(topic="/rosout", bins=1, **far), "time_marks")
+        assert marks["counts"] == [20]
+        asked = GetSeries(topic="/goal", path="point.x", columns=1, **far)
+        async with asyncio.timeout(60):
+            while not (series := await shown.ask(asked, "series"))["exact"]:
+                pass
+        assert series["second"] == [pytest.approx(19.95)]
+        await shown.ask(CutBag(name="whole", **far), "bag_written")
+        await shown.ask(SeekTime(at_s=1e308))
+        state = shown.ear.last("time_state")
+        assert state["now_s"] == state["end_s"]
 
     run(tmp_path, work)
 

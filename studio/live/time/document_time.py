@@ -22,7 +22,6 @@ from studio.live.time.series import SeriesReader
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import LastSent
 from studio.protocol.playback import (
-    FAR_S,
     GetTimeMarks,
     GetTimeTicks,
     GoLive,
@@ -155,7 +154,7 @@ class DocumentTime:
 
     def ns_of(self, at_s: float) -> int:
         """Return a time of pages as ns since the Unix epoch."""
-        return self.zero_ns + round(max(-FAR_S, min(FAR_S, at_s)) * _S)
+        return self.zero_ns + round(at_s * _S)
 
     def note_progress(self, share: float | None) -> None:
         """Send how far the reading of a damaged or unfinished file is, 0 to 1; None: it ended."""
