@@ -265,18 +265,20 @@ def test_time_is_played_stepped_looped_and_told(tmp_path: Path):
 
 
 def test_times_beyond_every_recording_are_answered_like_others(tmp_path: Path):
-    far = {"begin_s": -1e308, "end_s": 1e308}
+    far_s = 1e308
 
     async def work(shown: Shown) -> None:
-        marks = await shown.ask(GetTimeMarks(topic="/rosout", bins=1, **far), "time_marks")
+        marks = await shown.ask(
+            GetTimeMarks(topic="/rosout", bins=1, begin_s=-far_s, end_s=far_s), "time_marks"
+        )
         assert marks["counts"] == [20]
-        asked = GetSeries(topic="/goal", path="point.x", columns=1, **far)
+        asked = GetSeries(topic="/goal", path="point.x", columns=1, begin_s=-far_s, end_s=far_s)
         async with asyncio.timeout(60):
             while not (series := await shown.ask(asked, "series"))["exact"]:
                 pass
         assert series["second"] == [pytest.approx(19.95)]
-        await shown.ask(CutBag(name="whole", **far), "bag_written")
-        await shown.ask(SeekTime(at_s=1e308))
+        await shown.ask(CutBag(name="whole", begin_s=-far_s, end_s=far_s), "bag_written")
+        await shown.ask(SeekTime(at_s=far_s))
         state = shown.ear.last("time_state")
         assert state["now_s"] == state["end_s"]
 
