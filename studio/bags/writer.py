@@ -194,10 +194,6 @@ class BagWriter:
         """Return how many messages of a topic it took, those of removed files among them."""
         return self.count(number) + self._removed[number]
 
-    def has_definition(self, number: int) -> bool:
-        """Whether the text of a topic's type is known, and so in the bag."""
-        return bool(self._topics[number][1])
-
     def write(self, number: int, sample: RawSample) -> None:
         """Add a message; its time is that of its reception."""
         try:
