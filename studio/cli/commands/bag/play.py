@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from studio.cli.keys import watching_keys
+from studio.cli.numbers import count, whole
 from studio.cli.own_node import own_node
 from studio.cli.wire import STARTING, add_wire_options
 from studio.errors import SettingsError
@@ -119,7 +120,7 @@ def _add_clock(play: argparse.ArgumentParser) -> None:
 
 def _add_rest(play: argparse.ArgumentParser) -> None:
     play.add_argument(
-        "--read-ahead-queue-size", type=_count, default=_READ_AHEAD, metavar="N",
+        "--read-ahead-queue-size", type=count, default=_READ_AHEAD, metavar="N",
         help=f"messages that are read before they are due (default: {_READ_AHEAD})",
     )  # fmt: skip
     play.add_argument(
@@ -130,7 +131,7 @@ def _add_rest(play: argparse.ArgumentParser) -> None:
         help="show so often how far it is (default: 0, never)",
     )  # fmt: skip
     play.add_argument(
-        "--wait-for-all-acked", type=_count_or_zero, default=None, metavar="MILLISECONDS",
+        "--wait-for-all-acked", type=whole, default=None, metavar="MILLISECONDS",
         help="is taken, and changes nothing: Zenoh tells nobody what has arrived",
     )  # fmt: skip
     play.add_argument("--log-level", choices=_LEVELS, default="info", help="what is said of it")
@@ -166,20 +167,6 @@ def _above_zero(text: str) -> float:
     number = _seconds(text)
     if number <= 0:
         raise argparse.ArgumentTypeError(f"{number} is not in the valid range (> 0.0)")
-    return number
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{number} is too few: give 1 or more")
-    return number
-
-
-def _count_or_zero(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"Value {number} is less than zero.")
     return number
 
 

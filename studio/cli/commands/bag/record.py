@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 from studio.cli.bag_storing import add_storing_options, storing_of
 from studio.cli.graph import full_name
 from studio.cli.keys import watching_keys
+from studio.cli.numbers import whole
 from studio.cli.own_node import own_node
 from studio.cli.wire import add_wire_options
 from studio.errors import SettingsError
@@ -77,7 +78,7 @@ def _add_discovery(record: argparse.ArgumentParser) -> None:
     group = record.add_argument_group("how they are found and subscribed")
     group.add_argument("--no-discovery", action="store_true", help="only those there at the start")
     group.add_argument(
-        "-p", "--polling-interval", type=_whole, default=100, metavar="MS",
+        "-p", "--polling-interval", type=whole, default=100, metavar="MS",
         help="between two looks at the graph while it changes (default: 100)",
     )  # fmt: skip
     group.add_argument(
@@ -97,23 +98,16 @@ def _add_manner(record: argparse.ArgumentParser) -> None:
         help="keep messages in memory, and write them when ~/snapshot is called",
     )  # fmt: skip
     group.add_argument(
-        "--max-cache-size", type=_whole, default=0, metavar="BYTES",
+        "--max-cache-size", type=whole, default=0, metavar="BYTES",
         help="what may wait, or is kept for snapshots (default: 268435456)",
     )  # fmt: skip
     group.add_argument(
-        "--max-cache-duration", type=_whole, default=0, metavar="SECONDS",
+        "--max-cache-duration", type=whole, default=0, metavar="SECONDS",
         help="how long messages are kept for snapshots (default: as many as fit)",
     )  # fmt: skip
     group.add_argument("--disable-keyboard-controls", action="store_true", help="no SPACE")
     for name in _LEFT_OUT:
         group.add_argument(f"--{name.replace('_', '-')}", type=int, help=argparse.SUPPRESS)
-
-
-def _whole(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"{number} is less than 0")
-    return number
 
 
 def _run(options: argparse.Namespace) -> int:

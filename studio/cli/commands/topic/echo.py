@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
 from studio.cli.filter_expression import filter_of
+from studio.cli.numbers import whole
 from studio.cli.own_node import own_node
 from studio.cli.qos_options import add_qos_options
 from studio.cli.subscribing import join_topic, subscribe
@@ -14,6 +14,7 @@ from studio.cli.wire import add_wire_options
 from studio.errors import SettingsError
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Callable
 
     from studio.cli.verbs import Verbs
@@ -39,7 +40,7 @@ def add(verbs: Verbs) -> None:
     echo.add_argument("--flow-style", action="store_true", help="YAML in one line")
     echo.add_argument("-f", "--full-length", action="store_true", help="cut nothing off")
     echo.add_argument(
-        "-l", "--truncate-length", type=_length, default=_LENGTH, metavar="N",
+        "-l", "--truncate-length", type=whole, default=_LENGTH, metavar="N",
         help=f"cut arrays and texts off after this many (default: {_LENGTH})",
     )  # fmt: skip
     echo.add_argument("--include-message-info", action="store_true", help="when and from whom")
@@ -54,13 +55,6 @@ def add(verbs: Verbs) -> None:
     add_qos_options(echo)
     echo.set_defaults(takes_late=("message_type", None))
     add_wire_options(echo)
-
-
-def _length(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"{number} is less than 0")
-    return number
 
 
 def _run(options: argparse.Namespace) -> int:

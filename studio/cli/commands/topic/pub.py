@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from studio.cli.graph import full_name
+from studio.cli.numbers import count
 from studio.cli.own_node import own_node
 from studio.cli.qos_options import add_qos_options, given_profile
 from studio.cli.wire import STARTING, add_wire_options
@@ -54,8 +55,8 @@ def add(verbs: Verbs) -> None:
     often = pub.add_mutually_exclusive_group()
     often.add_argument("-r", "--rate", type=_rate, metavar="HZ", help="a second (default: 1)")
     often.add_argument("-1", "--once", action="store_true", help="publish one message and end")
-    pub.add_argument("-t", "--times", type=_count, metavar="N", help="publish N messages and end")
-    pub.add_argument("-p", "--print", type=_count, default=1, metavar="N", help="print every Nth")
+    pub.add_argument("-t", "--times", type=count, metavar="N", help="publish N messages and end")
+    pub.add_argument("-p", "--print", type=count, default=1, metavar="N", help="print every Nth")
     pub.add_argument(
         "-w", "--wait-matching-subscriptions", dest="wait", type=int, metavar="N",
         help="begin when so many listen (default: 1 with --once or --times, else 0)",
@@ -78,13 +79,6 @@ def _rate(text: str) -> float:
     number = float(text)
     if not 0 < number < 1e6:
         raise argparse.ArgumentTypeError(f"{number} is no rate: give more than 0")
-    return number
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{number} is too few: give 1 or more")
     return number
 
 
