@@ -319,14 +319,11 @@ class Engine:
         Raises:
             StudioError: Nothing there can be opened.
         """
-        if await asyncio.to_thread(is_bag, path):
-            self.served = self.served.with_roots((), [_folder_of(path)])
-            return await self._open_bag(path, progress)
-        location = self._with_entry(await self._locate(path, progress))
-        if (bag := await _bag_instead(location)) is not None:
-            self.served = self.served.with_roots((), [location.root])
-            return await self._open_bag(bag, progress)
-        return self._open(location, arguments)
+        found = await self._found(path, progress)
+        if isinstance(found, Location):
+            return self._open(found, arguments)
+        self.served = self.served.with_roots((), [found if found.is_dir() else found.parent])
+        return await self._open_bag(found, progress)
 
     async def open_bag(self, command: OpenBag) -> Opened:
         """Show a bag for the page, in an open document or as one of its own.
@@ -394,10 +391,21 @@ class Engine:
         own = document.entry.is_relative_to(self._settings.data_folder)
         return Moment(Path(shown.path), shown.title, shown.zero_ns, document.time.at_ns, own)
 
-    def _with_entry(self, location: Location) -> Location:
-        """Return a workspace without a robot as one that can be opened."""
+    async def _found(
+        self, path: Path, progress: Progress | None = None, within: ServedRoots | None = None
+    ) -> Location | Path:
+        """Return what can be opened at a path: a robot, a workspace without one, or a bag's path.
+
+        Raises:
+            StudioError: Nothing there can be opened.
+        """
+        if await asyncio.to_thread(is_bag, path):
+            return path
+        location = await self._locate(path, progress, within)
         may_run = self._services.run_folders.allows(location.root)
-        return location.with_bare_entry(may_run=may_run)
+        location = location.with_bare_entry(may_run=may_run)
+        bag = None if location.entry else await asyncio.to_thread(bag_in, location.root)
+        return location if bag is None else bag
 
     def find_open(self, path: Path) -> Document | None:
         """Return the document whose entry file this is."""
@@ -411,13 +419,11 @@ class Engine:
         Raises:
             StudioError: Nothing there can be opened.
         """
-        if await asyncio.to_thread(is_bag, path):
-            return await self._open_bag(path)
-        location = self._with_entry(await self._locate(path, within=within))
-        if (bag := await _bag_instead(location)) is not None:
-            return await self._open_bag(bag)
-        known = location.entry and not arguments and self.find_open(location.entry)
-        return known.id if known else self._open(location, dict(arguments))
+        found = await self._found(path, within=within)
+        if not isinstance(found, Location):
+            return await self._open_bag(found)
+        known = found.entry and not arguments and self.find_open(found.entry)
+        return known.id if known else self._open(found, dict(arguments))
 
     async def close_saved(self, document: Document) -> None:
         """Close a document whose text was saved elsewhere."""
@@ -435,12 +441,10 @@ class Engine:
             if not self.library.may_reopen(command.path):
                 raise
             return await self.open_at(Path(command.path), command.arguments, None)
-        if await asyncio.to_thread(is_bag, path):
-            return await self._open_bag(path)
-        location = self._with_entry(await self._locate(path, within=self.served))
-        if (bag := await _bag_instead(location)) is not None:
-            return await self._open_bag(bag)
-        return self._open(location, command.arguments)
+        found = await self._found(path, within=self.served)
+        if isinstance(found, Location):
+            return self._open(found, command.arguments)
+        return await self._open_bag(found)
 
     async def launch_form(self, command: GetArguments) -> Arguments:
         """Return the form of an open document, or of a file below the served folders."""
@@ -529,16 +533,6 @@ class Engine:
     def _send_list(self) -> None:
         self._lobby.send(self._list())
         self.left_work.trigger()
-
-
-async def _bag_instead(location: Location) -> Path | None:
-    """Return the bag of a place that holds no robot, such as a zip of one."""
-    return None if location.entry else await asyncio.to_thread(bag_in, location.root)
-
-
-def _folder_of(bag: Path) -> Path:
-    """Return the folder that is served for a bag."""
-    return bag if bag.is_dir() else bag.parent
 
 
 def _link_to(engine: Engine, command: GetLink) -> Link:
