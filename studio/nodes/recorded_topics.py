@@ -11,12 +11,28 @@ from studio.ros.names import is_hidden
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-_EVENTS: Final = "/_service_event"
+SERVICE_EVENTS: Final = "/_service_event"
+"""The end of a topic's name on which services tell of their calls."""
 DEPTH: Final = 10
 DEPTH_MAX: Final = 1_000
 """Earlier samples that are asked for of a latched topic."""
+
+
+def check_expressions(texts: Mapping[str, str]) -> None:
+    """Pass if all are regular expressions, by the options that give them.
+
+    Raises:
+        SettingsError: One is none.
+    """
+    for option, text in texts.items():
+        try:
+            re.compile(text)
+        except (re.error, OverflowError, RecursionError) as error:
+            raise SettingsError(
+                f"{option} {text[:80]}: {error}, so it is no regular expression."
+            ) from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,16 +71,12 @@ class TopicChoice:
         Raises:
             SettingsError: One is none.
         """
-        for text in (self.regex, self.exclude_regex):
-            try:
-                re.compile(text)
-            except (re.error, OverflowError, RecursionError) as error:
-                raise SettingsError(f'"{text[:80]}" is no regular expression: {error}.') from None
+        check_expressions({"--regex": self.regex, "--exclude-regex": self.exclude_regex})
 
     def takes(self, name: str, type_name: str) -> bool:
         """Whether a topic is wanted, by its name and type."""
-        if name.endswith(_EVENTS):
-            return self._takes_service(name.removesuffix(_EVENTS), name)
+        if name.endswith(SERVICE_EVENTS):
+            return self._takes_service(name.removesuffix(SERVICE_EVENTS), name)
         if is_hidden(name) and not self.hidden:
             return False
         if name in self.exclude_topics or type_name in self.exclude_types:

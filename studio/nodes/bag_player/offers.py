@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import RosNameError, SettingsError, UnknownTypeError
+from studio.errors import RosNameError, UnknownTypeError
+from studio.nodes.recorded_topics import SERVICE_EVENTS, check_expressions
 from studio.ros.node.publisher import RawPublisher
 from studio.ros.profiles import NO_HASH
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
     from studio.ros.client import Node
     from studio.ros.types.library import TypeLibrary
 
-SERVICE_EVENTS: Final = "/_service_event"
-"""The end of a topic's name on which services tell of their calls."""
 DEPTH: Final = 10
 """As rosbag2: how many samples were kept then says nothing of those who listen now."""
 _KEPT_MAX: Final = 1_000
@@ -47,11 +46,7 @@ class Choice:
         Raises:
             SettingsError: One is none.
         """
-        for option, text in (("--regex", self.regex), ("--exclude-regex", self.exclude_regex)):
-            try:
-                re.compile(text)
-            except re.error as error:
-                raise SettingsError(f"{option} {text}: {error}.") from None
+        check_expressions({"--regex": self.regex, "--exclude-regex": self.exclude_regex})
 
     def takes(self, topic: str) -> bool:
         """Whether a topic is wanted."""
