@@ -16,12 +16,13 @@ from studio.classroom.classroom import Classroom
 from studio.course.lessons.shelf import Shelf
 from studio.documents.arguments import form_at, form_of
 from studio.documents.bags import (
-    bag_in,
+    bag_instead,
     demand_bag,
     folder_of_bag,
     is_bag,
     location_of_bag,
     opened_bag,
+    served_folder,
 )
 from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
@@ -71,6 +72,7 @@ from studio.protocol.documents import (
     GetLink,
     Gone,
     Link,
+    LinkOpened,
     ListFolder,
     Opened,
     OpenLink,
@@ -319,31 +321,31 @@ class Engine:
             StudioError: Nothing there can be opened.
         """
         if await asyncio.to_thread(is_bag, path):
-            self.served = self.served.with_roots((), [_folder_of(path)])
+            self.served = self.served.with_roots((), [served_folder(path)])
             return await self._open_bag(path, progress)
         location = self._with_entry(await self._locate(path, progress))
-        if (bag := await _bag_instead(location)) is not None:
+        if (bag := await bag_instead(location)) is not None:
             self.served = self.served.with_roots((), [location.root])
             return await self._open_bag(bag, progress)
         return self._open(location, arguments)
 
-    async def open_bag(self, command: OpenBag) -> Opened:
-        """Show a bag for the page, in an open document or as one of its own.
+    async def show_bag(self, bag: str, name: str = "") -> str:
+        """Show a bag for the page, in an open document or as one of its own; returns which.
 
         Raises:
             StudioError: It may not be opened, or nothing of it can be read.
         """
-        path = self._may_open_bag(command.path)
+        path = self._may_open_bag(bag)
         await asyncio.to_thread(demand_bag, path)
-        if not command.document:
-            return Opened(request=command.request, document=await self._open_bag(path))
-        document = await self.ready(command.document)
+        if not name:
+            return await self._open_bag(path)
+        document = await self.ready(name)
         try:
             shown = await opened_bag(path, document.time.note_progress)
         finally:
             document.time.note_progress(None)
         await document.show_bag(shown, with_ghost=not owner_of(document.id))
-        return Opened(request=command.request, document=document.id)
+        return document.id
 
     def _may_open_bag(self, path: str) -> Path:
         """Return the path of a bag if it is served, or was opened before.
@@ -410,7 +412,7 @@ class Engine:
         if await asyncio.to_thread(is_bag, path):
             return await self._open_bag(path)
         location = self._with_entry(await self._locate(path, within=within))
-        if (bag := await _bag_instead(location)) is not None:
+        if (bag := await bag_instead(location)) is not None:
             return await self._open_bag(bag)
         known = location.entry and not arguments and self.find_open(location.entry)
         return known.id if known else self._open(location, dict(arguments))
@@ -419,24 +421,24 @@ class Engine:
         """Close a document whose text was saved elsewhere."""
         await self.close_document(document, discard=True)
 
-    async def open_served(self, command: OpenPath) -> Opened:
-        """Open a path for the page."""
-        return Opened(request=command.request, document=await self._open_served(command))
+    async def open_served(self, name: str, arguments: dict[str, str]) -> str:
+        """Open out of the page: nothing is served then that was not before, but a zip's folder.
 
-    async def _open_served(self, command: OpenPath) -> str:
-        """Open out of the page: nothing is served then that was not before, but a zip's folder."""
+        Raises:
+            StudioError: Nothing there can be opened, or it may not be.
+        """
         try:
-            path = self.served.resolve(Path(command.path))
+            path = self.served.resolve(Path(name))
         except OutsideRootsError:  # a page that outlived the studio shows what was opened before
-            if not self.library.may_reopen(command.path):
+            if not self.library.may_reopen(name):
                 raise
-            return await self.open_at(Path(command.path), command.arguments, None)
+            return await self.open_at(Path(name), arguments, None)
         if await asyncio.to_thread(is_bag, path):
             return await self._open_bag(path)
         location = self._with_entry(await self._locate(path, within=self.served))
-        if (bag := await _bag_instead(location)) is not None:
+        if (bag := await bag_instead(location)) is not None:
             return await self._open_bag(bag)
-        return self._open(location, command.arguments)
+        return self._open(location, arguments)
 
     async def launch_form(self, command: GetArguments) -> Arguments:
         """Return the form of an open document, or of a file below the served folders."""
@@ -527,19 +529,25 @@ class Engine:
         self.left_work.trigger()
 
 
-async def _bag_instead(location: Location) -> Path | None:
-    """Return the bag of a place that holds no robot, such as a zip of one."""
-    return None if location.entry else await asyncio.to_thread(bag_in, location.root)
-
-
-def _folder_of(bag: Path) -> Path:
-    """Return the folder that is served for a bag."""
-    return bag if bag.is_dir() else bag.parent
-
-
 def _link_to(engine: Engine, command: GetLink) -> Link:
     document = engine.document(command.document)
-    return link_to(document.sources, document.location, command, engine.moment_of(document))
+    moment = engine.moment_of(document)
+    return link_to(document.sources, document.location, command.request, command.look, moment)
+
+
+async def _open_path(engine: Engine, command: OpenPath) -> Opened:
+    name = await engine.open_served(command.path, command.arguments)
+    return Opened(request=command.request, document=name)
+
+
+async def _open_bag(engine: Engine, command: OpenBag) -> Opened:
+    name = await engine.show_bag(command.path, command.document)
+    return Opened(request=command.request, document=name)
+
+
+async def _open_link(engine: Engine, command: OpenLink) -> LinkOpened:
+    name, left_out, look = await open_link(engine, command.link)
+    return LinkOpened(request=command.request, document=name, left_out=left_out, look=look)
 
 
 async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
@@ -564,8 +572,8 @@ async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUs
 COMMANDS: Final = Commands[Engine](Scope.STUDIO)
 """Every command of the studio."""
 COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(c.document, who), limits=_WATCHED)
-COMMANDS.presenter(OpenPath, lambda engine, c, _: engine.open_served(c))
-COMMANDS.presenter(OpenBag, lambda engine, c, _: engine.open_bag(c))
+COMMANDS.presenter(OpenPath, lambda engine, c, _: _open_path(engine, c))
+COMMANDS.presenter(OpenBag, lambda engine, c, _: _open_bag(engine, c))
 COMMANDS.presenter(
     CloseDocument,
     lambda engine, c, _: engine.close_document(engine.document(c.document), discard=c.discard),
@@ -575,7 +583,7 @@ COMMANDS.presenter(ListFolder, lambda engine, c, _: engine.list_folder(c))
 COMMANDS.presenter(GetArguments, lambda engine, c, _: engine.launch_form(c))
 COMMANDS.controller(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
 COMMANDS.controller(UseTool, _use_tool, scope=Scope.ROS, needs_router=True, limits=_TOOL_USES)
-COMMANDS.presenter(OpenLink, lambda engine, c, _: open_link(engine, c))
+COMMANDS.presenter(OpenLink, lambda engine, c, _: _open_link(engine, c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
 COMMANDS.include(COPY_COMMANDS, lambda engine, _: engine.copies)
 COMMANDS.include(LESSON_COMMANDS, lambda engine, _: engine.lessons)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from studio.documents.engine import Engine
 from studio.ros.messages import message
-from studio.settings import Settings, WireChoice
+from studio.settings import REWIND_BYTES, Settings, WireChoice
 from tests.support.open_documents import opened
 
 if TYPE_CHECKING:
@@ -47,11 +47,18 @@ class Studio:
 
 
 @asynccontextmanager
-async def studio(endpoint: str, folder: Path) -> AsyncGenerator[Studio]:
-    """The arm, open in an engine that joins the router when asked to."""
+async def studio(endpoint: str, folder: Path, *, rewinds: bool = True) -> AsyncGenerator[Studio]:
+    """The arm, open in an engine that joins the router when asked to.
+
+    Args:
+        endpoint: Of the router.
+        folder: For the robot, and the studio's data.
+        rewinds: Whether the last minutes are kept: then `/tf` and its like are always heard.
+    """
     file = folder / "arm.urdf.xacro"
     file.write_text(ARM)
-    settings = Settings(data_folder=folder / "data", wire=WireChoice("off", (endpoint,)))
+    wire, kept_bytes = WireChoice("off", (endpoint,)), REWIND_BYTES if rewinds else 0
+    settings = Settings(data_folder=folder / "data", wire=wire, rewind_bytes=kept_bytes)
     settings.data_folder.mkdir(exist_ok=True)
     made = Engine(settings)
     try:
