@@ -31,7 +31,7 @@ INSIDE = {
     "studio/_models": "models",
 }
 NEVER = {"screenshots", "tests", "node_modules", "__pycache__", ".ci"}
-_NODES_TOOLS = re.compile(r"^(studio/_)?frontend_assets/tools/")
+_FOR_WORK_ON_IT = re.compile(r"^(studio/_)?frontend_assets/(tools|types)/")
 END_WITHIN_S = 2.0
 _OF_HELP = re.compile(r"/(help/pictures/|panels/\w+/help-)")
 
@@ -40,7 +40,7 @@ pytestmark = pytest.mark.timeout(300)
 
 def is_never(name: str) -> bool:
     """Whether a file of this path in a wheel or in the checkout belongs to no wheel."""
-    return bool(NEVER & set(Path(name).parts)) or bool(_NODES_TOOLS.match(name))
+    return bool(NEVER & set(Path(name).parts)) or bool(_FOR_WORK_ON_IT.match(name))
 
 
 @pytest.fixture(scope="module")

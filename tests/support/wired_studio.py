@@ -47,18 +47,14 @@ class Studio:
 
 
 @asynccontextmanager
-async def studio(endpoint: str, folder: Path, *, rewinds: bool = True) -> AsyncGenerator[Studio]:
-    """The arm, open in an engine that joins the router when asked to.
-
-    Args:
-        endpoint: Of the router.
-        folder: For the robot, and the studio's data.
-        rewinds: Whether the last minutes are kept: then `/tf` and its like are always heard.
-    """
+async def studio(
+    endpoint: str, folder: Path, *, rewind_bytes: int = REWIND_BYTES
+) -> AsyncGenerator[Studio]:
+    """The arm, open in an engine that joins the router when asked to."""
     file = folder / "arm.urdf.xacro"
     file.write_text(ARM)
-    wire, kept_bytes = WireChoice("off", (endpoint,)), REWIND_BYTES if rewinds else 0
-    settings = Settings(data_folder=folder / "data", wire=wire, rewind_bytes=kept_bytes)
+    wire = WireChoice("off", (endpoint,))
+    settings = Settings(data_folder=folder / "data", wire=wire, rewind_bytes=rewind_bytes)
     settings.data_folder.mkdir(exist_ok=True)
     made = Engine(settings)
     try:
