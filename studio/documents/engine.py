@@ -337,13 +337,17 @@ class Engine:
         await asyncio.to_thread(demand_bag, path)
         if not command.document:
             return Opened(request=command.request, document=await self._open_bag(path))
-        document = await self.ready(command.document)
+        await self._show_bag(path, command.document)
+        return Opened(request=command.request, document=command.document)
+
+    async def _show_bag(self, path: Path, name: str) -> None:
+        """Show a bag in an open document, whose robot moves by it."""
+        document = await self.ready(name)
         try:
             shown = await opened_bag(path, document.time.note_progress)
         finally:
             document.time.note_progress(None)
         await document.show_bag(shown, with_ghost=not owner_of(document.id))
-        return Opened(request=command.request, document=document.id)
 
     def _may_open_bag(self, path: str) -> Path:
         """Return the path of a bag if it is served, or was opened before.
@@ -400,7 +404,11 @@ class Engine:
         return next((one for one in self.documents.values() if one.entry == path), None)
 
     async def open_at(
-        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+        self,
+        path: Path,
+        arguments: Mapping[str, str],
+        within: ServedRoots | None,
+        beside: str = "",
     ) -> str:
         """Open for the library, which saw to it that the path may be opened.
 
@@ -408,12 +416,19 @@ class Engine:
             StudioError: Nothing there can be opened.
         """
         if await asyncio.to_thread(is_bag, path):
-            return await self._open_bag(path)
+            return await self._open_or_show_bag(path, beside)
         location = self._with_entry(await self._locate(path, within=within))
         if (bag := await _bag_instead(location)) is not None:
-            return await self._open_bag(bag)
+            return await self._open_or_show_bag(bag, beside)
         known = location.entry and not arguments and self.find_open(location.entry)
         return known.id if known else self._open(location, dict(arguments))
+
+    async def _open_or_show_bag(self, path: Path, beside: str) -> str:
+        """Show a bag in the open document `beside`, else as one of its own."""
+        if not beside:
+            return await self._open_bag(path)
+        await self._show_bag(path, beside)
+        return beside
 
     async def close_saved(self, document: Document) -> None:
         """Close a document whose text was saved elsewhere."""
