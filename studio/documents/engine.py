@@ -33,8 +33,8 @@ from studio.documents.lessons.lesson_room import COMMANDS as LESSON_COMMANDS
 from studio.documents.lessons.lesson_room import LessonRoom
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
-from studio.documents.link_opening import open_link
-from studio.documents.links import Moment, link_to
+from studio.documents.link_opening import moment_of, open_link
+from studio.documents.links import link_to
 from studio.documents.seen import seen_document
 from studio.documents.services import Services
 from studio.documents.uploads import Uploads
@@ -337,15 +337,7 @@ class Engine:
         """
         path = self._may_open_bag(bag)
         await asyncio.to_thread(demand_bag, path)
-        if not name:
-            return await self._open_bag(path)
-        document = await self.ready(name)
-        try:
-            shown = await opened_bag(path, document.time.note_progress)
-        finally:
-            document.time.note_progress(None)
-        await document.show_bag(shown, with_ghost=not owner_of(document.id))
-        return document.id
+        return await self._open_or_show_bag(path, name)
 
     def _may_open_bag(self, path: str) -> Path:
         """Return the path of a bag if it is served, or was opened before.
@@ -359,6 +351,18 @@ class Engine:
             if not self.library.may_reopen(path):
                 raise
             return Path(path)
+
+    async def _open_or_show_bag(self, path: Path, beside: str) -> str:
+        """Show a bag in an open document, whose robot moves by it, else as one of its own."""
+        if not beside:
+            return await self._open_bag(path)
+        document = await self.ready(beside)
+        try:
+            shown = await opened_bag(path, document.time.note_progress)
+        finally:
+            document.time.note_progress(None)
+        await document.show_bag(shown, with_ghost=not owner_of(document.id))
+        return document.id
 
     async def _open_bag(self, path: Path, progress: Progress | None = None) -> str:
         """Open a bag as a document of its own: its robot, or a frame to show its topics in."""
@@ -384,14 +388,6 @@ class Engine:
         await document.show_bag(shown, with_ghost=False)
         return name
 
-    def moment_of(self, document: Document) -> Moment | None:
-        """Return what a document shows of a bag; None: it shows none."""
-        shown = document.time.shown
-        if shown is None or shown.mode != "bag":
-            return None
-        own = document.entry.is_relative_to(self._settings.data_folder)
-        return Moment(Path(shown.path), shown.title, shown.zero_ns, document.time.at_ns, own)
-
     def _with_entry(self, location: Location) -> Location:
         """Return a workspace without a robot as one that can be opened."""
         may_run = self._services.run_folders.allows(location.root)
@@ -402,7 +398,11 @@ class Engine:
         return next((one for one in self.documents.values() if one.entry == path), None)
 
     async def open_at(
-        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+        self,
+        path: Path,
+        arguments: Mapping[str, str],
+        within: ServedRoots | None,
+        beside: str = "",
     ) -> str:
         """Open for the library, which saw to it that the path may be opened.
 
@@ -410,10 +410,10 @@ class Engine:
             StudioError: Nothing there can be opened.
         """
         if await asyncio.to_thread(is_bag, path):
-            return await self._open_bag(path)
+            return await self._open_or_show_bag(path, beside)
         location = self._with_entry(await self._locate(path, within=within))
         if (bag := await bag_instead(location)) is not None:
-            return await self._open_bag(bag)
+            return await self._open_or_show_bag(bag, beside)
         known = location.entry and not arguments and self.find_open(location.entry)
         return known.id if known else self._open(location, dict(arguments))
 
@@ -461,7 +461,7 @@ class Engine:
         if len(self.documents) >= _DOCUMENT_LIMIT:
             raise CommandError(f"{_DOCUMENT_LIMIT} documents are open: close one first.")
         document = Document(self._free_id(location), location, arguments, self._services)
-        document.on_unsaved = self._send_list
+        document.on_unsaved, document.own_bag = self._send_list, bag
         self.documents[document.id] = document
         self.default_document = self.default_document or document.id
         document.start()
@@ -531,7 +531,7 @@ class Engine:
 
 def _link_to(engine: Engine, command: GetLink) -> Link:
     document = engine.document(command.document)
-    moment = engine.moment_of(document)
+    moment = moment_of(document)
     return link_to(document.sources, document.location, command.request, command.look, moment)
 
 

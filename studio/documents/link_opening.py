@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from studio.documents.links import bag_places, found_again, place_edits, read_link
+from studio.documents.links import Moment, bag_places, found_again, place_edits, read_link
 from studio.errors import CommandError, StudioError
 
 if TYPE_CHECKING:
@@ -37,6 +37,15 @@ class Opens(Protocol):
     async def show_bag(self, bag: str, name: str = "") -> str:
         """Show a bag, if it may be opened; returns the id of the document."""
         ...
+
+
+def moment_of(document: Document) -> Moment | None:
+    """Return what a document shows of a bag; None: it shows none."""
+    shown = document.time.shown
+    if shown is None or shown.mode != "bag":
+        return None
+    own = document.own_bag == shown.path
+    return Moment(Path(shown.path), shown.title, shown.zero_ns, document.time.at_ns, own)
 
 
 async def open_link(engine: Opens, text: str) -> tuple[str, tuple[str, ...], LinkLook]:
