@@ -105,17 +105,18 @@ function ShownDialog() {
 }
 
 /** @param {Extract<Shown, {kind: "confirm"}>} props */
-function ConfirmDialog({ title, text, details = [], action, danger = false, run }) {
-  const confirm = () => {
+function ConfirmDialog({ title, text, details = [], action, danger = false, run, other }) {
+  const closing = (/** @type {() => void} */ work) => () => {
     close();
-    run();
+    work();
   };
   return html`<${Dialog} title=${title} closeLabel=${t("close")} class="confirm" onClose=${close}>
     <p class="dialog-text">${text}</p>
     ${details.length > 0 && html`<ul class="confirm-details">${details.map((one) => html`<li key=${one}>${one}</li>`)}</ul>`}
     <footer><span class="push"></span>
       <button type="button" class="button" data-first onClick=${close}>${t("cancel")}</button>
-      <button type="button" class=${`button ${danger ? "danger" : "primary"}`} onClick=${confirm}>${action}</button></footer>
+      ${other && html`<button type="button" class="button" onClick=${closing(other.run)}>${other.action}</button>`}
+      <button type="button" class=${`button ${danger ? "danger" : "primary"}`} onClick=${closing(run)}>${action}</button></footer>
   <//>`;
 }
 

@@ -19,6 +19,7 @@ import { ask, goTo } from "../model/requests.js";
 import { isConfig } from "../model/rviz-configs.js";
 import { dialog, notify } from "../model/view.js";
 import { viewport } from "../model/viewport.js";
+import { holdsBag, takeBag } from "./dropped-bags.js";
 import { takeConfig } from "./rviz-commands.js";
 
 const MEGABYTE = 1 << 20;
@@ -74,7 +75,7 @@ async function takeFiles(files) {
     takeConfig(only.file);
     return;
   }
-  if (!(await takeDroppedTypes(files))) await uploadFiles(files);
+  if (!(await takeDroppedTypes(files))) await openFiles(files);
 }
 
 /** @param {ClipboardEvent} event */
@@ -129,8 +130,14 @@ function Sending() {
   </div>`;
 }
 
-/** @param {readonly DroppedFile[]} files */
-async function uploadFiles(files) {
+/** @param {readonly DroppedFile[]} files a robot, or a bag */
+async function openFiles(files) {
+  if (await holdsBag(files)) takeBag(files, (beside) => void uploadFiles(files, beside));
+  else await uploadFiles(files);
+}
+
+/** @param {readonly DroppedFile[]} files @param {string} [beside] the document that shows a bag among them */
+async function uploadFiles(files, beside = "") {
   if (!mayManage.value || sending.value) return;
   if (files.length === 0) {
     notify(t("upload.nothing"), { bad: true });
@@ -138,8 +145,8 @@ async function uploadFiles(files) {
   }
   dialog.value = null;
   try {
-    const document = await send(bodyOf(files), nameOf(files));
-    if (document) goTo(document);
+    const document = await send(bodyOf(files), nameOf(files), beside);
+    if (document && document !== beside) goTo(document);
   } catch (error) {
     notify(error instanceof Error ? error.message : String(error), { bad: true });
   } finally {
@@ -161,10 +168,10 @@ function bodyOf(files) {
 }
 
 /**
- * @param {Blob} body @param {string} name
+ * @param {Blob} body @param {string} name @param {string} beside
  * @returns {Promise<string>} id of the document; empty when it was cancelled
  */
-function send(body, name) {
+function send(body, name, beside) {
   // `fetch` does not tell how much of a body has gone out.
   const request = new XMLHttpRequest();
   const cancel = () => request.abort();
@@ -180,7 +187,8 @@ function send(body, name) {
       if (answer.document) resolve(answer.document);
       else reject(new Error(answer.reason || t("upload.broken")));
     };
-    request.open("POST", address("/api/uploads"));
+    const query = beside && `?${new URLSearchParams({ beside })}`;
+    request.open("POST", address(`/api/uploads${query}`));
     request.send(body);
   });
 }
@@ -200,7 +208,7 @@ export function FileButtons() {
   const folder = useRef(/** @type {HTMLInputElement | null} */ (null));
   /** @param {any} event */
   const onChange = (event) => {
-    uploadFiles(chosenFiles(event.currentTarget.files));
+    void openFiles(chosenFiles(event.currentTarget.files));
     event.currentTarget.value = "";
   };
   return html`<div class="file-buttons">

@@ -7,11 +7,12 @@
 /** @import { Signal } from "vendor/preact.js" */
 /** @import { DroppedFile } from "../lib/files.js" */
 
-import { effect, signal, untracked } from "vendor/preact.js";
+import { computed, effect, signal, untracked } from "vendor/preact.js";
 import { commandById } from "../lib/commands.js";
 import { t } from "../lib/i18n.js";
 import { askOrKeepWhy } from "./asking.js";
-import { session } from "./connection.js";
+import { documentId, session } from "./connection.js";
+import { isBag, recordingKey } from "./time.js";
 import { notify } from "./view.js";
 import { RefusedError, send } from "./wire.js";
 
@@ -81,13 +82,23 @@ async function askType(name) {
   }
 }
 
+/** Whose types are told: a bag has its own, which may have other forms. */
+const teller = computed(() => `${documentId.value} ${isBag.value && recordingKey.value}`);
+
 /**
- * Say which types may be others than they were, whenever somebody gives texts of types: those that
- * were not known, and those that are no ROS distribution's.
+ * Say which types may be others than they were: whenever somebody gives texts of types, those that
+ * were not known, and those that are no ROS distribution's; with another bag, all.
  *
  * @param {(name: string) => void} tell
  */
 export function whenTypesChange(tell) {
+  effect(() => {
+    teller.value;
+    const names = [...types.keys(), ...unknown];
+    types.clear();
+    unknown.clear();
+    for (const name of names) untracked(() => tell(name));
+  });
   effect(() => {
     const doubtful = new Set([...unknown, ...(interfaces.value?.own ?? [])]);
     for (const name of [...types.keys(), ...unknown]) {

@@ -168,6 +168,7 @@ export interface BagEntry {
   seconds: number;
   bytes: number;
   messages: number;
+  files: string[];
 }
 
 /** Answer to `save_past` and `cut_bag`. */

@@ -13,6 +13,7 @@ import numpy as np
 from studio.bags import queries
 from studio.bags.blocks import Columns, Outline
 from studio.bags.metadata import profiles_of
+from studio.bags.metadata_text import BagDescription, Span
 from studio.bags.recording import RecordedTopic
 from studio.bags.schemas import types_of
 from studio.errors import RecordingError
@@ -63,7 +64,7 @@ class Bag:
             path: As it was asked for.
             storage: Of all files.
             files: In their order.
-            sources: The files that are on the disk, compressed ones as they are there.
+            sources: The same on the disk, where they may be compressed.
             metadata: What `metadata.yaml` says; None without one.
             troubles: What is damaged or missing beside what the files themselves say.
         """
@@ -159,6 +160,7 @@ class Bag:
             sum(channel.count or 0 for _, channel in chosen),
             trouble,
             self._note(name, first.type_name),
+            first.encoding,
         )
 
     def _note(self, name: str, type_name: str) -> str:
@@ -173,6 +175,22 @@ class Bag:
         types = ", ".join(sorted({channel.type_name or "none" for channel in others}))
         count = sum(channel.count or 0 for channel in others)
         return f"{count} messages of other types are left out: {types}."
+
+    def description(self) -> BagDescription:
+        """Return what a `metadata.yaml` is to say of the files as they are."""
+        old = self.metadata
+        is_packed = any(one.name.endswith(".zstd") for one in self.files)
+        is_by_message = any(one.compresses_messages for one in self._read)
+        mode = "file" if is_packed else "message" if is_by_message else ""
+        return BagDescription(
+            self.storage,
+            {one.name: _span_of(file) for one, file in zip(self.files, self._read, strict=True)},
+            [(one, one.count) for one in self.topics],
+            "zstd" if mode else "",
+            mode,
+            old.custom_data if old else {},
+            self.distro,
+        )
 
     # Messages
 
@@ -313,6 +331,11 @@ class Bag:
         for i, channel in self._channels.get(topic, ()):
             queries.add_counts(self._read[i], channel.key, edges, counts)
         return counts
+
+
+def _span_of(file: BlockFile) -> Span:
+    count = sum(one.count or 0 for one in file.channels.values())
+    return Span(count, *file.table.span_ns) if count else Span()
 
 
 def gid_of(topic: str, type_name: str) -> bytes:

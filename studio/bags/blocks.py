@@ -186,6 +186,11 @@ class BlockFile(Protocol):
         """What is damaged, a sentence each."""
         ...
 
+    @property
+    def compresses_messages(self) -> bool:
+        """Whether each message is compressed by itself."""
+        ...
+
     def entries(self, block: int, channel: int) -> Entries:
         """Return which messages of a channel lie in a block."""
         ...

@@ -105,7 +105,7 @@ def _topic(topic: RecordedTopic) -> dict[str, Any]:
     return {
         "name": topic.name,
         "type": topic.type_name,
-        "serialization_format": "cdr",
+        "serialization_format": topic.encoding,
         "offered_qos_profiles": [_qos(one) for one in topic.qos],
         "type_description_hash": topic.type_hash,
     }

@@ -45,6 +45,7 @@ def open_bag(
     progress: Callable[[float], None] | None = None,
     *,
     kept_in: Path | None = None,
+    by_files: bool = False,
 ) -> Bag:
     """Open a bag.
 
@@ -56,23 +57,26 @@ def open_bag(
         path: A folder of rosbag2, its `metadata.yaml`, or one `.mcap` or `.db3` file.
         progress: Is told the share that is done, 0 to 1, while an index has to be made.
         kept_in: The folder where indexes and unpacked files are kept; None: the studio's.
+        by_files: Whether the files that lie in the folder are read, whatever its metadata names.
 
     Raises:
         BagNotReadableError: There is no bag, or nothing of it can be read.
     """
-    found = _found(path)
+    found = _found(path, by_files=by_files)
     reading = _Reading(_kept_in(kept_in), found, progress)
     files: list[BlockFile] = []
+    sources: list[Path] = []
     troubles = list(found.troubles)
     for one in found.files:
         try:
             files.append(reading.opened(one))
+            sources.append(one)
         except BagNotReadableError as error:
             troubles.append(f"{one.name} is left out: {error.reason}.")
     if not files:
         reason = " ".join(troubles).removesuffix(".") or "it holds no files of a bag"
         raise BagNotReadableError(str(path), reason)
-    return Bag(path, found.storage, files, found.files, found.metadata, troubles)
+    return Bag(path, found.storage, files, sources, found.metadata, troubles)
 
 
 def _kept_in(chosen: Path | None) -> Path:
@@ -164,11 +168,11 @@ class _Found:
     troubles: tuple[str, ...] = ()
 
 
-def _found(path: Path) -> _Found:
+def _found(path: Path, *, by_files: bool) -> _Found:
     if path.name == METADATA_NAME and is_file(path):
-        return _of_folder(path.parent)
+        return _of_folder(path.parent, by_files=by_files)
     if is_folder(path):
-        return _of_folder(path)
+        return _of_folder(path, by_files=by_files)
     if not is_file(path):
         raise BagNotReadableError(str(path), "it is not there")
     storage = _storage_of(path)
@@ -183,7 +187,7 @@ def _storage_of(file: Path) -> str | None:
     )
 
 
-def _of_folder(folder: Path) -> _Found:
+def _of_folder(folder: Path, *, by_files: bool) -> _Found:
     """Find the files of a folder by its `metadata.yaml` or, without a sound one, by name."""
     listed = sorted(
         (one for one in folder.iterdir() if _storage_of(one) and is_file(one)), key=_natural
@@ -196,7 +200,7 @@ def _of_folder(folder: Path) -> _Found:
         storage = _storage_of(listed[0]) or ""
         kept = tuple(one for one in listed if _storage_of(one) == storage)
         return _Found(storage, kept, None, (_without_metadata(folder, error),))
-    files = tuple(folder / name for name in metadata.files)
+    files = tuple(listed) if by_files else tuple(folder / name for name in metadata.files)
     missing = [one.name for one in files if not is_file(one)]
     troubles = (
         (f"{', '.join(missing)}: named in {METADATA_NAME}, and not there.",) if missing else ()

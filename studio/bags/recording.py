@@ -28,6 +28,7 @@ class RecordedTopic:
         count: Messages of it.
         trouble: Why its messages cannot be read here, in a sentence; empty: they can.
         note: What is left out of it, in a sentence, as of a large topic that is thinned.
+        encoding: Of its messages; in ROS 2 that is `cdr`.
     """
 
     name: str
@@ -37,6 +38,7 @@ class RecordedTopic:
     count: int = 0
     trouble: str = ""
     note: str = ""
+    encoding: str = "cdr"
 
     @property
     def is_latched(self) -> bool:

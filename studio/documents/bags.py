@@ -64,6 +64,16 @@ def bag_in(folder: Path) -> Path | None:
     return bags[0] if len(bags) == 1 else None
 
 
+async def bag_instead(location: Location) -> Path | None:
+    """Return the bag of a place that holds no robot, such as a zip of one."""
+    return None if location.entry else await asyncio.to_thread(bag_in, location.root)
+
+
+def served_folder(bag: Path) -> Path:
+    """Return the folder that is served for a bag."""
+    return bag if bag.is_dir() else bag.parent
+
+
 def folder_of_bag(path: Path) -> Path:
     """Return what a bag is called by: the folder for its `metadata.yaml`."""
     return path.parent if path.name == _METADATA else path

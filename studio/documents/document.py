@@ -102,6 +102,8 @@ class Document:
         self.id, self._services = name, services
         self.on_unsaved: Callable[[], None] = lambda: None
         """Called when the document comes to have unsaved edits, or no longer has any."""
+        self.own_bag = ""
+        """The bag that it was opened for, whose robot it is."""
         self._build_state(location, arguments)
         self._build_parts()
         self._build_watchers()

@@ -16,13 +16,14 @@ from studio.classroom.classroom import Classroom
 from studio.course.lessons.shelf import Shelf
 from studio.documents.arguments import form_at, form_of
 from studio.documents.bags import (
-    bag_in,
+    bag_instead,
     demand_bag,
     folder_of_bag,
     is_bag,
     location_of_bag,
     opened_bag,
     root_frame,
+    served_folder,
 )
 from studio.documents.copies.copies import COMMANDS as COPY_COMMANDS
 from studio.documents.copies.copies import Copies
@@ -33,8 +34,8 @@ from studio.documents.lessons.lesson_room import COMMANDS as LESSON_COMMANDS
 from studio.documents.lessons.lesson_room import LessonRoom
 from studio.documents.library import COMMANDS as LIBRARY_COMMANDS
 from studio.documents.library import Library
-from studio.documents.link_opening import open_link
-from studio.documents.links import Moment, link_to
+from studio.documents.link_opening import moment_of, open_link
+from studio.documents.links import link_to
 from studio.documents.seen import seen_document
 from studio.documents.services import Services
 from studio.documents.uploads import Uploads
@@ -72,6 +73,7 @@ from studio.protocol.documents import (
     GetLink,
     Gone,
     Link,
+    LinkOpened,
     ListFolder,
     Opened,
     OpenLink,
@@ -322,26 +324,18 @@ class Engine:
         found = await self._found(path, progress)
         if isinstance(found, Location):
             return self._open(found, arguments)
-        self.served = self.served.with_roots((), [found if found.is_dir() else found.parent])
+        self.served = self.served.with_roots((), [served_folder(found)])
         return await self._open_bag(found, progress)
 
-    async def open_bag(self, command: OpenBag) -> Opened:
-        """Show a bag for the page, in an open document or as one of its own.
+    async def show_bag(self, bag: str, name: str = "") -> str:
+        """Show a bag for the page, in an open document or as one of its own; returns which.
 
         Raises:
             StudioError: It may not be opened, or nothing of it can be read.
         """
-        path = self._may_open_bag(command.path)
+        path = self._may_open_bag(bag)
         await asyncio.to_thread(demand_bag, path)
-        if not command.document:
-            return Opened(request=command.request, document=await self._open_bag(path))
-        document = await self.ready(command.document)
-        try:
-            shown = await opened_bag(path, document.time.note_progress)
-        finally:
-            document.time.note_progress(None)
-        await document.show_bag(shown, with_ghost=not owner_of(document.id))
-        return Opened(request=command.request, document=document.id)
+        return await self._open_or_show_bag(path, name)
 
     def _may_open_bag(self, path: str) -> Path:
         """Return the path of a bag if it is served, or was opened before.
@@ -355,6 +349,18 @@ class Engine:
             if not self.library.may_reopen(path):
                 raise
             return Path(path)
+
+    async def _open_or_show_bag(self, path: Path, beside: str) -> str:
+        """Show a bag in an open document, whose robot moves by it, else as one of its own."""
+        if not beside:
+            return await self._open_bag(path)
+        document = await self.ready(beside)
+        try:
+            shown = await opened_bag(path, document.time.note_progress)
+        finally:
+            document.time.note_progress(None)
+        await document.show_bag(shown, with_ghost=not owner_of(document.id))
+        return document.id
 
     async def _open_bag(self, path: Path, progress: Progress | None = None) -> str:
         """Open a bag as a document of its own: its robot, or a frame to show its topics in."""
@@ -383,14 +389,6 @@ class Engine:
             await document.live.fix(frame)
         return name
 
-    def moment_of(self, document: Document) -> Moment | None:
-        """Return what a document shows of a bag; None: it shows none."""
-        shown = document.time.shown
-        if shown is None or shown.mode != "bag":
-            return None
-        own = document.entry.is_relative_to(self._settings.data_folder)
-        return Moment(Path(shown.path), shown.title, shown.zero_ns, document.time.at_ns, own)
-
     async def _found(
         self, path: Path, progress: Progress | None = None, within: ServedRoots | None = None
     ) -> Location | Path:
@@ -404,15 +402,18 @@ class Engine:
         location = await self._locate(path, progress, within)
         may_run = self._services.run_folders.allows(location.root)
         location = location.with_bare_entry(may_run=may_run)
-        bag = None if location.entry else await asyncio.to_thread(bag_in, location.root)
-        return location if bag is None else bag
+        return await bag_instead(location) or location
 
     def find_open(self, path: Path) -> Document | None:
         """Return the document whose entry file this is."""
         return next((one for one in self.documents.values() if one.entry == path), None)
 
     async def open_at(
-        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+        self,
+        path: Path,
+        arguments: Mapping[str, str],
+        within: ServedRoots | None,
+        beside: str = "",
     ) -> str:
         """Open for the library, which saw to it that the path may be opened.
 
@@ -421,7 +422,7 @@ class Engine:
         """
         found = await self._found(path, within=within)
         if not isinstance(found, Location):
-            return await self._open_bag(found)
+            return await self._open_or_show_bag(found, beside)
         known = found.entry and not arguments and self.find_open(found.entry)
         return known.id if known else self._open(found, dict(arguments))
 
@@ -429,21 +430,21 @@ class Engine:
         """Close a document whose text was saved elsewhere."""
         await self.close_document(document, discard=True)
 
-    async def open_served(self, command: OpenPath) -> Opened:
-        """Open a path for the page."""
-        return Opened(request=command.request, document=await self._open_served(command))
+    async def open_served(self, name: str, arguments: dict[str, str]) -> str:
+        """Open out of the page: nothing is served then that was not before, but a zip's folder.
 
-    async def _open_served(self, command: OpenPath) -> str:
-        """Open out of the page: nothing is served then that was not before, but a zip's folder."""
+        Raises:
+            StudioError: Nothing there can be opened, or it may not be.
+        """
         try:
-            path = self.served.resolve(Path(command.path))
+            path = self.served.resolve(Path(name))
         except OutsideRootsError:  # a page that outlived the studio shows what was opened before
-            if not self.library.may_reopen(command.path):
+            if not self.library.may_reopen(name):
                 raise
-            return await self.open_at(Path(command.path), command.arguments, None)
+            return await self.open_at(Path(name), arguments, None)
         found = await self._found(path, within=self.served)
         if isinstance(found, Location):
-            return self._open(found, command.arguments)
+            return self._open(found, arguments)
         return await self._open_bag(found)
 
     async def launch_form(self, command: GetArguments) -> Arguments:
@@ -467,7 +468,7 @@ class Engine:
         if len(self.documents) >= _DOCUMENT_LIMIT:
             raise CommandError(f"{_DOCUMENT_LIMIT} documents are open: close one first.")
         document = Document(self._free_id(location), location, arguments, self._services)
-        document.on_unsaved = self._send_list
+        document.on_unsaved, document.own_bag = self._send_list, bag
         self.documents[document.id] = document
         self.default_document = self.default_document or document.id
         document.start()
@@ -537,7 +538,23 @@ class Engine:
 
 def _link_to(engine: Engine, command: GetLink) -> Link:
     document = engine.document(command.document)
-    return link_to(document.sources, document.location, command, engine.moment_of(document))
+    moment = moment_of(document)
+    return link_to(document.sources, document.location, command.request, command.look, moment)
+
+
+async def _open_path(engine: Engine, command: OpenPath) -> Opened:
+    name = await engine.open_served(command.path, command.arguments)
+    return Opened(request=command.request, document=name)
+
+
+async def _open_bag(engine: Engine, command: OpenBag) -> Opened:
+    name = await engine.show_bag(command.path, command.document)
+    return Opened(request=command.request, document=name)
+
+
+async def _open_link(engine: Engine, command: OpenLink) -> LinkOpened:
+    name, left_out, look = await open_link(engine, command.link)
+    return LinkOpened(request=command.request, document=name, left_out=left_out, look=look)
 
 
 async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUsed:
@@ -562,8 +579,8 @@ async def _use_tool(engine: Engine, command: UseTool, asker: Listener) -> ToolUs
 COMMANDS: Final = Commands[Engine](Scope.STUDIO)
 """Every command of the studio."""
 COMMANDS.viewer(Watch, lambda engine, c, who: engine.watch(c.document, who), limits=_WATCHED)
-COMMANDS.presenter(OpenPath, lambda engine, c, _: engine.open_served(c))
-COMMANDS.presenter(OpenBag, lambda engine, c, _: engine.open_bag(c))
+COMMANDS.presenter(OpenPath, lambda engine, c, _: _open_path(engine, c))
+COMMANDS.presenter(OpenBag, lambda engine, c, _: _open_bag(engine, c))
 COMMANDS.presenter(
     CloseDocument,
     lambda engine, c, _: engine.close_document(engine.document(c.document), discard=c.discard),
@@ -573,7 +590,7 @@ COMMANDS.presenter(ListFolder, lambda engine, c, _: engine.list_folder(c))
 COMMANDS.presenter(GetArguments, lambda engine, c, _: engine.launch_form(c))
 COMMANDS.controller(GetLink, lambda engine, c, _: _link_to(engine, c), scope=Scope.DOCUMENT)
 COMMANDS.controller(UseTool, _use_tool, scope=Scope.ROS, needs_router=True, limits=_TOOL_USES)
-COMMANDS.presenter(OpenLink, lambda engine, c, _: open_link(engine, c))
+COMMANDS.presenter(OpenLink, lambda engine, c, _: _open_link(engine, c))
 COMMANDS.presenter(ForgetWork, lambda engine, c, _: engine.left_work.forget(c.path))
 COMMANDS.include(COPY_COMMANDS, lambda engine, _: engine.copies)
 COMMANDS.include(LESSON_COMMANDS, lambda engine, _: engine.lessons)

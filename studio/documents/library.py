@@ -67,9 +67,15 @@ class Opener(Protocol):
         ...
 
     async def open_at(
-        self, path: Path, arguments: Mapping[str, str], within: ServedRoots | None
+        self,
+        path: Path,
+        arguments: Mapping[str, str],
+        within: ServedRoots | None,
+        beside: str = "",
     ) -> str:
         """Open a path, serve its folders from now on, and give the document's id.
+
+        A bag is shown in the open document `beside`, if one is named.
 
         Raises:
             StudioError: Nothing there can be opened.

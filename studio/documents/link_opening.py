@@ -5,16 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from studio.documents.links import bag_places, found_again, place_edits, read_link
+from studio.documents.links import Moment, bag_places, found_again, place_edits, read_link
 from studio.errors import CommandError, StudioError
-from studio.protocol.documents import LinkOpened, OpenPath
-from studio.protocol.playback import OpenBag, SeekTime
 
 if TYPE_CHECKING:
     from studio.documents.document import Document
     from studio.documents.links import SharedMoment, SharedRobot
     from studio.packages.roots import ServedRoots
-    from studio.protocol.documents import Opened, OpenLink
+    from studio.protocol.documents import LinkLook
 
 
 class Opens(Protocol):
@@ -32,22 +30,34 @@ class Opens(Protocol):
         """Return the open document of that id."""
         ...
 
-    async def open_served(self, command: OpenPath) -> Opened:
-        """Open a path, if it may be opened."""
+    async def open_served(self, name: str, arguments: dict[str, str]) -> str:
+        """Open a path, if it may be opened; returns the id of the document."""
         ...
 
-    async def open_bag(self, command: OpenBag) -> Opened:
-        """Show a bag, if it may be opened."""
+    async def show_bag(self, bag: str, name: str = "") -> str:
+        """Show a bag, if it may be opened; returns the id of the document."""
         ...
 
 
-async def open_link(engine: Opens, command: OpenLink) -> LinkOpened:
+def moment_of(document: Document) -> Moment | None:
+    """Return what a document shows of a bag; None: it shows none."""
+    shown = document.time.shown
+    if shown is None or shown.mode != "bag":
+        return None
+    own = document.own_bag == shown.path
+    return Moment(Path(shown.path), shown.title, shown.zero_ns, document.time.at_ns, own)
+
+
+async def open_link(engine: Opens, text: str) -> tuple[str, tuple[str, ...], LinkLook]:
     """Open the file of a link as usual, then make its edits and show its moment.
+
+    Returns:
+        The id of its document, what was left out, a sentence each, and how a page shows it.
 
     Raises:
         StudioError: It is no link, or its robot is not here.
     """
-    shared = read_link(command.link)
+    shared = read_link(text)
     moment, troubles = shared.moment, list[str]()
     if moment is not None and moment.own:
         document = await _open_moment(engine, moment)
@@ -61,17 +71,13 @@ async def open_link(engine: Opens, command: OpenLink) -> LinkOpened:
     edits, left_out = place_edits(document.sources, document.location, shared.files)
     if edits:
         await document.edits.run(edits)
-    left_out = (*left_out, *troubles)
-    return LinkOpened(
-        request=command.request, document=document.id, left_out=left_out, look=shared.look
-    )
+    return document.id, (*left_out, *troubles), shared.look
 
 
 async def _open_robot(engine: Opens, shared: SharedRobot) -> Document:
     locations = [one.location for one in engine.documents.values()]
     path = found_again(shared.entry, engine.served, locations)
-    opening = OpenPath(path=str(path), arguments=shared.arguments)
-    return engine.document((await engine.open_served(opening)).document)
+    return engine.document(await engine.open_served(str(path), shared.arguments))
 
 
 async def _open_moment(engine: Opens, moment: SharedMoment, document: str = "") -> Document:
@@ -84,12 +90,12 @@ async def _open_moment(engine: Opens, moment: SharedMoment, document: str = "") 
     why: StudioError | None = None
     for path in bag_places(moment.bag, engine.bags_folder, locations):
         try:
-            found = await engine.open_bag(OpenBag(document=document, path=str(path)))
+            name = await engine.show_bag(str(path), document)
         except StudioError as error:
             why = why or error
             continue
-        shown = engine.document(found.document)
-        await shown.time.seek(SeekTime(at_s=(moment.at_ns - shown.time.zero_ns) / 1e9))
+        shown = engine.document(name)
+        await shown.time.go_to(moment.at_ns)
         return shown
     name = Path(moment.bag.path).name
     raise CommandError(f"The link shows a moment of {name}, which cannot be opened here: {why}")

@@ -23,7 +23,7 @@ from studio.documents.edits import TEXT_LIMIT_BYTES
 from studio.errors import CommandError, EditError, PackageError
 from studio.packages.roots import package_folder_of
 from studio.packages.run_folders import is_program
-from studio.protocol.documents import GetLink, Link, LinkLook
+from studio.protocol.documents import Link, LinkLook
 from studio.protocol.message import ArgumentName, Message
 
 if TYPE_CHECKING:
@@ -103,14 +103,15 @@ class Moment(NamedTuple):
 
 
 def link_to(
-    sources: Sources, location: Location, command: GetLink, moment: Moment | None = None
+    sources: Sources, location: Location, request: int, look: LinkLook, moment: Moment | None
 ) -> Link:
     """Return a link that opens a document as it is now.
 
     Args:
         sources: Its texts.
         location: Where its files lie.
-        command: How the page shows it, which is part of the link.
+        request: Of the command.
+        look: How the page shows it.
         moment: What it shows of a bag.
 
     Raises:
@@ -123,7 +124,7 @@ def link_to(
         arguments=sources.arguments,
         files=files,
         moment=moment and _shared_moment(location, moment),
-        look=command.look,
+        look=look,
     )
     content = shared.model_dump(exclude_defaults=True)
     text = json.dumps(content, separators=(",", ":"), ensure_ascii=False)
@@ -131,7 +132,7 @@ def link_to(
     if len(packed) >= LINK_LIMIT or len(text.encode()) > _UNPACKED_BYTES:
         raise CommandError("The unsaved edits are too many for a link: save them, then copy it.")
     return Link(
-        request=command.request,
+        request=request,
         text=f"{_VERSION}{packed}",
         arguments=len(sources.arguments),
         files=sources.unsaved_files,

@@ -35,12 +35,13 @@ class Uploads:
         self._reserved_bytes = 0
         """Sizes announced by running uploads."""
 
-    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes]) -> str:
+    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], beside: str = "") -> str:
         """Keep sent files in the data folder and open them; gives the document's id.
 
         Args:
             manifest: What `read_manifest` reads.
             chunks: The bytes of all files, one after the other; ends early when it is cancelled.
+            beside: The open document that shall show a bag; empty: it gets one of its own.
 
         Raises:
             StudioError: They cannot be kept, or are no robot; then nothing is left of them.
@@ -54,30 +55,30 @@ class Uploads:
                 await _write(upload, chunks)
                 staged = upload.finish()
                 if is_zip(files[0]):
-                    return await self._open_zip(staged / files[0].path)
-                return await self._open_sent(upload, staged)
+                    return await self._open_zip(staged / files[0].path, beside)
+                return await self._open_sent(upload, staged, beside)
         finally:
             self._reserved_bytes -= upload.size_bytes
 
-    async def _open_zip(self, sent: Path) -> str:
-        """Unpack and open; what holds no robot is not kept."""
+    async def _open_zip(self, sent: Path, beside: str) -> str:
+        """Unpack and open; what holds neither a robot nor a bag is not kept."""
         folder = await asyncio.to_thread(unpacked_folder, sent, self._data_folder)
         is_new = not is_folder(folder)
         try:
-            return await self._opener.open_at(sent, {}, None)
+            return await self._opener.open_at(sent, {}, None, beside)
         except StudioError:
             if is_new:
                 await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
             raise
 
-    async def _open_sent(self, upload: Upload, staged: Path) -> str:
+    async def _open_sent(self, upload: Upload, staged: Path, beside: str) -> str:
         chosen = await asyncio.to_thread(arrange, staged)
         robot = (await asyncio.to_thread(_opened_of, staged)).relative_to(staged)
         kept, is_new = await asyncio.to_thread(upload.keep)
         folder = folder_to_open(kept)
         try:
             self._choose(folder, {name: kept / one for name, one in chosen.items()})
-            return await self._opener.open_at(kept / robot, {}, ServedRoots([folder]))
+            return await self._opener.open_at(kept / robot, {}, ServedRoots([folder]), beside)
         except StudioError:
             if is_new:
                 await asyncio.to_thread(shutil.rmtree, kept, ignore_errors=True)

@@ -110,7 +110,10 @@ class Upload:
             UploadError: It is too large, the quota is used up, or the disk is full.
         """
         if self.size_bytes > ZIP_SIZE_LIMIT_BYTES:
-            raise UploadError(f"{_mb(self.size_bytes)} are more than {_mb(ZIP_SIZE_LIMIT_BYTES)}.")
+            raise UploadError(
+                f"{_mb(self.size_bytes)} are more than {_mb(ZIP_SIZE_LIMIT_BYTES)}: "
+                "open what is larger by its path, with `studio open PATH`."
+            )
         _sweep(self._uploads)
         used = folder_bytes(self._uploads) + self._reserved_bytes
         if used + self.size_bytes > self._quota_bytes:

@@ -106,6 +106,8 @@ class BagEntry(Message):
     seconds: float
     bytes: int
     messages: int
+    files: tuple[str, ...]
+    """Names, each to be had at `/api/bags/{name}/{file}`."""
 
 
 class Bags(Event):

@@ -86,11 +86,11 @@ class OpenDocument(Protocol):
 class TakesUploads(Protocol):
     """Keeps and opens the files that are sent."""
 
-    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
-        """Keep and open them; gives the document's id.
+    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], beside: str, /) -> str:
+        """Keep and open them; gives the document's id, which is `beside` if that shows a bag now.
 
         Raises:
-            StudioError: They cannot be kept, or are no robot.
+            StudioError: They cannot be kept, or are neither a robot nor a bag.
         """
         ...
 

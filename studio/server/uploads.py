@@ -2,9 +2,9 @@
 
 from collections.abc import AsyncIterator
 from http import HTTPStatus
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Query, Request
 from pydantic import BaseModel
 from starlette.requests import ClientDisconnect
 from starlette.responses import JSONResponse, Response
@@ -24,6 +24,11 @@ _BODY: Final[dict[str, Any]] = {
         ),
     }
 }
+
+
+Beside = Annotated[
+    str, Query(max_length=200, description="The open document that shall show a sent bag.")
+]
 
 
 class Uploaded(BaseModel):
@@ -51,12 +56,12 @@ class Uploads:
         )
         return router
 
-    async def take(self, request: Request) -> Response:
-        """Keep the sent files in the data folder, and open the robot among them."""
+    async def take(self, request: Request, beside: Beside = "") -> Response:
+        """Keep the sent files in the data folder, and open the robot or the bag among them."""
         stream = request.stream()
         try:
             line, rest = await _first_line(stream)
-            document = await self._engine.uploads.take(line, _and_then(rest, stream))
+            document = await self._engine.uploads.take(line, _and_then(rest, stream), beside)
         except ClientDisconnect:  # it was cancelled, and nobody reads the answer
             return Response(status_code=HTTPStatus.BAD_REQUEST)
         except StudioError as error:

@@ -101,7 +101,7 @@ def test_a_dropped_zip_is_opened_and_drawn(tab: StudioPage):
     manifest = "<package><name>dropped</name></package>"
     content = zipped({"dropped/package.xml": manifest, "dropped/urdf/dropped.urdf": OWN})
     drag(tab, "dragenter", "header", {"robot.zip": content})
-    tab.page.get_by_text("Drop to open this robot").wait_for()
+    tab.page.get_by_text("Drop to open this robot or bag").wait_for()
     drag(tab, "drop", ".drop-layer", {"robot.zip": content})
     tab.page.wait_for_url("**/d/dropped")
     wait_until_drawn(tab)

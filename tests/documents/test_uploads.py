@@ -34,10 +34,10 @@ async def chunks(content: bytes) -> AsyncIterator[bytes]:
         yield content[begin : begin + 1000]
 
 
-async def sent(made: Engine, files: dict[str, bytes]) -> Document:
+async def sent(made: Engine, files: dict[str, bytes], beside: str = "") -> Document:
     announced = [{"path": path, "size": len(content)} for path, content in files.items()]
     line, content = json.dumps(announced).encode(), b"".join(files.values())
-    document = made.document(await made.uploads.take(line, chunks(content)))
+    document = made.document(await made.uploads.take(line, chunks(content), beside))
     await document.opened()
     return document
 
@@ -184,5 +184,25 @@ def test_a_dropped_bag_is_opened_at_its_beginning(tmp_path: Path, how: str):
             assert document.time.recording is not None
             assert document.time.at_ns == BEGIN_NS
             assert document.model.kinematics.movable == ("shoulder",)
+
+    asyncio.run(story())
+
+
+@pytest.mark.parametrize("how", ["folder", "zip"])
+def test_a_bag_dropped_beside_a_robot_moves_it(tmp_path: Path, how: str):
+    bag = write_arm_bag(tmp_path / "run")
+    files = {f"run/{one.name}": one.read_bytes() for one in bag.iterdir()}
+    if how == "zip":
+        files = {"run.zip": zipped(files)}
+
+    async def story() -> None:
+        async with engine(tmp_path / "data") as made:
+            robot = await sent(made, {"r.urdf": ROBOT})
+            assert robot.time.recording is None
+            assert await sent(made, files, robot.id) is robot
+            assert robot.time.at_ns == BEGIN_NS
+            with pytest.raises(StudioError):
+                await sent(made, files, "nobody")
+            assert len(made.documents) == 1
 
     asyncio.run(story())

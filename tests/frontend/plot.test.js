@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { numberPaths } from "../../frontend_assets/model/number-paths.js";
 import { columnsOf, columnTimes, csvOf, Samples } from "../../frontend_assets/model/plotting.js";
 import { isNoise, shownTopics } from "../../frontend_assets/model/topics.js";
-import { numberPaths } from "../../frontend_assets/panels/plot/plot.js";
 import { echoRows } from "../../frontend_assets/panels/topics/echo.js";
 
 /** @param {number} count @param {number} rate_hz @param {(n: number) => number} value */

@@ -110,7 +110,7 @@ class SmallUploads:
         self.taken: list[tuple[bytes, bytes]] = []
         self.begun = self.broken = 0
 
-    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], /) -> str:
+    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], beside: str, /) -> str:
         if manifest == b"refuse":
             raise UploadError("the small engine is in no mood.")
         self.begun += 1

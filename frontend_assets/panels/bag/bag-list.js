@@ -3,10 +3,11 @@
 /** @import { BagEntry } from "../../types/wire.d.ts" */
 
 import { html, useEffect } from "vendor/preact.js";
+import { address } from "../../lib/address.js";
 import { language, t } from "../../lib/i18n.js";
 import { sizeWords } from "../../lib/timeline.js";
 import { shortTime, timeAgo } from "../../lib/times.js";
-import { EmptyState, Icon, IconButton, ProgressBar, useBusy } from "../../lib/ui.js";
+import { EmptyState, Icon, IconButton, MenuButton, ProgressBar, useBusy } from "../../lib/ui.js";
 import { documentId, mayEdit, mayManage } from "../../model/connection.js";
 import { bagPart, bags, bagsRefused, followBags, openRecorded } from "../../model/recording.js";
 import { openBag } from "../../model/time.js";
@@ -34,6 +35,19 @@ function Nothing({ folder }) {
     <button type="button" class="button" onClick=${record}>${t("bag.part.record")}</button><//>`;
 }
 
+/** @param {BagEntry} bag @returns {import("../../lib/ui.js").MenuItem[]} its files, each to be saved */
+const filesOf = ({ name, files }) =>
+  files.map((file) => ({
+    label: file,
+    icon: "download",
+    run: () => {
+      const link = document.createElement("a");
+      link.href = address(`/api/bags/${encodeURIComponent(name)}/${encodeURIComponent(file)}`);
+      link.download = file;
+      link.click();
+    },
+  }));
+
 /** @param {{one: BagEntry}} props */
 function BagRow({ one }) {
   const { busy, during } = useBusy();
@@ -46,6 +60,7 @@ function BagRow({ one }) {
     <button type="button" class="entry-main" disabled=${busy || !mayManage.value} onClick=${during(() => openRecorded(path))} title=${path}>
       <${Icon} name="bag" /><span class="entry-two"><span class="entry-name">${name}</span><span class="entry-path">${facts.join(" · ")}</span></span>
       <span class="entry-when">${when}</span></button>
+    ${mayManage.value && one.files.length > 0 && html`<${MenuButton} label=${t("bag.download", { name })} items=${() => filesOf(one)}><${Icon} name="download" /><//>`}
     ${canShow && html`<${IconButton} icon="robot" label=${t("bag.show_here", { name })} disabled=${busy} onClick=${during(show)} />`}
   </li>`;
 }

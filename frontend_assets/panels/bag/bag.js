@@ -9,10 +9,12 @@ import { LongList } from "../../lib/long-list.js";
 import { shownNumber } from "../../lib/numbers.js";
 import { TextBox } from "../../lib/slider.js";
 import { sinceStart, sizeWords } from "../../lib/timeline.js";
-import { Icon, IconButton, LongName, SearchBox, Segments } from "../../lib/ui.js";
+import { Icon, IconButton, LongName, MenuButton, SearchBox, Segments } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
 import { mayEdit } from "../../model/connection.js";
 import { addDisplay } from "../../model/live-displays.js";
+import { useNumberPaths } from "../../model/number-paths.js";
+import { plot } from "../../model/plotting.js";
 import { bagPart, bags, cutBag, followBags, isRecording } from "../../model/recording.js";
 import {
   bookmarks,
@@ -186,6 +188,20 @@ function Topics({ state }) {
     }</section>`;
 }
 
+/** As many as a menu shows without hiding the page. */
+const PATHS_SHOWN = 40;
+
+/** The numbers of a topic, each drawn over time; nothing where its type has none. @param {{topic: RecordedTopicView}} props */
+function PlotMenu({ topic: { name, type_name: type } }) {
+  const paths = useNumberPaths(type);
+  if (paths.length === 0) return null;
+  const items = () =>
+    paths
+      .slice(0, PATHS_SHOWN)
+      .map((path) => ({ label: path.slice(1), icon: "plot", run: () => plot(name, path) }));
+  return html`<${MenuButton} class="icon-button narrow" label=${t("bag.plot", { topic: name })} items=${items}><${Icon} name="plot" size=${14} /><//>`;
+}
+
 /** @param {{topic: RecordedTopicView, seconds: number}} props */
 function TopicRow({ topic, seconds }) {
   const { name, type_name: type, count, latched, trouble, note } = topic;
@@ -211,6 +227,7 @@ function TopicRow({ topic, seconds }) {
     <td class="acts">
       <${IconButton} icon="pin" size=${14} class="narrow" label=${t("bag.mark", { topic: name })} pressed=${isMarked} onClick=${mark} />
       <${IconButton} icon="topics" size=${14} class="narrow" label=${t("bag.echo", { topic: name })} disabled=${trouble !== ""} onClick=${echo} />
+      ${trouble === "" && html`<${PlotMenu} topic=${topic} />`}
       ${kind && mayEdit.value && html`<${IconButton} icon="scene" size=${14} class="narrow" label=${t("topics.show", { kind })} onClick=${() => addDisplay(kind, name)} />`}
     </td></tr>`;
 }

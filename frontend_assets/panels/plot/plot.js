@@ -3,7 +3,6 @@
 /** @import { Span } from "./chart.js" */
 /** @import { Signal } from "vendor/preact.js" */
 /** @import { Series } from "../../model/plotting.js" */
-/** @import { MessageView } from "../../types/wire.d.ts" */
 
 import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { saveAsFile } from "../../lib/files.js";
@@ -13,7 +12,7 @@ import { useSeen } from "../../lib/seen.js";
 import { overdue_s, shortTime } from "../../lib/times.js";
 import { EmptyState, Icon, IconButton, MenuButton } from "../../lib/ui.js";
 import { dropped, laneOpen } from "../../model/data-lane.js";
-import { typeOf } from "../../model/interfaces.js";
+import { useNumberPaths } from "../../model/number-paths.js";
 import {
   addSeries,
   csvOf,
@@ -241,20 +240,9 @@ function troubleOfSamples(samples, latched) {
 function PlotPicker({ onDone }) {
   const topic = useSignal("");
   const path = useSignal("");
-  const paths = useSignal(/** @type {readonly string[]} */ ([]));
   useEffect(followTopics, []);
   const type = topics.value?.find(({ name }) => name === topic.value)?.types[0] ?? "";
-  useEffect(() => {
-    let closed = false;
-    paths.value = [];
-    if (type)
-      typeOf(type).then(({ messages }) => {
-        if (!closed && messages) paths.value = numberPaths(messages, type);
-      });
-    return () => {
-      closed = true;
-    };
-  }, [type]);
+  const paths = useNumberPaths(type);
   const steps = stepsOf(path.value);
   const isWrong = path.value !== "" && steps === null;
   const canAdd = topic.value.startsWith("/") && steps !== null && steps.length > 0;
@@ -275,49 +263,8 @@ function PlotPicker({ onDone }) {
       onInput=${(/** @type {any} */ event) => {
         path.value = event.currentTarget.value;
       }} />
-    <datalist id="plot-paths">${paths.value.map((one) => html`<option key=${one} value=${one}></option>`)}</datalist>
+    <datalist id="plot-paths">${paths.map((one) => html`<option key=${one} value=${one}></option>`)}</datalist>
     <button type="submit" class="button primary" disabled=${!canAdd}>${t("plot.draw")}</button>
     ${isWrong && html`<p class="note">${t("plot.wrong_path")}</p>`}
   </form>`;
 }
-
-const DEPTH_MAX = 12;
-const PATHS_MAX = 400;
-const TEXTS = new Set(["string", "wstring"]);
-
-/**
- * Which numbers a type of message holds, as paths that a plot takes.
- *
- * @param {readonly MessageView[]} messages
- * @param {string} name
- * @returns {string[]} of a list its first
- */
-export function numberPaths(messages, name) {
-  const known = new Map(messages.map((one) => [one.name, one]));
-  /** @type {string[]} */
-  const found = [];
-  walk(known, name, "", 0, found);
-  return found.slice(0, PATHS_MAX);
-}
-
-/** @param {Map<string, MessageView>} known @param {string} name @param {string} path @param {number} depth @param {string[]} found */
-function walk(known, name, path, depth, found) {
-  if (depth > DEPTH_MAX || found.length > PATHS_MAX) return;
-  for (const field of known.get(name)?.fields ?? []) {
-    const at = `${path}.${field.name}${field.shape === "single" ? "" : "[0]"}`;
-    if (known.has(field.base)) walk(known, field.base, at, depth + 1, found);
-    else if (!TEXTS.has(field.base)) found.push(at);
-  }
-  if (path) found.push(...worked(known.get(name)).map((work) => path + work));
-}
-
-/** @param {MessageView | undefined} message @returns {string[]} what is worked out of a vector, or a quaternion */
-function worked(message) {
-  if (hasAxes(message, "xyz")) return [".@norm"];
-  return hasAxes(message, "xyzw") ? [".@yaw.@deg"] : [];
-}
-
-/** @param {MessageView | undefined} message @param {string} axes */
-const hasAxes = (message, axes) =>
-  message?.fields.length === axes.length &&
-  message.fields.every(({ name, base }, n) => name === axes[n] && base.startsWith("float"));

@@ -42,6 +42,8 @@ FOLDER: Final = "bags"
 _TELL_EVERY_S: Final = 1.0
 _TOPICS_SHOWN: Final = 1_000
 _BAGS_SHOWN: Final = 1_000
+_FILES_SHOWN: Final = 1_000
+"""Of a bag."""
 _NS: Final = 1_000_000_000
 _WRITES: Final = Limits(per_second=2.0)
 
@@ -284,7 +286,8 @@ def _bags_in(folder: Path) -> list[BagEntry]:
     for path in folder.iterdir() if is_folder(folder) else ():
         try:
             about = read_metadata(path / METADATA_NAME)
-            size = sum(one.stat().st_size for one in path.iterdir() if one.is_file())
+            files = sorted(one for one in path.iterdir() if one.is_file())[:_FILES_SHOWN]
+            size = sum(one.stat().st_size for one in files)
         except (BagError, OSError):  # no bag, or one that just goes
             continue
         found.append(
@@ -295,6 +298,7 @@ def _bags_in(folder: Path) -> list[BagEntry]:
                 seconds=about.duration_ns / _NS,
                 bytes=size,
                 messages=about.count,
+                files=tuple(one.name for one in files),
             )
         )
     return sorted(found, key=lambda one: (one.begin_s, one.name), reverse=True)[:_BAGS_SHOWN]

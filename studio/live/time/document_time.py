@@ -294,9 +294,12 @@ class DocumentTime:
         Raises:
             StudioError: There is none, or it cannot be read.
         """
-        at_ns = self.ns_of(command.at_s)
+        await self.go_to(self.ns_of(command.at_s), settled=command.settled)
+
+    async def go_to(self, at_ns: int, *, settled: bool = True) -> None:
+        """Show another moment, ns since the Unix epoch; as `seek`."""
         if self._playing is not None or await self._go_back(at_ns):
-            await self._jump(at_ns, settled=command.settled)
+            await self._jump(at_ns, settled=settled)
 
     async def step(self, command: StepTime) -> None:
         """Go to the next message of a topic, or the one before; without one it stays.
