@@ -281,7 +281,7 @@ class WrittenBags:
 
 def _lies_within(path: Path, folder: Path) -> bool:
     """Whether a path leads to a regular file two levels below a folder, links followed."""
-    return path.resolve().parent.parent == folder.resolve() and is_file(path)
+    return is_file(path) and path.resolve().parent.parent == folder.resolve()
 
 
 def _sent(download: Download) -> Response:

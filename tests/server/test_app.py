@@ -91,6 +91,8 @@ def test_a_file_of_a_bag_is_given_out_whole_or_in_part_and_no_other_file_is(web:
             "bag/..%2f..%2fsecret",
             "..%2fbags/bag",
             "bag/link",
+            "bag/%00",
+            f"bag/{'x' * 300}",
         ):
             assert client.get(f"/api/bags/{path}").status_code in {404, 409}
 
