@@ -270,11 +270,12 @@ class Document:
         self.motion.close()
         await self.configs.close()
         await asyncio.gather(self.feed.close(), self.live.close())
-        await self.time.close()
         background = tuple(self._background.values())
         for task in background:
             task.cancel()
         await asyncio.gather(*background, return_exceptions=True)
+        # Afterwards, for what follows a recording would follow what runs then, and connect for it.
+        await self.time.close()
         await self.robot_checks.close()
         await self.checks.close()
         await asyncio.gather(self._watch.close(), self._meshes.close(), self.runs.close())
