@@ -349,6 +349,8 @@ class Document:
             self._spawn("time", self.time.show(held))
         elif mine is not None and mine.mode == "bag":
             self._spawn("time", self.time.go_live())
+        else:
+            self.time.refresh()
 
     async def _time_switched(self) -> None:
         """Let displays, panels and joints follow the time that is shown now."""

@@ -113,6 +113,7 @@ class Services:
 
     async def close(self) -> None:
         """End all workers."""
+        self.rewinding.close()
         warming = tuple(self._warming)
         for task in warming:
             task.cancel()

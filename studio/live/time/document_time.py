@@ -117,7 +117,7 @@ class DocumentTime:
         """Called once topics come from elsewhere."""
         self.on_moment: Callable[[], Awaitable[None]] = _nothing
         """Called once all have been given another moment: it is drawn at once."""
-        rewinding.follow(self._note_past)
+        rewinding.follow(self.refresh)
 
     @property
     def recording(self) -> Recording | None:
@@ -192,7 +192,7 @@ class DocumentTime:
     async def close(self) -> None:
         """Show nothing of a recording any more."""
         self._closed = True
-        self._rewinding.unfollow(self._note_past)
+        self._rewinding.unfollow(self.refresh)
         self._leave_queue()
         if self._telling is not None:
             self._telling.cancel()
@@ -265,8 +265,8 @@ class DocumentTime:
         if shown is not None and shown.mode == "past":
             await self.go_live()
 
-    def _note_past(self) -> None:
-        """Send what is kept by now."""
+    def refresh(self) -> None:
+        """Send what is kept by now, and what others show; a place that nobody looks from is left."""
         if self._shown is not None and self._shown.mode == "bag":
             return
         if len(self._audience):

@@ -136,6 +136,12 @@ class Rewinding:
         with contextlib.suppress(ValueError):
             self._followers.remove(changed)
 
+    def close(self) -> None:
+        """Look no more."""
+        self._followers.clear()
+        if self._looking is not None:
+            self._looking.cancel()
+
     def _look(self) -> None:
         is_looking = self._looking is not None and not self._looking.done()
         if self.past.is_keeping and not is_looking:

@@ -47,6 +47,13 @@ def test_a_student_rewinds_alone_and_the_class_stays_where_it_is(tmp_path: Path)
         await room.ask(ada, SeekTime(document=copy.id, at_s=2.0))  # back to the bag of the class
         assert ada.last("time_state")["mode"] == "bag"
         assert room.shared.time.recording is not None
+        end_s = ada.last("time_state")["end_s"]
+        await room.ask(ada, GoLive(document=copy.id))  # what the class shows is still offered
+        assert (ada.last("time_state")["title"], ada.last("time_state")["end_s"]) == ("run", end_s)
+        assert {one["name"] for one in ada.last("time_topics")["topics"]} >= {"/tf", "/rosout"}
+        await room.ask(room.presenter, GoLive(document=room.shared.id))
+        assert (ada.last("time_state")["title"], ada.last("time_state")["end_s"]) == ("", 0.0)
+        assert ada.last("time_topics")["topics"] == []
 
     run(tmp_path, work)
 

@@ -13,6 +13,7 @@ import pytest
 from mcap.reader import make_reader
 
 from studio.errors import CommandError
+from studio.live.topics.request import Request
 from studio.protocol.connection import ConnectWire, DisconnectWire, SetJointSource
 from studio.protocol.copies import DiscardCopy
 from studio.protocol.displays import GetTf
@@ -158,6 +159,41 @@ def test_another_bag_and_the_end_of_the_connection_end_the_past(
                 await past.seen.do(SeekTime(at_s=at_s))
 
     asyncio.run(story())
+
+
+def test_a_flood_stays_within_the_memory_and_large_topics_are_thinned(
+    endpoint: str, tmp_path: Path, tester: Node
+):
+    size_max = 16 << 20
+    kind = message("std_msgs/msg/String")
+    out = tester.create_publisher(kind, "/blob", 10)
+    blob = kind(data="x" * 500_000)
+
+    async def story() -> None:
+        async with studio(endpoint, tmp_path, rewind_bytes=size_max) as seen:
+            await seen.do(ConnectWire())
+            past = seen.engine.ros.connection.past
+            looked_at = seen.document.source.subscribe(Request("/blob", newest_only=True))
+            states, sizes, count = joint_states_of(tester), set[int](), 0
+            async with asyncio.timeout(60):
+                while count < 200 or not is_thinned(seen.ear):
+                    out.publish(blob)
+                    states(0.25)
+                    count += 1
+                    sizes.add(seen.ear.last("time_state")["kept_bytes"])
+                    await asyncio.sleep(0.01)
+            past.collect()
+            assert max(sizes | {past.size}) <= size_max
+            assert past.last("/joint_states", past.end_ns, 1)
+            looked_at.close()
+
+    asyncio.run(story())
+
+
+def is_thinned(ear: Ear) -> bool:
+    """Whether pages are told that of a large topic not all is kept."""
+    topics = {one["name"]: one for one in ear.last("time_topics")["topics"]}
+    return "/blob" in topics and "one message in up to" in topics["/blob"]["note"]
 
 
 def test_copies_rewind_by_themselves_and_who_finds_no_place_waits_in_what_runs(
