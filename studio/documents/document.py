@@ -343,7 +343,7 @@ class Document:
     def follow_time(self, original: Document) -> None:
         """Show the bag that another document shows, or what runs now once it shows none."""
         theirs, mine = original.time.shown, self.time.shown
-        if theirs is mine or (theirs is not None and theirs.mode != "bag"):
+        if theirs is not None and (theirs is mine or theirs.mode != "bag"):
             return
         if theirs is not None and (held := theirs.hold()) is not None:
             self._spawn("time", self.time.show(held))
