@@ -52,8 +52,11 @@ def is_bag(path: Path) -> bool:
 
 
 def bag_in(folder: Path) -> Path | None:
-    """Return the bag that a folder without a robot is or has in it, if that is a single one."""
-    if is_bag(folder):
+    """Return the bag that a folder without a robot is or has in it, if that is a single one.
+
+    A folder made for a file that was sent, or unpacked, is not the bag: the file has its name.
+    """
+    if is_bag(folder) and is_file(folder / _METADATA):
         return folder
     try:
         with os.scandir(folder) as found:
@@ -61,7 +64,9 @@ def bag_in(folder: Path) -> Path | None:
     except OSError:
         return None
     bags = [Path(one) for one in sorted(inside) if is_bag(Path(one))]
-    return bags[0] if len(bags) == 1 else None
+    if len(bags) == 1:
+        return bags[0]
+    return folder if is_bag(folder) else None
 
 
 async def bag_instead(location: Location) -> Path | None:

@@ -7,7 +7,7 @@ import shutil
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Final
 
-from studio.documents.bags import bag_in, is_bag
+from studio.documents.bags import bag_in
 from studio.errors import DataFolderError, StudioError, UploadError
 from studio.files import is_folder
 from studio.packages.archive import folder_to_open
@@ -108,9 +108,7 @@ def _opened_of(folder: Path) -> Path:
         bag = bag_in(folder) or bag_in(folder_to_open(folder))
         if bag is None:
             raise
-        files = [] if bag.is_file() else [one for one in bag.iterdir() if is_bag(one)]
-        # A file that was dropped by itself is the bag, and not the folder made for it.
-        return files[0] if bag == folder and len(files) == 1 else bag
+        return bag
 
 
 def _robot_in(folder: Path) -> Path:

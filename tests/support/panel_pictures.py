@@ -38,7 +38,9 @@ PANEL_IDS = """async () => {
 }"""
 SHOW_PANEL = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("../lib/commands.js", script))).commandById(`panel.${id}`).run();
+  const { commandById } = await import(new URL("../lib/commands.js", script));
+  while (commandById(`panel.${id}`) === undefined) await new Promise(requestAnimationFrame);
+  commandById(`panel.${id}`).run();
 }"""
 
 
