@@ -28,9 +28,8 @@ END_NS = 2**62
 
 def _read(bag: Bag) -> list[tuple[str, int, bytes]]:
     names = [topic.name for topic in bag.topics]
-    return [
-        (topic, one.received_ns, bytes(one.payload)) for topic, one in bag.messages(names, 0, END_NS)
-    ]
+    found = bag.messages(names, 0, END_NS)
+    return [(topic, one.received_ns, bytes(one.payload)) for topic, one in found]
 
 
 def _written(messages: list[Told]) -> list[tuple[str, int, bytes]]:
@@ -90,9 +89,8 @@ def test_a_db3_cut_off_at_a_tenth_is_read_in_part_or_refused_with_a_sentence(
     try:
         read, troubles = _opened(tmp_path / "bag", tmp_path / "kept")
     except BagNotReadableError as error:
-        assert str(tmp_path / "bag") in str(error)
-        return
-    assert troubles
+        read, troubles = [], [str(error)]
+    assert any(file.name in one for one in troubles)
     assert set(read) < set(told)
 
 
