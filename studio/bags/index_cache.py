@@ -57,6 +57,8 @@ class IndexCache:
             return _read(kept.read_bytes(), file)
         except (OSError, ValueError, KeyError, EOFError, BadZipFile, msgspec.MsgspecError):
             return None
+        except TypeError:  # another version of the studio kept it, of other arrays
+            return None
 
     def keep(self, file: Path, stamp: Stamp | None, index: McapIndex) -> None:
         """Keep the index of a file that had this stamp when it was read."""
