@@ -12,7 +12,7 @@ import zstandard
 from studio.bags.opening import open_bag
 from studio.errors import BagNotReadableError
 from tests.support.bags import BEGIN_NS, Chunks, Told, string_cdr, write_mcap
-from tests.support.damaged_mcap import chunks_of, data_at, overwrite, put_crc, put_index, put_size
+from tests.support.damaged_bags import chunks_of, data_at, overwrite, put_crc, put_index, put_size
 from tests.support.read_bags import all_of, as_read, read_bag
 
 if TYPE_CHECKING:

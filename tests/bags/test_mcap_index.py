@@ -9,7 +9,7 @@ from mcap.writer import Writer
 
 from studio.bags.opening import open_bag
 from tests.support.bags import BEGIN_NS, STRING, Chunks, Told, string_cdr, write_mcap
-from tests.support.damaged_mcap import chunks_of, cut_out, overwrite, put_index
+from tests.support.damaged_bags import chunks_of, cut_out, overwrite, put_index
 from tests.support.read_bags import as_read, read_bag
 
 if TYPE_CHECKING:

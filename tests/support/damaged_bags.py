@@ -1,4 +1,4 @@
-"""Damage to MCAP files, put where the library says that a thing lies."""
+"""Damage to files of bags; in MCAP files, put where the library says that a thing lies."""
 
 from __future__ import annotations
 
