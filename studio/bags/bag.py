@@ -209,6 +209,8 @@ class Bag:
 
     def last(self, topic: str, at_ns: int, most: int, since_ns: int = 0) -> list[RawSample]:
         """Return the newest samples in [since_ns, at_ns], at most so many, the oldest first."""
+        if most < 1:
+            return []
         found: list[RawSample] = []
         outlines = self._outlines([topic])
         for i in self._backwards(at_ns):

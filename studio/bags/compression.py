@@ -92,7 +92,7 @@ def decompressed_message(data: bytes) -> bytes:
     Raises:
         DamagedPartError: It is something else, or too large.
     """
-    size = _content_size(data)
+    size = _content_size(data, PART_BYTES_MAX)
     if size > PART_BYTES_MAX:
         raise DamagedPartError(f"a message would take more than {PART_BYTES_MAX} bytes")
     return _zstd(data, size)
@@ -110,7 +110,8 @@ def decompress_file(
         told: Is told how many bytes of the source were read, now and then.
 
     Raises:
-        DamagedPartError: It is no such file, is cut off, or holds more.
+        DamagedPartError: It is no such file, is damaged, or holds more; of one that is cut off,
+            what comes before the cut is written.
         OSError: The disk refuses it.
     """
     written = 0
@@ -145,18 +146,18 @@ def _plain(data: bytes | memoryview, _size: int) -> bytes:
     return bytes(data)
 
 
-def _content_size(data: bytes | memoryview) -> int:
-    """Return what a frame of zstd says to hold; so much memory is taken for it."""
+def _content_size(data: bytes | memoryview, unknown: int) -> int:
+    """Return what a frame of zstd says to hold, or `unknown`; so much memory is taken for it."""
     try:
         size = zstandard.frame_content_size(data)
     except zstandard.ZstdError as error:
         raise DamagedPartError(f"it is no frame of zstd ({error})") from None
-    return PART_BYTES_MAX if size in _UNKNOWN else size
+    return unknown if size in _UNKNOWN else size
 
 
 def _zstd(data: bytes | memoryview, size: int) -> bytes:
-    told = zstandard.frame_content_size(data[:18])
-    if told not in _UNKNOWN and told > size:
+    told = _content_size(data[:18], size)
+    if told > size:
         raise DamagedPartError(f"it would take {told} bytes instead of {size}")
     try:
         return _TOOLS.zstd.decompress(data, max_output_size=size)

@@ -89,4 +89,5 @@ def _kept(topic: RecordedTopic) -> int:
     """Return how many messages of a latched topic a late subscriber would have been given."""
     if topic.type_name == _TRANSFORMS:  # many nodes broadcast, each keeps its last
         return _BROADCASTERS_MAX
-    return min(max(one.depth for one in topic.qos), _DEPTH_MAX)
+    # That of a publisher that keeps all is 0.
+    return min(max(one.depth for one in topic.qos) or _DEPTH_MAX, _DEPTH_MAX)

@@ -15,12 +15,10 @@ import numpy as np
 from studio.bags.blocks import Definition
 from studio.bags.mcap_index import McapBlocks, McapIndex
 from studio.bags.mcap_records import ChannelRecord  # noqa: TC001 - msgspec reads it
-from studio.files import stamp_of, write_whole
+from studio.files import Stamp, stamp_of, write_whole
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from studio.files import Stamp
 
 FOLDER: Final = "bag-indexes"
 _FILES_MAX: Final = 100
@@ -56,6 +54,8 @@ class IndexCache:
                 return None
             return _read(kept.read_bytes(), file)
         except (OSError, ValueError, KeyError, EOFError, BadZipFile, msgspec.MsgspecError):
+            return None
+        except TypeError:  # another version of the studio kept it, of other arrays
             return None
 
     def keep(self, file: Path, stamp: Stamp | None, index: McapIndex) -> None:

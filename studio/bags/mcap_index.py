@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.bags import mcap_records
 from studio.bags.blocks import BlockTable
+from studio.bags.compression import PART_BYTES_MAX
 from studio.bags.mcap_records import (
     CHUNK_INDEX,
     FOOTER,
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
     from studio.bags.blocks import Definition
 
+RECORD_BYTES_MAX: Final = PART_BYTES_MAX + 2**16
+"""Of a chunk, or of messages in no chunk, as they lie in the file; what is longer is rubbish."""
 SUMMARY_BYTES_MAX: Final = 2**30
 """A larger one is read by nobody: 10 million pairs of chunk and channel take 100 MB."""
 _ENTRY: Final = np.dtype([("channel", "<u2"), ("at", "<i8")])
@@ -108,13 +111,15 @@ class McapIndex:
     troubles: tuple[str, ...] = ()
 
 
-def read_exactly(handle: int, length: int, at: int) -> bytes:
+def read_exactly(handle: int, length: int, at: int, bytes_max: int = RECORD_BYTES_MAX) -> bytes:
     """Read a part of a file.
 
     Raises:
-        DamagedPartError: The file ends before it.
+        DamagedPartError: The file ends before it, or it is larger than `bytes_max`.
         OSError: The disk refuses it.
     """
+    if length > bytes_max:
+        raise DamagedPartError(f"a record has {length} bytes, more than any may")
     found = os.pread(handle, length, at)
     if len(found) < length:
         found += _more(handle, length - len(found), at + len(found))
@@ -161,7 +166,7 @@ def _summary_of(handle: int, size: int) -> tuple[bytes, int]:
         raise DamagedPartError("it has no index")
     if not len(MAGIC) <= begin <= end or end - begin > SUMMARY_BYTES_MAX:
         raise DamagedPartError("its end points to no index")
-    data = read_exactly(handle, end - begin, begin)
+    data = read_exactly(handle, end - begin, begin, SUMMARY_BYTES_MAX)
     if crc and zlib.crc32(tail[: FOOTER_RECORD.size - 4], zlib.crc32(data)) != crc:
         raise DamagedPartError("its index has a wrong checksum")
     return data, begin
@@ -208,8 +213,9 @@ class _Summary:
         self._check(pairs, heads)
         starts, lengths = heads["at"].astype(np.int64), heads["length"].astype(np.int64)
         index_ends = starts + lengths + index_lengths
-        low = min(starts.min(initial=end) - len(MAGIC), lengths.min(initial=0))
-        if min(low, index_lengths.min(initial=0)) < 0 or index_ends.max(initial=0) > end:
+        # Each by itself as well: a sum of very large ones comes out small.
+        numbers = np.concatenate([starts - len(MAGIC), lengths, index_lengths, index_ends])
+        if numbers.min(initial=0) < 0 or numbers.max(initial=0) > end:
             raise DamagedPartError("its index points beyond its data")
         found = McapBlocks(
             heads["begin"].astype(np.int64),
@@ -255,7 +261,9 @@ class _Summary:
 
     def _check(self, pairs: NDArray[np.void], heads: NDArray[np.void]) -> None:
         """Refuse a summary by which not every message would be found."""
-        if not len(heads) and self.message_count != 0:
+        if self.message_count is None or self.message_count != sum(self.counts.values()):
+            raise DamagedPartError("its index does not count the messages of each topic")
+        if not len(heads) and self.message_count:
             raise DamagedPartError("its messages stand in no chunk")
         if np.any((heads["entries"] == 0) & (heads["length"] > 0) & (heads["end"] > 0)):
             raise DamagedPartError("its index does not say what is in each chunk")

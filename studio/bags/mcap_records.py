@@ -72,6 +72,11 @@ class Fields:
             raise DamagedPartError(f"a text has {length} bytes")
         return self.raw(length).decode(errors="replace")
 
+    def beginning(self) -> str:
+        """Read a text after its length; of one that is too long, the beginning."""
+        data = self.raw(self.number(U32))
+        return data[:TEXT_BYTES_MAX].decode(errors="replace")
+
     def texts(self) -> dict[str, str]:
         """Read a map of texts."""
         end = self.number(U32) + self._at
@@ -121,7 +126,8 @@ def read_schema(data: bytes | memoryview) -> Schema:
     """
     fields = Fields(data)
     key = fields.number(U16)
-    return Schema(key, Definition(fields.text(), fields.text(), fields.text()))
+    # One that is too long to be read costs its own topics, and not the index of the file.
+    return Schema(key, Definition(fields.text(), fields.text(), fields.beginning()))
 
 
 def read_channel(data: bytes | memoryview) -> ChannelRecord:

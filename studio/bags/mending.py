@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from studio.bags import mcap_records
+from studio.bags.compression import PART_BYTES_MAX
 from studio.bags.mcap_file import chunk_data, scan_entries
 from studio.bags.mcap_index import McapBlocks, McapIndex, read_exactly
 from studio.bags.mcap_records import (
@@ -328,7 +329,7 @@ class _Rebuilding:
             after = end + HEAD.size + length
             if opcode != mcap_records.MESSAGE or after > self._window.size:
                 break
-            if length < MESSAGE_FIELDS_BYTES:
+            if not MESSAGE_FIELDS_BYTES <= length <= PART_BYTES_MAX:
                 break
             end = after
         if end == at:

@@ -31,7 +31,6 @@ FILES_MAX: Final = 10_000
 VERSION_MAX: Final = 9
 _FOREVER_S: Final = 2**31 - 1
 """What rosbag2 writes for a span without end is this, or more."""
-_LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _Fields = dict[str, Any]
 
 
@@ -100,13 +99,26 @@ def metadata_of(text: str) -> BagMetadata:
     try:
         fields = cast("_Fields", whole)
         return _metadata(fields.get("rosbag2_bagfile_information", fields))
-    except (TypeError, KeyError, AttributeError) as error:
+    except (TypeError, KeyError, AttributeError, OverflowError) as error:
         raise ValueError(f"it lacks something, or has it in another form ({error!s:.60})") from None
+
+
+if TYPE_CHECKING:
+    _BaseLoader = yaml.SafeLoader
+else:
+    _BaseLoader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+class _Loader(_BaseLoader):
+    """Refuses `<<`, which no recorder writes: merges of merges take any amount of memory."""
+
+    def flatten_mapping(self, node: yaml.MappingNode) -> None:
+        """Leave a mapping as it is."""
 
 
 def _loaded(text: str) -> object:
     try:
-        return yaml.load(text, Loader=_LOADER)
+        return yaml.load(text, Loader=_Loader)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         reason = str(error).partition("\n")[0]
         raise ValueError(f"it is no YAML ({reason:.100})") from None
@@ -116,31 +128,38 @@ def _metadata(about: _Fields) -> BagMetadata:
     version = int(about["version"])
     if version > VERSION_MAX:
         raise ValueError(f"it is of version {version}, newer than any that is known here")
-    files = [PurePosixPath(str(one)).name for one in about["relative_file_paths"][:FILES_MAX]]
-    mode = str(about.get("compression_mode") or "").lower()
+    files = [PurePosixPath(_word(one)).name for one in about["relative_file_paths"][:FILES_MAX]]
+    mode = _word(about.get("compression_mode") or "").lower()
     custom = about.get("custom_data")
     return BagMetadata(
         version,
-        str(about["storage_identifier"]),
+        _word(about["storage_identifier"]),
         tuple(files),
         int(about["starting_time"]["nanoseconds_since_epoch"]),
         int(about["duration"]["nanoseconds"]),
         int(about["message_count"]),
         tuple(_topic(one) for one in about["topics_with_message_count"] or ()),
-        str(about.get("compression_format") or ""),
+        _word(about.get("compression_format") or ""),
         "" if mode == "none" else mode,
-        str(about.get("ros_distro") or ""),
-        {str(key): str(value) for key, value in custom.items()} if custom else {},
+        _word(about.get("ros_distro") or ""),
+        {_word(key): _word(value) for key, value in custom.items()} if custom else {},
     )
+
+
+def _word(value: object) -> str:
+    """Return a text, or what YAML takes for a number; lists of references to lists are endless."""
+    if isinstance(value, list | tuple | dict | set):
+        raise TypeError("a text is a list")
+    return str(value)
 
 
 def _topic(entry: _Fields) -> TopicMetadata:
     about = entry["topic_metadata"]
     return TopicMetadata(
-        str(about["name"]),
-        str(about["type"]),
-        str(about.get("serialization_format", "cdr")),
-        str(about.get("type_description_hash") or ""),
+        _word(about["name"]),
+        _word(about["type"]),
+        _word(about.get("serialization_format", "cdr")),
+        _word(about.get("type_description_hash") or ""),
         profiles_of(about.get("offered_qos_profiles") or ""),
         int(entry["message_count"]),
     )
@@ -181,7 +200,7 @@ def _profile(entry: _Fields) -> QoSProfile:
 def _policy(kind: type[IntEnum], value: object) -> Any:  # noqa: ANN401
     """Return a policy by its number, as until version 8, or by its name."""
     try:
-        return kind(value) if isinstance(value, int) else kind[str(value).upper()]
+        return kind(value) if isinstance(value, int) else kind[_word(value).upper()]
     except (KeyError, ValueError):
         return kind["UNKNOWN"]
 

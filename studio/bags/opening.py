@@ -189,9 +189,12 @@ def _storage_of(file: Path) -> str | None:
 
 def _of_folder(folder: Path, *, by_files: bool) -> _Found:
     """Find the files of a folder by its `metadata.yaml` or, without a sound one, by name."""
-    listed = sorted(
-        (one for one in folder.iterdir() if _storage_of(one) and is_file(one)), key=_natural
-    )
+    try:
+        listed = sorted(
+            (one for one in folder.iterdir() if _storage_of(one) and is_file(one)), key=_natural
+        )
+    except OSError as error:
+        raise BagNotReadableError(str(folder), error.strerror or "the disk fails") from None
     try:
         metadata = read_metadata(folder / METADATA_NAME)
     except BagNotReadableError as error:

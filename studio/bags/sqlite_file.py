@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sqlite3
 import threading
-from typing import TYPE_CHECKING, Final, cast
+from itertools import islice
+from typing import TYPE_CHECKING, Any, Final, cast
 from urllib.parse import quote
 
 import numpy as np
@@ -35,6 +36,9 @@ _BLOCK_ROWS: Final = 1_024
 _BLOCK_BYTES: Final = 4 * 2**20
 """A block ends with the row that makes it larger."""
 _ROWS_AT_ONCE: Final = 4_096
+_GAPS_MAX: Final = 100
+"""So many damaged parts of a table are passed over."""
+_ROWS_MAX: Final = 2**40
 _TOPICS_MAX: Final = 100_000
 _DEFINITIONS_MAX: Final = 20_000
 _TROUBLES_MAX: Final = 20
@@ -201,26 +205,75 @@ class SqliteFile:
         """Look through the rows: first and last row of each block, the table, and the counts."""
         made = _Blocks()
         size = max(1, self._stamp[1] if self._stamp else 1)
-        try:
-            for rows in self._rows():
-                made.take(rows)
-                if progress is not None:
-                    progress(min(1.0, made.bytes / size))
-        except sqlite3.Error as error:
+        begin: int | None = -(2**63)
+        damage = ""
+        for _ in range(_GAPS_MAX):
+            try:
+                for rows in self._rows(begin):
+                    made.take(rows)
+                    if progress is not None:
+                        progress(min(1.0, made.bytes / size))
+                break
+            except sqlite3.Error as error:
+                damage = str(error)
+            made.close()
+            begin = self._behind_damage(max(begin, made.last_row, 0))
+            if begin is None:
+                break
+        made.close()
+        if damage:
             count = sum(made.counts.values())
             self._tell(
-                f"{self.path.name} is damaged ({error}): its first {count} messages were read, "
-                "the others are lost."
+                f"{self.path.name} is damaged ({damage}): {count} messages were found in it, "
+                "others are lost."
             )
-        made.close()
         return made.finished()
 
-    def _rows(self) -> Iterator[list[tuple[int, int, int, int]]]:
+    def _rows(self, begin: int) -> Iterator[list[tuple[int, int, int, int]]]:
+        """Yield the rows from one on, without their data; up to the first damage, which it raises.
+
+        Raises:
+            sqlite3.Error: A part of the table cannot be read.
+        """
         cursor = self._database.execute(
-            "SELECT rowid, topic_id, timestamp, length(data) FROM messages ORDER BY rowid"
+            "SELECT rowid, topic_id, timestamp, length(data) FROM messages "
+            "WHERE rowid >= ? ORDER BY rowid",
+            (begin,),
         )
-        while rows := cursor.fetchmany(_ROWS_AT_ONCE):
-            yield [row for row in rows if all(isinstance(one, int) for one in row)]
+        rows: list[Any] = []
+        is_going_on = True
+        while is_going_on:
+            try:
+                rows.extend(islice(cursor, _ROWS_AT_ONCE))
+                is_going_on = bool(rows)
+            finally:
+                yield [row for row in rows if all(isinstance(one, int) for one in row)]
+            rows.clear()
+
+    def _behind_damage(self, last: int) -> int | None:
+        """Return from which row on the table can be read again; None: from none."""
+        low, step = last, 1
+        while step <= _ROWS_MAX and last < _ROWS_MAX:
+            if self._is_readable(last + step):
+                break
+            low, step = last + step, step * 2
+        else:
+            return None
+        high = last + step
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (low, middle) if self._is_readable(middle) else (middle, high)
+        return high
+
+    def _is_readable(self, row: int) -> bool:
+        """Whether the table can be read from a row on, or ends before it."""
+        try:
+            self._database.execute(
+                "SELECT rowid FROM messages WHERE rowid >= ? ORDER BY rowid LIMIT 1", (row,)
+            ).fetchall()
+        except sqlite3.Error:
+            return False
+        return True
 
     # What is in a block
 
@@ -237,31 +290,33 @@ class SqliteFile:
     def _entries(self, block: int) -> dict[int, Entries]:
         rows = self._asked(
             "SELECT topic_id, timestamp, rowid FROM messages WHERE rowid BETWEEN ? AND ? "
-            "ORDER BY topic_id, timestamp, rowid",
+            "ORDER BY rowid",
             (self._firsts[block], self._lasts[block]),
         )
         whole = [row for row in rows if all(isinstance(one, int) for one in row)]
         columns = np.array(whole, np.int64).reshape(-1, 3)
+        columns = columns[np.lexsort((columns[:, 1], columns[:, 0]))]
         cuts = np.flatnonzero(np.diff(columns[:, 0])) + 1
         parts = np.split(columns, cuts) if len(columns) else []
         return {int(part[0, 0]): Entries(part[:, 1].copy(), part[:, 2].copy()) for part in parts}
 
     def _asked(self, line: str, values: tuple[int, ...]) -> list[tuple[object, ...]]:
-        """Return the rows of a query.
+        """Return the rows of a query; of one that meets damage, those before it.
 
         Raises:
             BagNotReadableError: The file was changed since it was opened.
         """
+        found: list[tuple[object, ...]] = []
         with self._lock:
             try:
-                return self._database.execute(line, values).fetchall()
+                found.extend(self._database.execute(line, values))
             except sqlite3.Error as error:
                 if stamp_of(self.path) != self._stamp:
                     raise BagNotReadableError(
                         str(self.path), "it was changed while it was open; open it again"
                     ) from None
                 self._tell(f"Messages of {self.path.name} are lost: it is damaged ({error}).")
-                return []
+        return found
 
     # Its messages
 
@@ -352,6 +407,7 @@ class _Blocks:
         self._blocks: list[tuple[int, int, int, int]] = []
         """First row, last row, begin and end of each."""
         self._pairs: list[tuple[int, int]] = []
+        self.last_row = -(2**63)
         self._rows: list[tuple[int, int, int, int]] = []
         self._size = 0
 
@@ -359,6 +415,7 @@ class _Blocks:
         """Add rows: their number, topic, time and bytes."""
         for row in rows:
             self._rows.append(row)
+            self.last_row = row[0]
             self._size += row[3]
             if len(self._rows) >= _BLOCK_ROWS or self._size >= _BLOCK_BYTES:
                 self.close()

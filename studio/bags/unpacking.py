@@ -86,12 +86,12 @@ class UnpackedFiles:
     def _sweep(self, newest: Path) -> None:
         """Remove the folders of the oldest files; open files stay readable."""
         kept = [
-            (about.st_mtime, about.st_size, one.parent)
+            (about, one.parent)
             for one in self.folder.glob("*/*")
-            if one.parent != newest and (about := one.stat())
+            if one.parent != newest and (about := stamp_of(one))
         ]
         total = 0
-        for _, size, folder in sorted(kept, reverse=True, key=lambda one: one[0]):
-            total += size
+        for about, folder in sorted(kept, reverse=True):
+            total += about[1]
             if total > self.kept_bytes_max:
                 shutil.rmtree(folder, ignore_errors=True)

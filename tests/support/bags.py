@@ -102,3 +102,35 @@ def write_mcap(  # noqa: PLR0913 - what a writer of MCAP can be told
             writer.add_message(channels[key], at_ns, string_cdr(one.text), sent_ns, one.sequence)
         writer.finish()
     return file
+
+
+@dataclass(frozen=True, slots=True)
+class McapForm:
+    """How an MCAP file is written."""
+
+    chunks: Chunks = Chunks.NONE
+    chunk_bytes: int = 1_000
+    chunked: bool = True
+    indexed: bool = True
+
+
+def write_raw_mcap(file: Path, told: Iterable[tuple[str, int, bytes]], form: McapForm) -> Path:
+    """Write topic, time and bytes of messages of `std_msgs/msg/String` with the library."""
+    with file.open("wb") as stream:
+        writer = Writer(
+            stream,
+            chunk_size=form.chunk_bytes,
+            compression=form.chunks.value,
+            use_chunking=form.chunked,
+            index_types=IndexType.ALL if form.indexed else IndexType.NONE,
+        )
+        writer.start(profile="ros2", library="tests")
+        kind = writer.register_schema("std_msgs/msg/String", "ros2msg", STRING.encode())
+        channels = {
+            topic: writer.register_channel(topic, "cdr", kind)
+            for topic in sorted({one[0] for one in told})
+        }
+        for number, (topic, at_ns, payload) in enumerate(told):
+            writer.add_message(channels[topic], at_ns, payload, at_ns, number)
+        writer.finish()
+    return file
