@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.bags.blocks import BlockFile, Outline
+    from studio.bags.blocks import BlockFile, BlockTable, Outline
     from studio.ros.node.samples import RawSample
 
 _ATTEMPTS: Final = 8
@@ -140,7 +140,9 @@ def messages(
 ) -> Iterator[Recorded]:
     """Yield the messages of some channels in [begin, end), by time.
 
-    Blocks that overlap in time are merged message by message, the others handed out as they lie.
+    Blocks that overlap in time are merged message by message, the others handed out as they lie:
+    also one that ends with the very time at which the next begins, as where a chunk was full
+    between two messages of one time.
     """
     blocks = _blocks_of(file, channels, begin_ns, end_ns)
     with _ahead(file, blocks) as coming:
@@ -181,10 +183,10 @@ def _merged(
     table, (begin_ns, end_ns) = file.table, span_ns
     waiting: list[Place] = []
     for block, following in coming:
-        until_ns = end_ns if following is None else int(table.begins_ns[following])
-        if not waiting and (following is None or table.ends_ns[block] < until_ns):
+        if not waiting and (following is None or _is_before(table, block, following)):
             yield from _whole_block(file, block, channels, (begin_ns, end_ns))
             continue
+        until_ns = end_ns if following is None else int(table.begins_ns[following])
         for key in channels:
             waiting += _in_block(file, key, block, (begin_ns, end_ns - 1), _ALL)
         waiting.sort()
@@ -192,6 +194,14 @@ def _merged(
         yield from _each(file, waiting[:count], channels)
         del waiting[:count]
     yield from _each(file, waiting, channels)
+
+
+def _is_before(table: BlockTable, block: int, following: int) -> bool:
+    """Whether all messages of a block come before those of the one that follows it."""
+    end_ns, begin_ns = table.ends_ns[block], table.begins_ns[following]
+    return bool(
+        end_ns < begin_ns or (end_ns == begin_ns and table.starts[block] < table.starts[following])
+    )
 
 
 def _blocks_of(
