@@ -15,12 +15,10 @@ import numpy as np
 from studio.bags.blocks import Definition
 from studio.bags.mcap_index import McapBlocks, McapIndex
 from studio.bags.mcap_records import ChannelRecord  # noqa: TC001 - msgspec reads it
-from studio.files import stamp_of, write_whole
+from studio.files import Stamp, stamp_of, write_whole  # msgspec reads Stamp
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from studio.files import Stamp
 
 FOLDER: Final = "bag-indexes"
 _FILES_MAX: Final = 100
