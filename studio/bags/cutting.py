@@ -93,4 +93,4 @@ def _kept(topic: RecordedTopic) -> int:
     """Return how many messages of a latched topic a late subscriber would have been given."""
     if topic.type_name == _TRANSFORMS:  # many nodes broadcast, each keeps its last
         return _BROADCASTERS_MAX
-    return min(max(one.depth for one in topic.qos), _DEPTH_MAX)
+    return min(max((one.depth for one in topic.qos), default=1), _DEPTH_MAX)
