@@ -171,6 +171,13 @@ export interface BagEntry {
   files: string[];
 }
 
+/** How far a damaged or unfinished bag is read that becomes a document of its own. */
+export interface BagOpening {
+  type: "bag_opening";
+  name: string;
+  done: number | null;
+}
+
 /** How far that is; sent when it begins, a few times in a second, and when it ends. */
 export interface BagWriting {
   type: "bag_writing";
@@ -5149,6 +5156,7 @@ export type Command =
 export type Event =
   | Actions
   | Arguments
+  | BagOpening
   | BagWriting
   | BagWritten
   | Bags

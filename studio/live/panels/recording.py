@@ -12,6 +12,7 @@ from studio.errors import BagError, CommandError
 from studio.files import is_folder
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import send
+from studio.protocol.playback import BagOpening
 from studio.protocol.recording import (
     BagEntry,
     Bags,
@@ -257,6 +258,12 @@ class BagRecording:
         while True:
             self._tell_all(BagWriting(done=writing.done))
             await asyncio.sleep(_WRITING_EVERY_S)
+
+    def note_opening(self, name: str, done: float | None) -> None:
+        """Send those who open bags how far one is read, 0 to 1; None: that has ended."""
+        for listener in tuple(self._listeners):
+            if listener.role is Role.PRESENTER:
+                send(listener, BagOpening(name=name, done=done))
 
     def _tell_all(self, event: BagWriting) -> None:
         for listener in tuple(self._listeners):
