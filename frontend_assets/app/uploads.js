@@ -15,6 +15,7 @@ import { baseName } from "../lib/paths.js";
 import { Icon, ProgressBar } from "../lib/ui.js";
 import { documentId, mayManage } from "../model/connection.js";
 import { takeDroppedTypes, takePastedType } from "../model/interfaces.js";
+import { openingBag } from "../model/recording.js";
 import { ask, goTo } from "../model/requests.js";
 import { isConfig } from "../model/rviz-configs.js";
 import { dialog, notify } from "../model/view.js";
@@ -106,13 +107,23 @@ export async function openText(text) {
   return true;
 }
 
-/** What lies over the page while files are held over it, or are on their way. */
+/** What lies over the page while files are held over it, or are on their way, or a bag is read. */
 export function DropLayer() {
+  if (openingBag.value) return html`<${Reading} of=${openingBag.value} />`;
   if (sending.value) return html`<${Sending} />`;
   if (!dropping.value) return null;
   return html`<div class="drop-layer" aria-hidden="true"><div class="drop-card">
     <${Icon} name="upload" size=${34} />
     <strong>${t("drop.title")}</strong><span>${t("drop.text")}</span></div></div>`;
+}
+
+/** @param {{of: {name: string, done: number}}} props */
+function Reading({ of: { name, done } }) {
+  const label = t("upload.reading", { name, share: Math.round(done * 100) });
+  return html`<div class="sending-card" role="status">
+    <p>${label}</p>
+    <${ProgressBar} label=${label} done=${Math.round(done * 100)} total=${100} />
+  </div>`;
 }
 
 function Sending() {

@@ -137,6 +137,20 @@ async function whyNot(asked) {
   }
 }
 
+/** The share of a part that is written, 0 to 1; null: none is being written. @type {Signal<number | null>} */
+export const writtenShare = signal(null);
+subscribe("bag_writing", ({ done }) => {
+  writtenShare.value = done;
+});
+
+/** The damaged or unfinished bag that is being read, and the share that is, 0 to 1; null: none. @type {Signal<{name: string, done: number} | null>} */
+export const openingBag = signal(null);
+subscribe("bag_opening", ({ name, done }) => {
+  openingBag.value = done === null ? null : { name, done };
+});
+
+export const stopWriting = () => void send({ type: "stop_writing" });
+
 /** @param {number} seconds of the live system, as far as they are kept */
 export const savePast = (seconds) => write({ type: "save_past", seconds });
 

@@ -171,6 +171,19 @@ export interface BagEntry {
   files: string[];
 }
 
+/** How far a damaged or unfinished bag is read that becomes a document of its own. */
+export interface BagOpening {
+  type: "bag_opening";
+  name: string;
+  done: number | null;
+}
+
+/** How far that is; sent when it begins, a few times in a second, and when it ends. */
+export interface BagWriting {
+  type: "bag_writing";
+  done: number | null;
+}
+
 /** Answer to `save_past` and `cut_bag`. */
 export interface BagWritten {
   type: "bag_written";
@@ -4320,6 +4333,14 @@ export interface StopRun {
   run: number;
 }
 
+/** Write no further what `save_past` or `cut_bag` asked for; no bag is left of it. */
+export interface StopWriting {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "stop_writing";
+}
+
 /** Somebody has stopped the robot. */
 export interface Stopped {
   type: "stopped";
@@ -5120,6 +5141,7 @@ export type Command =
   | StopRecording
   | StopRobot
   | StopRun
+  | StopWriting
   | SwitchDisplays
   | TakeControl
   | Undo
@@ -5134,6 +5156,8 @@ export type Command =
 export type Event =
   | Actions
   | Arguments
+  | BagOpening
+  | BagWriting
   | BagWritten
   | Bags
   | Begun

@@ -81,6 +81,15 @@ class Bag:
             (min(begin for begin, _ in spans), max(end for _, end in spans)) if spans else (0, 0)
         )
 
+    @classmethod
+    def together(cls, bags: Sequence[Bag]) -> Bag:
+        """Put bags together, at least one; closing this one closes their files."""
+        first = bags[0]
+        files = [file for one in bags for file in one._read]
+        sources = [source for one in bags for source in one.files]
+        troubles = [trouble for one in bags for trouble in one._own_troubles]
+        return cls(first.path, first.storage, files, sources, first.metadata, troubles)
+
     @property
     def title(self) -> str:
         """Its name: that of the folder or of the file."""

@@ -19,7 +19,8 @@ _TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
 _BROADCASTERS_MAX: Final = 1_000
 _DEPTH_MAX: Final = 100
 _REPORT_EVERY: Final = 500
-"""Messages between two reports of progress."""
+"""Messages between two reports of progress, unless they are large."""
+_REPORT_EVERY_BYTES: Final = 8_000_000
 
 
 def write_recording(  # noqa: PLR0913 - a part has two ends
@@ -61,10 +62,13 @@ def write_recording(  # noqa: PLR0913 - a part has two ends
             if topic.is_latched:
                 for sample in recording.last(topic.name, begin_ns - 1, _kept(topic)):
                     writer.write(numbers[topic.name], sample._replace(received_ns=begin_ns))
-        for count, (topic, sample) in enumerate(recording.messages(numbers, begin_ns, end_ns)):
-            if count % _REPORT_EVERY == 0:
-                progress((sample.received_ns - begin_ns) / (end_ns - begin_ns))
+        untold = untold_bytes = 0
+        for topic, sample in recording.messages(numbers, begin_ns, end_ns):
             writer.write(numbers[topic], sample)
+            untold, untold_bytes = untold + 1, untold_bytes + len(sample.payload)
+            if untold >= _REPORT_EVERY or untold_bytes >= _REPORT_EVERY_BYTES:
+                untold = untold_bytes = 0
+                progress((sample.received_ns - begin_ns) / (end_ns - begin_ns))
         written = writer.close()
     except BaseException:
         writer.abandon()
@@ -90,4 +94,4 @@ def _kept(topic: RecordedTopic) -> int:
     if topic.type_name == _TRANSFORMS:  # many nodes broadcast, each keeps its last
         return _BROADCASTERS_MAX
     # That of a publisher that keeps all is 0.
-    return min(max(one.depth for one in topic.qos) or _DEPTH_MAX, _DEPTH_MAX)
+    return min(max((one.depth for one in topic.qos), default=1) or _DEPTH_MAX, _DEPTH_MAX)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import tempfile
@@ -27,7 +28,7 @@ from studio.files import is_file, is_folder, stamp_of
 from studio.settings import data_folder
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from studio.bags.blocks import BlockFile
     from studio.files import Stamp
@@ -77,6 +78,18 @@ def open_bag(
         reason = " ".join(troubles).removesuffix(".") or "it holds no files of a bag"
         raise BagNotReadableError(str(path), reason)
     return Bag(path, found.storage, files, sources, found.metadata, troubles)
+
+
+def open_together(paths: Sequence[Path]) -> Bag:
+    """Open bags as one, with all their topics and messages by time.
+
+    Raises:
+        BagNotReadableError: One of them cannot be read.
+    """
+    with contextlib.ExitStack() as stack:
+        bags = [stack.enter_context(contextlib.closing(open_bag(one))) for one in paths]
+        stack.pop_all()
+    return bags[0] if len(bags) == 1 else Bag.together(bags)
 
 
 def _kept_in(chosen: Path | None) -> Path:

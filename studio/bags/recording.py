@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from studio.ros.node.samples import RawSample
     from studio.ros.qos import QoSProfile
     from studio.ros.types.library import TypeLibrary
+
+LATCHED_BY_NAME: Final = frozenset({"/tf_static", "/robot_description", "/map"})
+"""Taken as latched where a recording does not say how they were published."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +45,9 @@ class RecordedTopic:
 
     @property
     def is_latched(self) -> bool:
-        """Whether a publisher offered its last messages to late subscribers."""
+        """Whether a publisher offered its last messages to late subscribers, as far as is known."""
+        if not self.qos:
+            return self.name in LATCHED_BY_NAME
         from studio.ros.qos import DurabilityPolicy  # noqa: PLC0415 - values alone need none of ros
 
         return any(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in self.qos)

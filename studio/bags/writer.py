@@ -28,7 +28,7 @@ from studio.files import is_there, temporary_beside, write_whole
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from pathlib import Path
     from typing import Self
 
@@ -151,6 +151,8 @@ class BagWriter:
         self._unlooked_bytes = 0
         self._flushed_s = self._described_s = time.monotonic()
         self._is_closed = False
+        self.on_split: Callable[[Path, Path], object] = _nothing
+        """Called with the file that is complete and the one that begins, by who writes."""
         try:
             self._make_folder()
             self._file: StorageFile | None = self._opened()
@@ -321,8 +323,10 @@ class BagWriter:
         self._file = self._opened()
         for number, (topic, definition) in self._topics.items():
             self._file.add_topic(number, topic, definition)
+        closed = self._folder / self._done[-1].name
         self._remove_oldest()
         self._describe()
+        self.on_split(closed, self._folder / self._name)
 
     def _opened(self) -> StorageFile:
         how = self._how
@@ -376,6 +380,10 @@ class BagWriter:
             custom_data=self._how.custom_data,
             distro=self._types.distro,
         )
+
+
+def _nothing(_closed: Path, _opened: Path) -> None:
+    """Do nothing: the default of `on_split`."""
 
 
 def _whole(files: Iterable[_Done]) -> Span:

@@ -366,8 +366,12 @@ class Engine:
         def told(share: float) -> None:
             if progress is not None:
                 progress(f"reading {path.name}", round(share * 100), 100)
+            self.ros.recording.note_opening(path.name, share)
 
-        shown = await opened_bag(path, told)
+        try:
+            shown = await opened_bag(path, told)
+        finally:
+            self.ros.recording.note_opening(path.name, None)
         try:
             indexes = [one.location.index for one in self.documents.values()]
             frame = await asyncio.to_thread(root_frame, shown.recording)

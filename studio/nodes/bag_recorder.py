@@ -120,6 +120,9 @@ class BagRecorder:
         self._node, self._settings, self._say = node, settings, say
         self._is_paused = settings.is_paused
         writer = BagWriter(folder, node.wire.types, settings.storing)
+        writer.on_split = self._note_split
+        self.on_split: Callable[[Path, Path], object] | None = None
+        """Called in a thread with the file that is complete and the one that begins."""
         self._path = writer.path
         self._writing = WritingThread(writer, settings.waiting_bytes_max, ended)
         self._snapshots = _Snapshots(settings) if settings.snapshots else None
@@ -217,6 +220,10 @@ class BagRecorder:
             for name in sorted(published.keys() | subscribed.keys()):
                 if name not in self._lines and name not in self._refused and not self._is_closing:
                     self._consider(name, published.get(name, ()), subscribed.get(name, ()))
+
+    def _note_split(self, closed: Path, opened: Path) -> None:
+        if self.on_split is not None:
+            self.on_split(closed, opened)
 
     def _discover(self) -> None:
         while not self._is_closing:

@@ -35,6 +35,15 @@ class OpenBag(Command):
     path: str
 
 
+class BagOpening(Event):
+    """How far a damaged or unfinished bag is read that becomes a document of its own."""
+
+    type: Literal["bag_opening"] = "bag_opening"
+    name: str
+    done: float | None
+    """The share that is read, 0 to 1; None: that has ended."""
+
+
 class GoLive(Command):
     """Show what comes now; a bag is closed."""
 

@@ -52,6 +52,20 @@ class CutBag(Command):
     name: Annotated[str, Field(max_length=200)] = ""
 
 
+class StopWriting(Command):
+    """Write no further what `save_past` or `cut_bag` asked for; no bag is left of it."""
+
+    type: Literal["stop_writing"] = "stop_writing"
+
+
+class BagWriting(Event):
+    """How far that is; sent when it begins, a few times in a second, and when it ends."""
+
+    type: Literal["bag_writing"] = "bag_writing"
+    done: float | None
+    """The share that is written, 0 to 1; None: nothing is being written."""
+
+
 class BagWritten(Event):
     """Answer to `save_past` and `cut_bag`."""
 

@@ -41,6 +41,11 @@ FORM: Final = """async () => {
   return (await import(new URL("../model/recording.js", script))).recordForm.value;
 }"""
 
+WRITE: Final = """async (share) => {
+  const script = document.querySelector('script[type="module"]').src;
+  (await import(new URL("../model/recording.js", script))).writtenShare.value = share;
+}"""
+
 
 def test_the_contents_of_a_bag_are_listed_and_a_topic_is_marked(browser: Browser, tmp_path: Path):
     with shown_bag(browser, tmp_path) as timeline:
@@ -53,9 +58,21 @@ def test_the_contents_of_a_bag_are_listed_and_a_topic_is_marked(browser: Browser
         assert str(len(messages())) in row.inner_text()
         row.get_by_role("button", name="Mark /chatter on the timeline").click()
         assert page.locator(".timeline-topic").input_value() == "/chatter"
+        how_far_a_part_is_written_is_shown(page)
         nothing_is_in_the_way(page)
         a_line_fills_the_form(page)
         nothing_is_in_the_way(page)
+
+
+def how_far_a_part_is_written_is_shown(page: Page) -> None:
+    """With a way to stop it, until it ends."""
+    page.evaluate(WRITE, 0.4)
+    bar = page.get_by_role("progressbar", name="Writing a bag: 40 %")
+    bar.wait_for()
+    nothing_is_in_the_way(page)
+    page.get_by_role("button", name="Cancel", exact=True).click()  # nothing is written: harmless
+    page.evaluate(WRITE, None)
+    bar.wait_for(state="detached")
 
 
 def nothing_is_in_the_way(page: Page) -> None:

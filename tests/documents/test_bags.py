@@ -360,3 +360,22 @@ def test_what_is_no_bag_or_not_served_leaves_what_was_shown(tmp_path: Path):
 
     (tmp_path / "elsewhere").mkdir()
     run(tmp_path, work)
+
+
+def test_how_far_a_damaged_bag_is_read_is_told_to_the_page_that_opens_it(tmp_path: Path):
+    async def story() -> None:
+        bag = write_arm_bag(tmp_path / "run")
+        [file] = bag.glob("*.mcap")
+        file.write_bytes(file.read_bytes()[: file.stat().st_size * 9 // 10])
+        async with engine(tmp_path / "data") as made:
+            ear = Ear()
+            made.attach(ear)
+            name = await made.open_path(bag, {})
+            told = [one for one in ear.events if one["type"] == "bag_opening"]
+            assert {one["name"] for one in told} == {"run"}
+            shares = [one["done"] for one in told]
+            assert len(shares) > 1
+            assert (shares[-1], shares[:-1]) == (None, sorted(shares[:-1]))
+            assert made.document(name).time.shown is not None
+
+    asyncio.run(story())

@@ -11,7 +11,7 @@ import { TextBox } from "../../lib/slider.js";
 import { sinceStart, sizeWords } from "../../lib/timeline.js";
 import { Icon, IconButton, LongName, MenuButton, SearchBox, Segments } from "../../lib/ui.js";
 import { useLooking } from "../../model/asking.js";
-import { mayEdit } from "../../model/connection.js";
+import { mayEdit, mayManage } from "../../model/connection.js";
 import { addDisplay } from "../../model/live-displays.js";
 import { useNumberPaths } from "../../model/number-paths.js";
 import { plot } from "../../model/plotting.js";
@@ -33,7 +33,7 @@ import { chosenTopic, followTopics, topics } from "../../model/topics.js";
 import { ConnectFirst, isUnconnected, NothingThere } from "../parts.js";
 import { beginDrag, endDrag } from "../topic-drag.js";
 import { BagList } from "./bag-list.js";
-import { RecordPart, SavePast } from "./record.js";
+import { RecordPart, SavePast, Writing } from "./record.js";
 
 export function BagPanel() {
   const { panel, looking } = useLooking(followTopics);
@@ -46,6 +46,7 @@ export function BagPanel() {
   ]);
   return html`<section ref=${panel} class="panel-body bag" aria-label=${t("panel.bag")}>
     <div class="panel-bar row"><${Segments} label=${t("panel.bag")} chosen=${bagPart} of=${of} /></div>
+    <${Writing} />
     ${bagPart.value === "contents" && html`<${Contents} looking=${looking} />`}
     ${bagPart.value === "record" && html`<${RecordPart} />`}
     ${bagPart.value === "bags" && html`<${BagList} />`}
@@ -130,7 +131,7 @@ function Clip({ state }) {
     ) => {
       name.value = event.currentTarget.value;
     }} />
-    <button type="submit" class="button small" disabled=${busy.value || !mayMoveTime.value}>${busy.value && html`<span class="spinner"></span>`}${t("bag.clip.save")}</button>
+    <button type="submit" class="button small" disabled=${busy.value || !mayManage.value} title=${mayManage.value ? null : t("bag.viewer")}>${busy.value && html`<span class="spinner"></span>`}${t("bag.clip.save")}</button>
   </form>`;
 }
 

@@ -8,8 +8,8 @@ import { language, t } from "../../lib/i18n.js";
 import { parseNumber } from "../../lib/numbers.js";
 import { baseName } from "../../lib/paths.js";
 import { sinceStart, sizeWords } from "../../lib/timeline.js";
-import { Icon, SearchBox, useBusy } from "../../lib/ui.js";
-import { mayAct, mayManage } from "../../model/connection.js";
+import { Icon, ProgressBar, SearchBox, useBusy } from "../../lib/ui.js";
+import { mayManage } from "../../model/connection.js";
 import {
   changeForm,
   formFault,
@@ -22,6 +22,8 @@ import {
   savePast,
   startRecording,
   stopRecording,
+  stopWriting,
+  writtenShare,
 } from "../../model/recording.js";
 import { timeState } from "../../model/time.js";
 import { isNoise, topics } from "../../model/topics.js";
@@ -41,6 +43,16 @@ export function RecordPart() {
 
 const PASTS_S = [30, 120, 300];
 
+/** How far a part is written into a bag. */
+export function Writing() {
+  const share = writtenShare.value;
+  if (share === null) return null;
+  const done = Math.round(share * 100);
+  const words = t("bag.writing", { share: done });
+  return html`<div class="bag-writing" role="status"><span>${words}</span><${ProgressBar} label=${words} done=${done} total=${100} />
+    ${mayManage.value && html`<button type="button" class="button small" onClick=${stopWriting}>${t("bag.writing.stop")}</button>`}</div>`;
+}
+
 /** What has just happened, as a bag. */
 export function SavePast() {
   const { busy, during } = useBusy();
@@ -54,13 +66,13 @@ export function SavePast() {
     <p class="bag-past-buttons">${PASTS_S.map(
       (
         one,
-      ) => html`<button key=${one} type="button" class="button small" disabled=${busy || !mayAct.value} title=${whoMay()} onClick=${during(() => savePast(one))}>
+      ) => html`<button key=${one} type="button" class="button small" disabled=${busy || !mayManage.value} title=${whoMay()} onClick=${during(() => savePast(one))}>
         <${Icon} name="disk" size=${14} />${words(one)}</button>`,
     )}</p></section>`;
 }
 
 /** @returns {string | null} why somebody else has to press it */
-const whoMay = () => (mayAct.value ? null : t("operations.viewer"));
+const whoMay = () => (mayManage.value ? null : t("bag.viewer"));
 
 /** @param {{state: RecordingState}} props */
 function Running({ state }) {
@@ -70,7 +82,7 @@ function Running({ state }) {
   return html`<section class=${`bag-state ${runs ? "running" : ""}`} aria-label=${t(runs ? "bag.running" : "bag.last")}>
     <header><span class="bag-light" aria-hidden="true"></span><h3>${t(runs ? "bag.running" : "bag.last")}</h3>
       <span class="bag-file" title=${path}>${baseName(path)}</span>
-      ${runs && html`<button type="button" class="button small danger" disabled=${busy || !mayAct.value} title=${whoMay()} onClick=${during(stopRecording)}><${Icon} name="stop" size=${13} />${t("bag.stop")}</button>`}
+      ${runs && html`<button type="button" class="button small danger" disabled=${busy || !mayManage.value} title=${whoMay()} onClick=${during(stopRecording)}><${Icon} name="stop" size=${13} />${t("bag.stop")}</button>`}
       ${!runs && mayManage.value && html`<button type="button" class="button small" disabled=${busy} onClick=${during(() => openRecorded(path))}><${Icon} name="open" size=${13} />${t("bag.open")}</button>`}
     </header>
     <p class="bag-figures numbers"><b>${sinceStart(seconds)}</b><span>${sizeWords(bytes)}${rate}</span>
@@ -106,7 +118,7 @@ function Form() {
   const fault = formFault(form);
   const start = (/** @type {Event} */ event) => {
     event.preventDefault();
-    if (!fault && mayAct.value) void during(startRecording)();
+    if (!fault && mayManage.value) void during(startRecording)();
   };
   return html`<form class="bag-form" onSubmit=${start} aria-label=${t("bag.part.record")}>
     <fieldset class="bag-which"><legend>${t("bag.which")}</legend>
@@ -122,7 +134,7 @@ function Form() {
     <div class="bag-pair"><${Choice} name="storage" of=${["mcap", "sqlite3"]} /><${Choice} name="compression" of=${["none", "zstd", "lz4"]} /></div>
     <div class="bag-pair"><${Figure} name="maxBytes" unit="MB" scale=${1e6} /><${Figure} name="maxSeconds" unit="s" scale=${1} /></div>
     <footer>${fault && html`<span class="note">${t(fault)}</span>`}<span class="push"></span>
-      <button type="submit" class="button primary" disabled=${busy || fault !== "" || !mayAct.value} title=${whoMay()}>
+      <button type="submit" class="button primary" disabled=${busy || fault !== "" || !mayManage.value} title=${whoMay()}>
         <span class="bag-light on" aria-hidden="true"></span>${t("bag.start")}</button></footer>
   </form>`;
 }

@@ -12,9 +12,11 @@ from studio.errors import BagError, CommandError
 from studio.files import is_folder
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import send
+from studio.protocol.playback import BagOpening
 from studio.protocol.recording import (
     BagEntry,
     Bags,
+    BagWriting,
     BagWritten,
     CutBag,
     ListBags,
@@ -23,6 +25,7 @@ from studio.protocol.recording import (
     SavePast,
     StartRecording,
     StopRecording,
+    StopWriting,
 )
 from studio.protocol.roles import Role
 
@@ -40,6 +43,7 @@ if TYPE_CHECKING:
 FOLDER: Final = "bags"
 """Of the data folder."""
 _TELL_EVERY_S: Final = 1.0
+_WRITING_EVERY_S: Final = 0.25
 _TOPICS_SHOWN: Final = 1_000
 _BAGS_SHOWN: Final = 1_000
 _FILES_SHOWN: Final = 1_000
@@ -62,11 +66,29 @@ class Shown(Protocol):
         ...
 
 
+class _Writing:
+    """A part that is being written into a bag, and how far that is."""
+
+    def __init__(self) -> None:
+        self.done = 0.0
+        self.is_stopped = False
+
+    def note(self, share: float) -> None:
+        """Note how far it is; called in the thread that writes.
+
+        Raises:
+            CommandError: It is to be written no further.
+        """
+        if self.is_stopped:
+            raise CommandError("Writing was stopped: no bag is left of it.")
+        self.done = share
+
+
 class BagRecording:
     """Carries out the commands about recording; used on the event loop only.
 
-    One recording runs at a time. It goes on when the page that began it is closed, and ends, whole,
-    with the connection or the studio.
+    One recording runs at a time, and one part is written. A recording goes on when the page that
+    began it is closed, and ends, whole, with the connection or the studio.
 
     Args:
         wire: The connection whose topics are recorded.
@@ -80,6 +102,7 @@ class BagRecording:
         self._begun_s = 0.0
         self._last = _nothing_recorded()
         self._telling: asyncio.Task[None] | None = None
+        self._writing: _Writing | None = None
         self._turn = asyncio.Lock()
         self.shown: Callable[[str], AbstractContextManager[Shown]] = _nothing_shown
         """Holds the bag that a document shows, by its id; raises a CommandError without one."""
@@ -95,6 +118,8 @@ class BagRecording:
         """Send a page the state, now and whenever it changes."""
         self._listeners.add(listener)
         self._send_to(listener)
+        if self._writing is not None:
+            send(listener, BagWriting(done=self._writing.done))
 
     def detach(self, listener: Listener) -> None:
         """Forget a page; what it began goes on."""
@@ -169,8 +194,14 @@ class BagRecording:
         bags = await asyncio.to_thread(_bags_in, self._folder)
         return Bags(request=command.request, folder=str(self._folder), bags=tuple(bags))
 
+    def stop_writing(self) -> None:
+        """Write a part no further; who asked for it is told. Without one, nothing is done."""
+        if self._writing is not None:
+            self._writing.is_stopped = True
+
     async def close(self) -> None:
-        """End the recording."""
+        """End the recording, and write no part any further."""
+        self.stop_writing()
         await self.stop()
 
     async def _written(
@@ -183,9 +214,19 @@ class BagRecording:
     ) -> BagWritten:
         from studio.bags.cutting import write_recording  # noqa: PLC0415 - imports mcap
 
-        written = await asyncio.to_thread(
-            write_recording, shown.recording, self._new_path(name), topics, *span_ns, _untold
-        )
+        if self._writing is not None:
+            raise CommandError("A part is being written already: wait for it, or stop it.")
+        path = self._new_path(name)
+        writing = self._writing = _Writing()
+        telling = asyncio.create_task(self._keep_telling_of(writing))
+        try:
+            written = await asyncio.to_thread(
+                write_recording, shown.recording, path, topics, *span_ns, writing.note
+            )
+        finally:
+            telling.cancel()
+            self._writing = None
+            self._tell_all(BagWriting(done=None))
         return BagWritten(
             request=request, path=str(written.path), messages=written.messages, bytes=written.bytes
         )
@@ -212,6 +253,21 @@ class BagRecording:
             self._last = await asyncio.to_thread(self._state, recorder, is_recording=True)
             self._tell()
             await asyncio.sleep(_TELL_EVERY_S)
+
+    async def _keep_telling_of(self, writing: _Writing) -> None:
+        while True:
+            self._tell_all(BagWriting(done=writing.done))
+            await asyncio.sleep(_WRITING_EVERY_S)
+
+    def note_opening(self, name: str, done: float | None) -> None:
+        """Send those who open bags how far one is read, 0 to 1; None: that has ended."""
+        for listener in tuple(self._listeners):
+            if listener.role is Role.PRESENTER:
+                send(listener, BagOpening(name=name, done=done))
+
+    def _tell_all(self, event: BagWriting) -> None:
+        for listener in tuple(self._listeners):
+            send(listener, event)
 
     def _tell(self) -> None:
         for listener in tuple(self._listeners):
@@ -331,4 +387,5 @@ COMMANDS.presenter(StartRecording, lambda one, c, _: one.start(c), limits=_WRITE
 COMMANDS.presenter(StopRecording, lambda one, _c, _: one.stop())
 COMMANDS.presenter(SavePast, lambda one, c, _: one.save_past(c), limits=_WRITES)
 COMMANDS.presenter(CutBag, lambda one, c, _: one.cut(c), limits=_WRITES)
+COMMANDS.presenter(StopWriting, lambda one, _c, _: one.stop_writing())
 COMMANDS.presenter(ListBags, lambda one, c, _: one.list(c))

@@ -266,7 +266,7 @@ class DocumentTime:
             await self.go_live()
 
     def refresh(self) -> None:
-        """Send what is kept by now, and what others show; a place that nobody looks from is left."""
+        """Send what is kept by now, and what others show; leave a place that nobody looks from."""
         if self._shown is not None and self._shown.mode == "bag":
             return
         if len(self._audience):

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 TF: Final = "/tf"
 TF_STATIC: Final = "/tf_static"
 LOG: Final = "/rosout"
-LATCHED_BY_NAME: Final = frozenset({TF_STATIC, "/robot_description", "/map"})
-"""Taken as latched where a recording does not say how they were published."""
 TF_HISTORY_NS: Final = 10_000_000_000
 """As long as a buffer of tf2 remembers."""
 TF_MAX: Final = 4_096
@@ -44,9 +42,8 @@ class Wanted(NamedTuple):
 
 
 def is_latched(topic: RecordedTopic) -> bool:
-    """Return whether a topic was latched, by its QoS or else by its name; a log always is."""
-    is_so_by_name = not topic.qos and topic.name in LATCHED_BY_NAME
-    return topic.is_latched or is_so_by_name or topic.name == LOG
+    """Return whether what a topic said holds on: it was latched, or is a log."""
+    return topic.is_latched or topic.name == LOG
 
 
 @dataclass(slots=True)

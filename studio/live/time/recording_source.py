@@ -41,7 +41,9 @@ FAR_NS: Final = 5_000_000_000
 """A jump ahead by more than this begins a new epoch, as one back does."""
 _TICK_S: Final = 0.008
 _READING_S: Final = 0.05
-"""So long a tick reads at most: what is slower to read makes the time go slower."""
+"""So long a tick reads at most."""
+_LATE_NS: Final = 200_000_000
+"""Where reading is too slow, and the time falls behind by more, messages are left out."""
 _ELAPSED_MAX_NS: Final = 250_000_000
 """Time does not go further in a tick, as after the machine slept."""
 _AHEAD_NS: Final = 300_000_000
@@ -133,6 +135,8 @@ class RecordingSource(SharedSource):
         self._topics: tuple[Sequence[RecordedTopic], dict[str, RecordedTopic]] = ((), {})
         self._due_to_fit = self._closed = False
         self._ticked_ns = time.monotonic_ns()
+        self._late_ns = 0
+        """By how much the time stayed behind in the last ticks without a pause."""
         self._wake = threading.Event()
         self.on_stop: Callable[[str], object] = _nothing
         """Called in the thread when it came to its end, or could not be read: then why."""
@@ -420,7 +424,10 @@ class RecordingSource(SharedSource):
         self._later = [one.sample for one in itertools.islice(found, _AHEAD_MAX)]
 
     def _go_on(self) -> None:
-        """Let the time go on, and give all what came meanwhile."""
+        """Let the time go on, and give all what came meanwhile.
+
+        Where that is more than can be read, each gets its newest, as many as it wants.
+        """
         now_ns = time.monotonic_ns()
         elapsed_ns, self._ticked_ns = min(now_ns - self._ticked_ns, _ELAPSED_MAX_NS), now_ns
         before = self._head
@@ -429,6 +436,13 @@ class RecordingSource(SharedSource):
             self._go_to(after.at_ns, settled=True)
             return
         reached_ns = self._feed(after.at_ns)
+        late_ns = after.at_ns - reached_ns
+        self._late_ns = self._late_ns + late_ns if late_ns else 0
+        if self._late_ns > _LATE_NS * before.rate:
+            self._late_ns = 0
+            self._go_to(after.at_ns, settled=True)
+            reached_ns = after.at_ns
+            self._ticked_ns = now_ns  # what that took is time that went by
         has_ended = not after.playing and reached_ns == after.at_ns
         with self._heads:
             self._head = replace(

@@ -184,6 +184,9 @@ def _qos_of(node: Node, topic: RecordedTopic, overrides: Mapping[str, QoSProfile
     if (given := overrides.get(topic.name)) is not None:
         node.get_logger().info(f"Overriding QoS profile for topic {topic.name}")
         return given
+    if not topic.qos and topic.is_latched:
+        latched = DurabilityPolicy.TRANSIENT_LOCAL
+        return QoSProfile(depth=_kept(topic), durability=latched)
     if (found := offered_qos(topic.qos)) is not None:
         if found.durability is DurabilityPolicy.TRANSIENT_LOCAL:
             return replace(found, depth=max(found.depth, _kept(topic)))

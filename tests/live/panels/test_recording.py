@@ -14,11 +14,19 @@ from studio.bags.opening import open_bag
 from studio.errors import BagNotWrittenError, CommandError, RecordingError
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.recording import BagRecording
-from studio.protocol.recording import CutBag, ListBags, SavePast, StartRecording, StopRecording
+from studio.protocol.recording import (
+    CutBag,
+    ListBags,
+    SavePast,
+    StartRecording,
+    StopRecording,
+    StopWriting,
+)
 from studio.protocol.roles import Role
 from studio.settings import WireChoice
 from tests.support.bridged import bridged
 from tests.support.open_documents import Ear, until
+from tests.support.told_recording import ToldRecording
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -35,6 +43,11 @@ class Shown:
 
 def state(ear: Ear) -> dict[str, Any]:
     return ear.last("recording_state")
+
+
+def shares(ear: Ear) -> list[float | None]:
+    """What was told of a part that is written."""
+    return [one["done"] for one in ear.events if one["type"] == "bag_writing"]
 
 
 @contextmanager
@@ -88,6 +101,40 @@ def test_b1_what_a_page_records_is_listed_whole_and_a_part_of_it_is_cut(endpoint
             bag.close()
 
     asyncio.run(story())
+
+
+def test_a_part_that_is_written_is_told_and_can_be_stopped(endpoint: str):
+    recording = ToldRecording()
+    recording.topic("/words")
+    for at in range(1_000):
+        recording.tell("/words", at, data="word")
+
+    async def story() -> None:
+        async with bridged(endpoint) as bridge:
+            bags, ear = bridge.ros.recording, bridge.ear
+            bridge.ros.attach(ear)
+            bags.shown = lambda _: nullcontext(Shown(recording, recording.begin_ns))
+            recording.gate.clear()
+            cut = asyncio.ensure_future(bridge.do(CutBag(begin_s=0.0, end_s=1.0, name="part")))
+            await until(lambda: shares(ear) == [0.0])
+            with pytest.raises(CommandError, match="already"):
+                await bridge.do(CutBag(begin_s=0.0, end_s=1.0, name="other"))
+            later = Ear()
+            bridge.ros.attach(later)
+            assert shares(later) == [0.0]
+            await bridge.do(StopWriting())
+            recording.gate.set()
+            with pytest.raises(CommandError, match="no bag is left"):
+                await cut
+            assert shares(later)[-1] is None
+            assert list(bags.folder.iterdir()) == []
+            written = await bridge.do(CutBag(begin_s=0.0, end_s=1.0, name="part"))
+            assert written.messages == 1_000
+
+    try:
+        asyncio.run(story())
+    finally:
+        recording.gate.set()  # else whoever reads would wait for ever
 
 
 def test_a_recording_goes_on_without_its_page_and_is_whole_when_the_connection_ends(endpoint: str):

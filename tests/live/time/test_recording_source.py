@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -17,8 +18,9 @@ from tests.support.transforms import S
 from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterable
+    from collections.abc import Generator, Iterable, Iterator
 
+    from studio.bags.recording import Recorded
     from studio.live.topics.subscription import Subscription
     from studio.ros.node.samples import RawSample
 
@@ -26,9 +28,11 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 BEGIN = 1_700_000_000 * S
 
 
-def words(count: int = 600, every_ns: int = S // 10) -> MemoryRecording:
+def words(
+    count: int = 600, every_ns: int = S // 10, made: MemoryRecording | None = None
+) -> MemoryRecording:
     """Numbers ten times a second, a latched text, and a flag each second."""
-    made = MemoryRecording()
+    made = made or MemoryRecording()
     made.topic("/words", STRING, QoSProfile(depth=10))
     made.topic("/latched", STRING, LATCHED)
     made.topic("/flag", BOOL)
@@ -166,6 +170,33 @@ def test_while_it_plays_all_comes_in_the_order_of_its_times_and_it_ends():
         assert len(came) == 199 + 20
         assert came == sorted(came)
         assert made.playhead.at_ns == made.recording.end_ns
+
+
+class SlowRecording(MemoryRecording):
+    """Reads one message after the other slowly, ten in a second."""
+
+    def messages(self, topics: Iterable[str], begin_ns: int, end_ns: int) -> Iterator[Recorded]:
+        for one in super().messages(topics, begin_ns, end_ns):
+            time.sleep(0.1)
+            yield one
+
+
+def test_what_is_read_too_slowly_is_left_out_but_for_the_newest_and_time_goes_on():
+    flags: list[int] = []
+    with source(words(300, made=SlowRecording())) as made:
+        ended = threading.Event()
+        made.on_stop = lambda _: ended.set()
+        newest = receiving(made.subscribe(Request("/words", newest_only=True)))
+        deep = Request("/flag", depth=100, waiting_max=100)
+        receiving(made.subscribe(deep, take=lambda one: flags.append(one.received_ns)))
+        flags.clear()
+        epoch, before = made.epoch, newest.received
+        made.change(lambda head: replace(head, playing=True, rate=10.0))
+        assert ended.wait(30)
+        assert 5 < newest.received - before < 200  # of 300 in three seconds
+        assert texts(newest.take()) == ["299"]
+        assert flags == [BEGIN + number * S + 1 for number in range(30)]
+        assert made.epoch == epoch
 
 
 def test_a_loop_is_a_jump_back_each_time():

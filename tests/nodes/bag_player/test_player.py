@@ -249,6 +249,17 @@ def test_latched_messages_from_before_come_first_and_late_ones_hear_them(
             wait_until("a late one hears all", lambda: len(late) == 3)
 
 
+def test_what_is_latched_by_its_name_is_offered_so_where_a_bag_tells_no_quality(
+    speaker: Node, endpoint: str
+):
+    recording = numbers("/robot_description", 2)
+    with player_of(speaker, recording) as player, node_at(endpoint) as listener:
+        player.play()
+        assert player.wait(60)
+        late = heard(listener, STRING, "/robot_description", LATCHED)
+        wait_until("a late one hears the last", lambda: told(late) == ["1"])
+
+
 def test_a_latched_message_that_a_seek_passes_over_is_told(speaker: Node, listener: Node):
     recording = numbers("/beside", 10)
     recording.topic("/map", STRING, LATCHED)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Final
 from studio.cli.keys import watching_keys
 from studio.cli.numbers import count, whole
 from studio.cli.own_node import own_node
+from studio.cli.refused import refuse_options
 from studio.cli.wire import STARTING, add_wire_options
 from studio.errors import SettingsError
 from studio.ros.duration import NANOSECONDS
@@ -47,13 +48,28 @@ def add(verbs: Verbs) -> None:
         "change the rate.",
     )
     play.add_argument(
-        "bag_path", metavar="BAG", type=_path, help="a folder of rosbag2, or a .mcap or .db3 file"
-    )
+        "bag_path", metavar="BAG", type=_path, nargs="?",
+        help="a folder of rosbag2, or a .mcap or .db3 file",
+    )  # fmt: skip
+    play.add_argument(
+        "-i", "--input", action="append", nargs="+", default=[], metavar=("BAG", "STORAGE"),
+        help="once for each of several bags, which are played together",
+    )  # fmt: skip
     _add_choice(play)
     _add_times(play)
     _add_clock(play)
     _add_rest(play)
     add_wire_options(play, STARTING)
+
+
+_NOT_OFFERED: Final = {
+    "--message-order": "messages are played in the order in which they were received",
+    "--progress-bar-separation-lines": "the line of progress stands alone; leave it out",
+    "--actions": "name the topics of an action, as --topics /turn/_action/feedback",
+    "--exclude-actions": "leave their topics out, as -x _action/",
+    "--send-actions-as-client": "bag play sends no goals; what was told of them is played",
+}
+"""Options of distributions after Jazzy."""
 
 
 def _add_choice(play: argparse.ArgumentParser) -> None:
@@ -140,6 +156,7 @@ def _add_rest(play: argparse.ArgumentParser) -> None:
     play.add_argument("--disable-loan-message", action="store_true", help=argparse.SUPPRESS)
     play.add_argument("--publish-service-requests", action="store_true", help=argparse.SUPPRESS)
     play.add_argument("--service-requests-source", help=argparse.SUPPRESS)
+    refuse_options(play, _NOT_OFFERED)
 
 
 def _path(text: str) -> Path:
@@ -171,7 +188,7 @@ def _above_zero(text: str) -> float:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from studio.bags.opening import open_bag
+    from studio.bags.opening import open_together
     from studio.nodes.bag_player.services import NODE_NAME
 
     if options.publish_service_requests:
@@ -179,13 +196,30 @@ def _run(options: argparse.Namespace) -> int:
             "bag play sends no requests of services: leave --publish-service-requests out, and "
             "what they told of their calls is played on their topics."
         )
+    paths = _paths(options)
     played = _play_options(options)
-    with contextlib.closing(open_bag(options.bag_path)) as bag:
+    with contextlib.closing(open_together(paths)) as bag:
         for trouble in bag.troubles:
             print(f"WARNING: {trouble}", file=sys.stderr)
         arguments = [word for rule in options.remap for word in ("--remap", rule)]
         with own_node(options, NODE_NAME, answers=True, arguments=arguments) as own:
             return _play(own, options, bag, played)
+
+
+def _paths(options: argparse.Namespace) -> list[Path]:
+    """Return the bags; the storages that may follow theirs are told by the files themselves.
+
+    Raises:
+        SettingsError: There is none, or one is not there.
+    """
+    if options.bag_path is not None and options.input:
+        raise SettingsError("Give one BAG alone, or each bag with -i.")
+    if options.bag_path is None and not options.input:
+        raise SettingsError("Say what to play: a BAG, or several, each with -i.")
+    try:
+        return [options.bag_path] if options.bag_path else [_path(one[0]) for one in options.input]
+    except argparse.ArgumentTypeError as error:
+        raise SettingsError(str(error)) from None
 
 
 def _play(

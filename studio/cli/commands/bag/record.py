@@ -15,6 +15,7 @@ from studio.cli.graph import full_name
 from studio.cli.keys import watching_keys
 from studio.cli.numbers import whole
 from studio.cli.own_node import own_node
+from studio.cli.refused import refuse_options
 from studio.cli.wire import add_wire_options
 from studio.errors import SettingsError
 from studio.ros.names import full_type_name
@@ -35,6 +36,17 @@ _LEFT_OUT: Final = {
     "compression_threads_priority": "one thread compresses, with the priority of the process",
 }
 """Options that are accepted and change nothing, with the reason."""
+_LEVELS: Final = ("debug", "info", "warn", "error", "fatal")
+_OF_LATER_DISTROS: Final = {
+    "--actions": "name the topics of an action, as --topics /turn/_action/feedback",
+    "--all-actions": "actions are hidden topics: --include-hidden-topics -e _action/ records them",
+    "--exclude-actions": "leave their topics out, as -x _action/",
+    "--static-topics-path": "topics are found by themselves; name them with --topics",
+    "--repeat-transient-local": "only the first file of a split bag has what is latched; "
+    "`studio bag cut` takes out a part with it",
+    "--stats_max_publishing_rate": "what is lost of each topic is said at the end",
+}
+"""Options of distributions after Jazzy."""
 
 
 def add(verbs: Verbs) -> None:
@@ -46,6 +58,7 @@ def add(verbs: Verbs) -> None:
     _add_discovery(record)
     _add_manner(record)
     add_storing_options(record)
+    refuse_options(record, _OF_LATER_DISTROS)
     record.set_defaults(takes_late=("topics_positional", []))
     add_wire_options(record)
 
@@ -106,6 +119,7 @@ def _add_manner(record: argparse.ArgumentParser) -> None:
         help="how long messages are kept for snapshots (default: as many as fit)",
     )  # fmt: skip
     group.add_argument("--disable-keyboard-controls", action="store_true", help="no SPACE")
+    group.add_argument("--log-level", choices=_LEVELS, default="info", help="what is said of it")
     for name in _LEFT_OUT:
         group.add_argument(f"--{name.replace('_', '-')}", type=int, help=argparse.SUPPRESS)
 
@@ -126,9 +140,11 @@ def _record(
 ) -> int:
     from studio.nodes.bag_recorder import BagRecorder
     from studio.nodes.bag_recorder_services import serve_recorder
+    from studio.ros.node.logger import LoggingSeverity
     from studio.ros.parameters.parameter import Parameter
 
     logger = own.node.get_logger()
+    logger.set_level(LoggingSeverity[options.log_level.upper()])
 
     def say(sentence: str) -> None:
         if sentence.startswith("WARNING: "):

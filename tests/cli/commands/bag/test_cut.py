@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.support.command_line import studio
+from tests.support.told_recording import ToldRecording, written
 from tests.support.written_bags import BEGIN_NS, some_messages, told_by_rosbags, write
 
 if TYPE_CHECKING:
@@ -30,6 +31,21 @@ def test_a_part_has_the_messages_between_two_times(bag: Path, tmp_path: Path):
     within = [one for one in told if 2 * S <= one[1] - BEGIN_NS < 3 * S]
     assert cut == [("/description", BEGIN_NS + 2 * S, b"first"), *within]
     assert ran.out.startswith(f"{len(cut)} messages, ")
+
+
+def test_what_is_latched_by_its_name_comes_first_where_a_bag_tells_no_quality(tmp_path: Path):
+    recording = ToldRecording()
+    recording.topic("/robot_description")
+    recording.topic("/words")
+    recording.tell("/robot_description", 0, data="<robot/>")
+    for at in range(100):
+        recording.tell("/words", at * 10, data=str(at))
+    written(recording, tmp_path / "in")
+    ran = studio("bag", "cut", str(tmp_path / "in"), str(tmp_path / "out"), "--from", "0.5")
+    assert ran.code == 0, ran.err
+    cut = told_by_rosbags(tmp_path / "out")
+    assert cut[0][:2] == ("/robot_description", BEGIN_NS + S // 2)
+    assert [topic for topic, _, _ in cut[1:]] == ["/words"] * 50
 
 
 def test_times_may_be_of_the_clock_and_topics_be_chosen(bag: Path, tmp_path: Path):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.bags.writer import Storing
 from studio.ros.qos import DurabilityPolicy
 from tests.support.command_line import started, studio
 from tests.support.demos import call, heard, node_at, running
@@ -74,6 +75,23 @@ def test_names_topics_and_parts_are_chosen_as_with_ros2(
     assert "Overriding QoS profile for topic /number" in ran.err
 
 
+def test_several_bags_are_played_together(endpoint: str, listener: Node, bag: Path, tmp_path: Path):
+    recording = ToldRecording()
+    recording.topic("/more", INT)
+    recording.topic("/number", INT)
+    for at in range(3):
+        recording.tell("/more", 15 + at * 10, data=at)
+    recording.tell("/number", 65, data=100)
+    other = written(recording, tmp_path / "bag2", Storing("sqlite3"))
+    number, more = heard(listener, INT, "/number"), heard(listener, INT, "/more")
+    words = ("-i", str(bag), "mcap", "-i", str(other))
+    ran = studio("bag", "play", *words, "--connect", endpoint)
+    assert ran.code == 0, ran.err
+    wait_until("all came", lambda: len(number) == 11 and len(more) == 3)
+    assert numbers(number) == [0, 1, 2, 3, 4, 5, 6, 100, 7, 8, 9]
+    assert numbers(more) == [0, 1, 2]
+
+
 def test_a_looping_player_is_steered_by_services_and_ended_by_ctrl_c(
     endpoint: str, listener: Node, bag: Path
 ):
@@ -137,6 +155,10 @@ def test_how_far_it_is_is_shown(endpoint: str, bag: Path):
     ("words", "said"),
     [
         (["none"], "Bag path 'none' does not exist!"),
+        (["-i", "none"], "Bag path 'none' does not exist!"),
+        ([], "Say what to play"),
+        (["BAG", "-i", "BAG"], "one BAG alone, or each bag with -i"),
+        (["BAG", "--message-order", "sent"], "the order in which they were received"),
         (["BAG", "--rate", "0"], "not in the valid range (> 0.0)"),
         (["BAG", "--delay", "-1"], "less than zero"),
         (["BAG", "--clock", "--clock-topics-all"], "not allowed with"),

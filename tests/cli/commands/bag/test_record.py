@@ -11,6 +11,7 @@ import yaml
 from rosbags.rosbag2 import Reader
 
 from tests.support.command_line import started, studio
+from tests.support.demos import heard, node_at
 from tests.support.wire import wait_until
 from tests.support.written_bags import told_by_mcap, told_by_rosbags
 
@@ -65,7 +66,7 @@ def test_all_but_what_is_excluded_in_the_storage_of_humble(endpoint: str, tmp_pa
         wait_until("it has more", lambda: (bag / "bag_0.db3").stat().st_size > 60_000)
         recording.stop()
     found = counts(bag)
-    assert found.keys() == {"/chatter", "/parameter_events"}
+    assert found.keys() == {"/chatter", "/events/write_split", "/parameter_events"}
     assert found["/chatter"] > 5
     about = yaml.safe_load((bag / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
     assert about["custom_data"] == {"who": "me", "where": "here"}
@@ -84,7 +85,11 @@ def test_files_are_split_and_services_steer_the_recorder(endpoint: str, tmp_path
 
     words = ("--topic-types", "std_msgs/msg/Int32", "--node-name", "rec", "--start-paused",
              "--storage-preset-profile", "zstd_fast", "-o", str(bag))  # fmt: skip
-    with started(endpoint, "bag", "record", *words) as recording:
+    with (
+        node_at(endpoint) as listener,
+        started(endpoint, "bag", "record", *words) as recording,
+    ):
+        splits = heard(listener, "rosbag2_interfaces/msg/WriteSplitEvent", "/events/write_split")
         recording.wait_for("Recording...")
         assert "True" in called("is_paused", "IsPaused")
         assert "False" in called("snapshot", "Snapshot")
@@ -93,9 +98,21 @@ def test_files_are_split_and_services_steer_the_recorder(endpoint: str, tmp_path
         called("split_bagfile", "SplitBagfile")
         wait_until("there are two", lambda: len(list(bag.glob("*.mcap"))) == 2)
         assert told_by_mcap(bag / "bag_0.mcap")
+        wait_until("the split is told", lambda: bool(splits))
+        told = (splits[0].closed_file, splits[0].opened_file, splits[0].node_name)
+        assert told == (str(bag / "bag_0.mcap"), str(bag / "bag_1.mcap"), "/rec")
         called("stop", "Stop")
         assert recording.wait() == 0
     assert counts(bag)["/number"] > 10
+
+
+def test_little_is_said_where_only_errors_are_wanted(endpoint: str, tmp_path: Path):
+    bag = tmp_path / "bag"
+    words = ("/number", "--log-level", "error", "-o", str(bag))
+    with started(endpoint, "bag", "record", *words) as recording:
+        wait_until("it has some", lambda: grows(bag))
+        assert recording.stop() == 0
+        assert recording.printed == ""
 
 
 def _size(bag: Path) -> int:
@@ -106,6 +123,8 @@ def _size(bag: Path) -> int:
     ("words", "said"),
     [
         ((), "Say what to record"),
+        (("--all-actions",), "--include-hidden-topics -e _action/ records them"),
+        (("-a", "--repeat-transient-local", "/map=1"), "only the first file of a split bag"),
         (("-e", "("), "no regular expression"),
         (("-a", "-b", "100"), "1024 bytes or more"),
         (("-a", "-d", "-1"), "--max-bag-duration: give 0 or more"),
