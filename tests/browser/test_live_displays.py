@@ -139,13 +139,7 @@ def test_topics_are_added_mended_by_a_click_set_in_the_tree_and_seen_in_3d(
         size.fill("0.2")
         size.press("Enter")
         thick = tab.show_other_than(walled)
-        add(tab, "/goal")
-        mend = tab.page.get_by_role("button", name="Draw everything in space")
-        mend.click()
-        frame = tab.page.get_by_role("textbox", name="Fixed frame")
-        wait_until("the frame is shown", lambda: frame.input_value() == "space")
-        tab.page.locator(".frame-trouble").wait_for()  # the robot has no place in it
-        wait_until("the pose is drawn", lambda: row(tab, "Pose, /goal").count() == 1)
+        frame = mended(tab)
         tab.show_other_than(thick)
         row(tab, "LaserScan").click()  # its settings would stand between the two
         wait_until("settings are folded", lambda: style.count() == 0)
@@ -163,6 +157,17 @@ def test_topics_are_added_mended_by_a_click_set_in_the_tree_and_seen_in_3d(
         disconnected_and_back(tab, alone)
         assert tab.errors == []
         viewer_sees(browser, studio)
+
+
+def mended(tab: StudioPage) -> Locator:
+    """Add a display of another frame, and follow its advice; the box of the fixed frame."""
+    add(tab, "/goal")
+    tab.page.get_by_role("button", name="Draw everything in space").click()
+    frame = tab.page.get_by_role("textbox", name="Fixed frame")
+    wait_until("the frame is shown", lambda: frame.input_value() == "space")
+    tab.page.locator(".frame-trouble").wait_for()  # the robot has no place in it
+    wait_until("the pose is drawn", lambda: row(tab, "Pose, /goal").count() == 1)
+    return frame
 
 
 def drag_to_the_top(tab: StudioPage, name: str) -> None:
