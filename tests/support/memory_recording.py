@@ -45,7 +45,7 @@ class MemoryRecording:
         self._samples[name] = []
 
     def add(self, name: str, at_ns: int, payload: bytes) -> None:
-        """Record a message; those of a topic come in order."""
+        """Record a message."""
         gid = hashlib.sha256(name.encode()).digest()[:16]
         number = len(self._samples[name]) + 1
         self.put(name, RawSample(payload, Attachment(number, at_ns, gid), at_ns))
@@ -53,16 +53,19 @@ class MemoryRecording:
     def put(self, name: str, sample: RawSample) -> None:
         """Record a message as it came."""
         kept = self._samples[name]
-        kept.append(sample)
+        bisect.insort(kept, sample, key=lambda one: one.received_ns)
         self.topics = tuple(
             replace(one, count=len(kept)) if one.name == name else one for one in self.topics
         )
 
     def say(self, name: str, at_ns: int, /, **fields: Any) -> None:  # noqa: ANN401
         """Record a message of these fields."""
-        found = next(one for one in self.topics if one.name == name)
-        made = message(found.type_name)(**fields)
-        self.add(name, at_ns, bytes(Codec(message(found.type_name)).encode(made)))
+        kind = message(self.type_of(name))
+        self.add(name, at_ns, bytes(Codec(kind).encode(kind(**fields))))
+
+    def type_of(self, name: str) -> str:
+        """Return the type of a topic."""
+        return next(one.type_name for one in self.topics if one.name == name)
 
     def forget(self, name: str, before_ns: int) -> None:
         """Drop the messages of a topic before a time."""

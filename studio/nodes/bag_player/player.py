@@ -382,7 +382,9 @@ class BagPlayer:
                 return False
             if head is not None:
                 reading.pop()
-                self._pace.jump(head.sample.received_ns)
+                # Also where playing begins, if it is filled no sooner than now.
+                self._gone_to_ns = head.sample.received_ns
+                self._pace.jump(self._gone_to_ns)
                 self._publish(head)
                 return True
             if reading.is_over:
