@@ -84,12 +84,13 @@ def folder_of_bag(path: Path) -> Path:
     return path.parent if path.name == _METADATA else path
 
 
-async def opened_bag(path: Path, told: Callable[[float], object]) -> ShownRecording:
+async def opened_bag(path: Path, told: Callable[[float | None], object]) -> ShownRecording:
     """Open a bag, to be let go once.
 
     Args:
         path: As `is_bag` takes it.
-        told: Told how far the reading of a damaged or unfinished file is, 0 to 1.
+        told: Told how far the reading of a damaged or unfinished file is, 0 to 1, and None when
+            it has ended.
 
     Raises:
         BagNotReadableError: Nothing of it can be read.
@@ -106,7 +107,10 @@ async def opened_bag(path: Path, told: Callable[[float], object]) -> ShownRecord
             loop.call_soon_threadsafe(told, share)
 
     path = folder_of_bag(path)
-    bag = await asyncio.to_thread(open_bag, path, progress)
+    try:
+        bag = await asyncio.to_thread(open_bag, path, progress)
+    finally:
+        told(None)
     return ShownRecording(bag, "bag", bag.title, str(path), bag.close)
 
 

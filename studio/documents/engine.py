@@ -352,10 +352,7 @@ class Engine:
         if not beside:
             return await self._open_bag(path)
         document = await self.ready(beside)
-        try:
-            shown = await opened_bag(path, document.time.note_progress)
-        finally:
-            document.time.note_progress(None)
+        shown = await opened_bag(path, document.time.note_progress)
         await document.show_bag(shown, with_ghost=not owner_of(document.id))
         return document.id
 
@@ -363,15 +360,12 @@ class Engine:
         """Open a bag as a document of its own: its robot, or a frame to show its topics in."""
         path = folder_of_bag(path)
 
-        def told(share: float) -> None:
-            if progress is not None:
+        def told(share: float | None) -> None:
+            if progress is not None and share is not None:
                 progress(f"reading {path.name}", round(share * 100), 100)
             self.ros.recording.note_opening(path.name, share)
 
-        try:
-            shown = await opened_bag(path, told)
-        finally:
-            self.ros.recording.note_opening(path.name, None)
+        shown = await opened_bag(path, told)
         try:
             indexes = [one.location.index for one in self.documents.values()]
             frame = await asyncio.to_thread(root_frame, shown.recording)

@@ -125,11 +125,20 @@ class Day:
 
     def stands_as_of_then(self, bag: Recorded) -> None:
         """The rover is where TF of the time says."""
-        wanted = [bag.rover(one) for one in self.moments()]
-        wait_until(
-            f"the rover at {wanted[0]}",
-            lambda: any(np.allclose(self.rover(), one, rtol=0, atol=NEAR) for one in wanted),
-        )
+
+        def stands() -> bool:
+            rover = self.rover()
+            wanted = (bag.rover(one) for one in self.moments())
+            return any(is_same_pose(rover, one) for one in wanted)
+
+        # What the page shows right after a drag may not be the last moment that it was dragged to.
+        wait_until("the rover where TF of the time says", stands)
+
+
+def is_same_pose(one: list[float], other: list[float]) -> bool:
+    """Whether two poses are as near as can be; a quaternion and its negative are one rotation."""
+    negative = [*other[:3], *(-each for each in other[3:])]
+    return any(np.allclose(one, each, rtol=0, atol=NEAR) for each in (other, negative))
 
 
 @pytest.fixture(scope="module")

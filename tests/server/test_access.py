@@ -67,7 +67,7 @@ PRESENTER_COMMANDS = {
     *("restart_process", "end_process", "run_again_on_save", "forget_run", "get_runs"),
     *("get_run_output", "get_workspaces", "create_package", "add_to_package"),
     *("undo_package_edit", "mend_package"),
-    *("start_recording", "stop_recording", "save_past", "cut_bag", "list_bags"),
+    *("start_recording", "stop_recording", "save_past", "cut_bag", "stop_writing", "list_bags"),
 }
 """What reaches beyond the robot that is shared: files, processes, connections, people."""
 ROLES = (Role.GUEST, Role.STUDENT, Role.HELPER, Role.PRESENTER)

@@ -140,7 +140,7 @@ def _silence(facts: Facts) -> Remark | None:
         mend = Mend(label="Connect", command={"type": "connect_wire"})
     elif state.kind == "no_publisher":
         mend = _other_topic(facts)
-        if facts.received > 0:
+        if facts.received > 0 and state.is_live:
             gone = (
                 f"Nobody publishes {spec.topic} any more: what came last stays until somebody does."
             )

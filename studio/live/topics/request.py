@@ -98,6 +98,7 @@ class SubscriptionState:
         publishers: Of the topic, of any type.
         types: Types published.
         reason: Why it was refused, in a sentence.
+        is_live: Whether it is of what runs now, and not of a recording.
     """
 
     topic: str
@@ -106,6 +107,7 @@ class SubscriptionState:
     publishers: int = 0
     types: tuple[str, ...] = ()
     reason: str = ""
+    is_live: bool = True
 
     @property
     def sentence(self) -> str:
@@ -113,7 +115,8 @@ class SubscriptionState:
         if self.kind == "refused":
             return self.reason
         wanted = self.fit.type_name if self.fit else "anything else"
-        return _SENTENCES[self.kind].format(
+        sentences = _SENTENCES if self.is_live else _SENTENCES | _OF_RECORDINGS
+        return sentences[self.kind].format(
             topic=self.topic, types=", ".join(self.types), wanted=wanted
         )
 
@@ -130,6 +133,14 @@ _SENTENCES: Final[dict[StateKind, str]] = {
         "run both sides with the same distribution of ROS 2."
     ),
     "receiving": "",
+}
+_OF_RECORDINGS: Final[dict[StateKind, str]] = {
+    "no_publisher": "{topic} is not in the recording.",
+    "other_type": "{topic} was recorded as {types}, and not as {wanted}.",
+    "other_form": (
+        "{topic} was recorded with a {wanted} of another form, which is not shown: start the "
+        "studio with the distribution of ROS 2 that it was recorded with, as ROS_DISTRO=humble."
+    ),
 }
 
 

@@ -237,7 +237,9 @@ class SharedSource(ABC):
             return SubscriptionState(request.topic, kind, one.fit)
         fit = fit_request(request, publishers, one.fit, self.own_hash)
         types = tuple(dict.fromkeys(each.type_name for each in publishers))
-        state = SubscriptionState(request.topic, "no_publisher", fit, len(publishers), types)
+        state = SubscriptionState(
+            request.topic, "no_publisher", fit, len(publishers), types, is_live=self.is_live
+        )
         if fit is None:
             one.leave()
             return state

@@ -221,7 +221,11 @@ def test_a_topic_that_cannot_be_read_says_why_and_one_of_another_form_is_not_dec
         assert locked.state.reason == "It is encoded as protobuf."
         old = made.subscribe(Request("/old", (STRING,), as_known_here=True))
         wait_until("its form to be seen", lambda: old.state.kind == "other_form")
+        assert "was recorded with a std_msgs/msg/String of another form" in old.state.sentence
         assert old.take() == []
+        gone = made.subscribe(Request("/gone"))
+        wait_until("it to be missed", lambda: gone.state.kind == "no_publisher")
+        assert gone.state.sentence == "/gone is not in the recording."
         raw = receiving(made.subscribe(Request("/old")))
         assert texts(raw.take()) == ["x"]
 
