@@ -251,11 +251,11 @@ function EntryButtons({ entry, busy, onOpen }) {
   const likely = ["robot", "package", "bag"].includes(entry.kind);
   return html`<button type="button" class=${`button small ${likely ? "primary" : ""}`} disabled=${busy}
       aria-label=${t("open.entry", { name })} onClick=${() => onOpen?.(entry, false)}>${t("open.here")}</button>
-    ${entry.kind === "bag" ? null : html`<${OtherWays} entry=${entry} busy=${busy} onOpen=${onOpen} />`}`;
+    ${entry.kind === "bag" ? null : html`<${WaysToOpen} entry=${entry} busy=${busy} onOpen=${onOpen} />`}`;
 }
 
 /** What has arguments is also opened with others, or beside the page. @param {{entry: FolderEntry, busy: boolean, onOpen: OnOpen}} props */
-function OtherWays({ entry, busy, onOpen }) {
+function WaysToOpen({ entry, busy, onOpen }) {
   const name = baseName(entry.name);
   return html`<button type="button" class="button small wide-only" disabled=${busy} aria-label=${t("open.entry_tab", { name })}
       onClick=${() => onOpen?.(entry, true)}>${t("open.tab")}</button>

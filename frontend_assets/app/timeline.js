@@ -6,7 +6,7 @@
 import { html, useEffect } from "vendor/preact.js";
 import { commandById, onMac, shortcutText } from "../lib/commands.js";
 import { language, t } from "../lib/i18n.js";
-import { ordinal, RATES, sinceStart } from "../lib/timeline.js";
+import { RATES, sinceStart } from "../lib/timeline.js";
 import { Icon, IconButton, MenuButton, ProgressBar } from "../lib/ui.js";
 import { mayManage } from "../model/connection.js";
 import { clockTime } from "../model/log.js";
@@ -173,8 +173,7 @@ function Clock() {
 /** @param {{state: TimeState}} props too many rewind at once */
 function Waiting({ state }) {
   if (state.queue === 0) return null;
-  const place = ordinal(state.queue, language.value);
-  return html`<span class="timeline-queue" role="status"><span class="spinner"></span>${t("timeline.queue", { place })}
+  return html`<span class="timeline-queue" role="status"><span class="spinner"></span>${t("timeline.queue", { place: state.queue })}
     <${IconButton} icon="close" size=${12} class="narrow" label=${t("timeline.queue.leave")} disabled=${!mayMoveTime.value} onClick=${goLive} /></span>`;
 }
 
@@ -289,7 +288,7 @@ function PhoneTimeline({ state }) {
     ${!isLive && html`<${CommandButton} id="time.play" icon=${state.playing ? "pause" : "animate"} class="timeline-play" />`}
     <${TimelineRuler} thin />
     ${isLive ? html`<span class="timeline-live"><span class="dot"></span>${t("timeline.live")}</span>` : html`<${PhoneClock} />`}
-    ${state.queue > 0 && html`<span class="timeline-queue" role="status" title=${t("timeline.queue", { place: ordinal(state.queue, language.value) })}>${ordinal(state.queue, language.value)}</span>`}
+    ${state.queue > 0 && html`<span class="timeline-queue" role="status" title=${t("timeline.queue", { place: state.queue })}>${state.queue}</span>`}
     <${MenuButton} label=${t("timeline.more")} items=${() => phoneItems(state)}><${Icon} name="dots" /><//>
   </section>`;
 }

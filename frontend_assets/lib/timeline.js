@@ -151,14 +151,6 @@ export function nearestTo(all, at_s, reach_s) {
   return found;
 }
 
-/** @param {number} number @param {string} language @returns {string} as 1st, 2nd; German writes a point */
-export function ordinal(number, language) {
-  if (language !== "en") return `${number}.`;
-  const endings = { one: "st", two: "nd", few: "rd", other: "th" };
-  const rule = new Intl.PluralRules("en", { type: "ordinal" }).select(number);
-  return `${number}${endings[/** @type {keyof typeof endings} */ (rule)] ?? "th"}`;
-}
-
 export const RATES = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 const STEP_S = 1;
 

@@ -173,8 +173,11 @@ function withGaps({ first, second }, width_s, gap_s) {
 }
 
 /**
+ * What a line's last message until then holds, as near as the picture tells: it came in the column
+ * of then, perhaps, or in the last one before it that has any.
+ *
  * @param {Picture | null} picture @param {string} key of a line @param {number} at_s
- * @returns {readonly [number, number] | null} the least and the largest value of what is drawn there; null: there is none
+ * @returns {readonly [number, number] | null} the least and the largest that it can be; null: there is none
  */
 export function valuesAt(picture, key, at_s) {
   const answer = picture?.answers.get(key);
@@ -182,11 +185,12 @@ export function valuesAt(picture, key, at_s) {
   const { range, columns } = picture;
   const share = (at_s - range.from_s) / (range.to_s - range.from_s || 1);
   const column = Math.min(columns - 1, Math.floor(share * columns));
-  const found = answer.first.slice(0, column + 1).findLastIndex((one) => one !== null);
-  const one = answer.first[found] ?? answer.before?.[1];
-  const other = answer.second[found] ?? answer.before?.[1];
-  if (one === undefined || other === undefined) return null;
-  return found === column ? [Math.min(one, other), Math.max(one, other)] : [other, other];
+  const earlier = answer.first.slice(0, Math.max(column, 0)).findLastIndex((one) => one !== null);
+  const found = [answer.first[column], answer.second[column]];
+  if (earlier >= 0) found.push(answer.first[earlier], answer.second[earlier]);
+  else found.push(answer.before?.[1]);
+  const told = found.flatMap((one) => one ?? []);
+  return told.length > 0 ? [Math.min(...told), Math.max(...told)] : null;
 }
 
 /** @param {Picture | null} picture @returns {number | null} the share that was read, of the line that has least; null: all was */

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from studio.bags.blocks import BlockFile, Outline
+    from studio.bags.blocks import BlockFile, BlockTable, Outline
     from studio.ros.node.samples import RawSample
 
 _ATTEMPTS: Final = 8
@@ -27,6 +28,8 @@ _ALL: Final = 2**62
 _AHEAD: Final = 3
 """So many blocks are read before they are asked for, by threads: decompression runs beside us."""
 _AHEAD_THREADS: Final = 2
+_HELD_BYTES_MAX: Final = 16 * 2**20
+"""Messages that wait for later blocks are held; where they are more, they are read once more."""
 
 
 class Place(NamedTuple):
@@ -37,6 +40,16 @@ class Place(NamedTuple):
     place: int
     block: int
     channel: int
+
+
+class _Waiting(NamedTuple):
+    """A message that waits for those of later blocks; the places of no two are equal.
+
+    One that is held has its number within the block as its place, which sorts in the same way.
+    """
+
+    place: Place
+    held: Recorded | None = None
 
 
 def newest(
@@ -140,7 +153,9 @@ def messages(
 ) -> Iterator[Recorded]:
     """Yield the messages of some channels in [begin, end), by time.
 
-    Blocks that overlap in time are merged message by message, the others handed out as they lie.
+    Where blocks overlap in time, their messages are merged one by one, all others handed out as
+    they lie. A block that ends with the very time at which the next begins does not overlap it:
+    there a chunk was full between two messages of one time.
     """
     blocks = _blocks_of(file, channels, begin_ns, end_ns)
     with _ahead(file, blocks) as coming:
@@ -179,19 +194,49 @@ def _merged(
     coming: Iterator[tuple[int, int | None]],
 ) -> Iterator[Recorded]:
     table, (begin_ns, end_ns) = file.table, span_ns
-    waiting: list[Place] = []
+    waiting: list[_Waiting] = []
     for block, following in coming:
         until_ns = end_ns if following is None else int(table.begins_ns[following])
-        if not waiting and (following is None or table.ends_ns[block] < until_ns):
-            yield from _whole_block(file, block, channels, (begin_ns, end_ns))
-            continue
-        for key in channels:
-            waiting += _in_block(file, key, block, (begin_ns, end_ns - 1), _ALL)
+        alone: list[Recorded] = []
+        if _held_bytes(waiting) < _HELD_BYTES_MAX:
+            found = _whole_block(file, block, channels, span_ns)
+            if not waiting and (following is None or _is_before(table, block, following)):
+                yield from found
+                continue
+            first = bisect_right(found, waiting[-1].place.time_ns, key=_time_ns) if waiting else 0
+            last = max(first, bisect_left(found, until_ns, key=_time_ns))
+            alone = found[first:last]
+            start = int(table.starts[block])
+            waiting += [
+                _Waiting(Place(_time_ns(found[i]), start, i, block, -1), found[i])
+                for i in (*range(first), *range(last, len(found)))
+            ]
+        else:
+            for key in channels:
+                places = _in_block(file, key, block, (begin_ns, end_ns - 1), _ALL)
+                waiting += [_Waiting(place) for place in places]
         waiting.sort()
-        count = next((i for i, one in enumerate(waiting) if one.time_ns >= until_ns), len(waiting))
+        count = bisect_left(waiting, until_ns, key=lambda one: one.place.time_ns)
         yield from _each(file, waiting[:count], channels)
         del waiting[:count]
+        yield from alone
     yield from _each(file, waiting, channels)
+
+
+def _held_bytes(waiting: Sequence[_Waiting]) -> int:
+    return sum(len(one.held.sample.payload) for one in waiting if one.held is not None)
+
+
+def _time_ns(one: Recorded) -> int:
+    return one.sample.received_ns
+
+
+def _is_before(table: BlockTable, block: int, following: int) -> bool:
+    """Whether all messages of a block come before those of the one that follows it."""
+    end_ns, begin_ns = table.ends_ns[block], table.begins_ns[following]
+    return bool(
+        end_ns < begin_ns or (end_ns == begin_ns and table.starts[block] < table.starts[following])
+    )
 
 
 def _blocks_of(
@@ -223,10 +268,13 @@ def _whole_block(
 
 
 def _each(
-    file: BlockFile, places: Sequence[Place], channels: Mapping[int, Outline]
+    file: BlockFile, waiting: Sequence[_Waiting], channels: Mapping[int, Outline]
 ) -> Iterator[Recorded]:
-    for one in places:
-        outline = channels[one.channel]
-        sample = file.sample(one.block, one.channel, one.place, outline.gid)
+    for place, held in waiting:
+        if held is not None:
+            yield held
+            continue
+        outline = channels[place.channel]
+        sample = file.sample(place.block, place.channel, place.place, outline.gid)
         if sample is not None:
             yield Recorded(outline.topic, sample)

@@ -120,12 +120,9 @@ class Engine:
         wire = self._services.wire
         self._rejoining = Rejoining(wire, settings.data_folder)
         self.ros = RosSystem(wire, settings.data_folder / BAGS_FOLDER)
+        folders = self._services.run_folders
         self.programs = Programs(
-            settings,
-            self._services.run_folders,
-            wire,
-            lambda: self.served.writable,
-            self.ros.changes,
+            settings, folders, wire, lambda: self.served.writable, self.ros.changes
         )
         self.ros.end_programs = self.programs.let_go
         self.ros.doctor.document_of = self._seen_document

@@ -1,4 +1,7 @@
-"""`python -m tests.benchmarks [name ...]`: all benchmarks, or those whose name is given."""
+"""`python -m tests.benchmarks [name ...]`: all benchmarks, or those whose name is given.
+
+The name of a group stands for all that are in it.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ from typing import TYPE_CHECKING
 from tests.benchmarks import (
     bag_drag,
     bag_plot,
+    bags,
     classroom,
     copies,
     data_images,
@@ -63,6 +67,7 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "wire": wire.run,
     "recording": recording.run,
     "rewinding": rewinding.run,
+    "bag_reading": bags.run,
     "bag_drag": bag_drag.run,
     "bag_plot": bag_plot.run,
     "displays": displays.run,
@@ -71,18 +76,20 @@ BENCHMARKS: dict[str, Callable[[], None]] = {
     "images": data_images.run,
     "memory": memory.run,
 }
+GROUPS: dict[str, tuple[str, ...]] = {"bags": ("bag_reading", "bag_drag", "bag_plot", "recording")}
 
 
 def main(arguments: list[str]) -> int:
     """Run the named ones; answers the exit code."""
     options = _read(arguments)
-    names, minutes = options.names, options.minutes
+    names = [name for one in options.names for name in GROUPS.get(one, (one,))]
     unknown = [name for name in names if name not in BENCHMARKS]
     if unknown:
-        say(f"There is no benchmark {unknown[0]}: choose of {', '.join(BENCHMARKS)}.")
+        known = ", ".join((*BENCHMARKS, *GROUPS))
+        say(f"There is no benchmark {unknown[0]}: choose of {known}.")
         return 2
     say_machine()
-    runs = {**BENCHMARKS, "memory": partial(memory.run, minutes)}
+    runs = {**BENCHMARKS, "memory": partial(memory.run, options.minutes)}
     for name in names or runs:
         say(f"\n[{name}]")
         runs[name]()

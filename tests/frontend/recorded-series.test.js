@@ -58,12 +58,12 @@ test("a gap is where nothing came for long, rare messages have none, and a coars
   assert.deepEqual(gaps({ count: 1000, exact: false, done: 0.5 }), []);
 });
 
-test("beside a line stand the values of where one points, or the last before it", () => {
-  const one = answer({ first: [3, null, 1], second: [2, null, 4], before: [-1, 7] });
+test("beside a line stands what the last message until then can hold", () => {
+  const one = answer({ first: [3, null, 1], second: [2, null, 1], before: [-1, 7] });
   const shown = picture({ "/a.x": one }, 3, 3);
-  assert.deepEqual(valuesAt(shown, "/a.x", 0.5), [2, 3]);
-  assert.deepEqual(valuesAt(shown, "/a.x", 1.5), [2, 2]);
-  assert.deepEqual(valuesAt(shown, "/a.x", 3), [1, 4]);
+  assert.deepEqual(valuesAt(shown, "/a.x", 0.5), [2, 7]);
+  assert.deepEqual(valuesAt(shown, "/a.x", 1.5), [2, 3]);
+  assert.deepEqual(valuesAt(shown, "/a.x", 3), [1, 3]);
   assert.deepEqual(valuesAt(shown, "/a.x", -0.5), [7, 7]);
   assert.equal(valuesAt(shown, "/b.y", 1), null);
   assert.equal(valuesAt(null, "/a.x", 1), null);

@@ -6,7 +6,6 @@ import {
   followedTime,
   gapsIn,
   nearestTo,
-  ordinal,
   pannedTime,
   placeOf,
   placesOf,
@@ -131,14 +130,6 @@ test("Space, comma and dot are keys like others", () => {
   assert.ok(matches("Space", stroke(" ")));
   assert.ok(matches(",", stroke(",")) && matches(".", stroke(".")));
   assert.ok(!matches("Space", { ...stroke(" "), ctrlKey: true }));
-});
-
-test("who waits is counted as people do", () => {
-  assert.deepEqual(
-    [1, 2, 3, 4, 11, 22].map((one) => ordinal(one, "en")),
-    ["1st", "2nd", "3rd", "4th", "11th", "22nd"],
-  );
-  assert.equal(ordinal(3, "de"), "3.");
 });
 
 test("sizes have two or three digits", () => {

@@ -50,14 +50,14 @@ OF_CLASSES = ("people", "class", "own_nodes")
 """The panel and the windows about a class, of which the demo has none."""
 OF_PROGRAMS = ("packages", "launch")
 """The panels about what the owner runs, for which the demo has no folder."""
-OF_OPERATIONS = ("actions", "services", "parameters", "publish", "turtlesim", "jerry")
-"""Panels whose pictures `operation_pictures` and `field_pictures` take."""
+TAKEN_ELSEWHERE = ("actions", "services", "parameters", "publish", "turtlesim", "jerry", "bag")
+"""Panels whose pictures `operation_pictures`, `field_pictures` and `bag_pictures` take."""
 ON_THE_WIRE = sorted(
     (
         panel
         for panel, group in GROUP_OF.items()
         if group in {"watch", "act", "learn"}
-        and panel not in (*OF_OPERATIONS, *OF_CLASSES, *OF_PROGRAMS)
+        and panel not in (*TAKEN_ELSEWHERE, *OF_CLASSES, *OF_PROGRAMS)
     ),
     key=lambda panel: panel != "lessons",
 )
@@ -66,7 +66,7 @@ runs in the pictures after it, of both themes."""
 NOT_OF_THE_DEMO = {
     *("problems", "displays"),
     *ON_THE_WIRE,
-    *OF_OPERATIONS,
+    *TAKEN_ELSEWHERE,
     *OF_CLASSES,
     *OF_PROGRAMS,
 }
@@ -76,7 +76,7 @@ BESIDE_THE_SCENE = ("cameraview",)
 DRAWN_WHOLE = ("graph", "plot")
 """Panels whose drawing fills them: cut off, it would show nothing."""
 _STILL_MS = 1200
-_RUN = """async (id) => {
+RUN = """async (id) => {
   const script = document.querySelector('script[type="module"]').src;
   (await import(new URL("../lib/commands.js", script))).commandById(id).run();
 }"""
@@ -207,7 +207,7 @@ def take_measuring(camera: Camera) -> None:
     """The distance between two links, chosen in the tree; with the card over the 3D view."""
     page = camera.page
     page.evaluate(SHOW_PANEL, "displays")
-    page.evaluate(_RUN, "measure")
+    page.evaluate(RUN, "measure")
     for name in ("left_finger", "mast"):
         page.get_by_role("treeitem", name=name, exact=True).click()
     camera.take("measuring", page.evaluate(_DOCK_OF, "scene"), highest_px=PANELS_WINDOW[1])
@@ -217,7 +217,7 @@ def show_changes(camera: Camera) -> None:
     """The window before saving, with one edit in it."""
     camera.page.evaluate(SHOW_PANEL, "properties")
     camera.tab.drag_slider("wheel_radius", 0.6)
-    camera.page.evaluate(_RUN, "save")
+    camera.page.evaluate(RUN, "save")
 
 
 def show_graphics(camera: Camera) -> None:
@@ -226,12 +226,12 @@ def show_graphics(camera: Camera) -> None:
 
 
 def search(camera: Camera) -> None:
-    camera.page.evaluate(_RUN, "palette")
+    camera.page.evaluate(RUN, "palette")
     camera.page.locator(".palette-input").fill("wheel")
 
 
 def run(command: str) -> Callable[[Camera], None]:
-    return lambda camera: camera.page.evaluate(_RUN, command)
+    return lambda camera: camera.page.evaluate(RUN, command)
 
 
 WINDOWS: dict[str, Callable[[Camera], None]] = {
@@ -256,7 +256,7 @@ def take_windows(camera: Camera) -> None:
             camera.take_part(name, page.locator("dialog"))
             page.keyboard.press("Escape")
     if wanted("saving"):
-        page.evaluate(_RUN, "undo")
+        page.evaluate(RUN, "undo")
     if wanted("export"):
         page.get_by_role("button", name="Export", exact=True).click()
         camera.take_part("export", page.get_by_role("menu"))
@@ -359,7 +359,7 @@ def take_wired(browser: Browser, data: Path) -> None:
                 for panel in filter(wanted, ON_THE_WIRE):
                     take_wired_panel(camera, panel)
                 if wanted("ros"):
-                    tab.page.evaluate(_RUN, "ros")
+                    tab.page.evaluate(RUN, "ros")
                     tab.page.locator(".ros-report").wait_for()
                     camera.take_part("ros", tab.page.locator("dialog"))
                     tab.page.keyboard.press("Escape")
@@ -378,14 +378,14 @@ def take_wired_panel(camera: Camera, panel: str) -> None:
     page, is_alone = camera.page, panel not in BESIDE_THE_SCENE
     page.evaluate(SHOW_PANEL, panel)
     if is_alone:
-        page.evaluate(_RUN, "maximize")
+        page.evaluate(RUN, "maximize")
     if ready := READY.get(panel):
         ready(page)
     page.wait_for_timeout(_STILL_MS)
     highest_px = DIALOGS_WINDOW[1] if panel in DRAWN_WHOLE else _HIGHEST_PX
     camera.take(panel, page.evaluate(_DOCK_OF, panel), highest_px)
     if is_alone:
-        page.evaluate(_RUN, "maximize")
+        page.evaluate(RUN, "maximize")
 
 
 def take_markers(browser: Browser, data: Path) -> None:
@@ -401,7 +401,7 @@ def take_markers(browser: Browser, data: Path) -> None:
                 if theme == THEMES[0]:
                     tab.page.evaluate(_ADD_MARKERS)
                 tab.page.evaluate(SHOW_PANEL, "scene")
-                tab.page.evaluate(_RUN, "maximize")
+                tab.page.evaluate(RUN, "maximize")
                 wait_until("the markers", lambda: tab.page.evaluate(_HAS_MARKERS), 20)
                 tab.page.evaluate(_LOOK, _AT_MARKER)
                 camera = Camera(tab, theme)
@@ -413,7 +413,7 @@ def take_displays(camera: Camera) -> None:
     """The panel with live displays, one of which says why nothing of it is seen."""
     page = camera.page
     page.evaluate(SHOW_PANEL, "displays")
-    page.evaluate(_RUN, "maximize")
+    page.evaluate(RUN, "maximize")
     page.get_by_role("treeitem", name="Robot model").click()
     page.locator(".tree-meta", has_text="10 Hz").wait_for()
     camera.take("displays", page.evaluate(_DOCK_OF, "displays"))
@@ -461,7 +461,7 @@ def take_class(browser: Browser, data: Path) -> None:
             with tab_of(browser, studio, theme, DIALOGS_WINDOW) as tab:
                 camera = Camera(tab, theme)
                 tab.page.evaluate(SHOW_PANEL, "people")
-                tab.page.evaluate(_RUN, "maximize")
+                tab.page.evaluate(RUN, "maximize")
                 if theme == THEMES[0]:
                     tab.page.get_by_role("button", name=f"Give control to {_NAMES[3]}").click()
                 camera.take("people", tab.page.evaluate(_DOCK_OF, "people"))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from tests.support.browser import open_browser
 from tests.support.demos import running_demo
-from tests.support.help_pictures import Camera
+from tests.support.help_pictures import RUN, Camera
 from tests.support.panel_pictures import SHOW_PANEL, THEMES, tab_of
 from tests.support.server import running_studio
 from tests.support.wire import running_router
@@ -25,10 +25,6 @@ if TYPE_CHECKING:
 WINDOW = (720, 760)
 _HIGHEST_PX = 430
 _DEMOS = ("radio_dj", "service_server_node", "turtlesim_node")
-_RUN = """async (id) => {
-  const script = document.querySelector('script[type="module"]').src;
-  (await import(new URL("../lib/commands.js", script))).commandById(id).run();
-}"""
 _CONNECT = """async () => {
   const script = document.querySelector('script[type="module"]').src;
   await (await import(new URL("../model/ros.js", script))).connectRos();
@@ -92,11 +88,11 @@ PANELS: dict[str, tuple[str, Callable[[Locator], None]]] = {
 
 def take_large(page: Page, camera: Camera, name: str, panel: Locator, highest_px: int) -> None:
     """A panel that has the whole window for as long as its picture is taken."""
-    page.evaluate(_RUN, "maximize")
+    page.evaluate(RUN, "maximize")
     box = panel.bounding_box()
     assert box is not None
     camera.take(name, box, highest_px=highest_px)
-    page.evaluate(_RUN, "maximize")
+    page.evaluate(RUN, "maximize")
 
 
 def take(page: Page, camera: Camera) -> None:

@@ -53,13 +53,12 @@ function BagRow({ one }) {
   const { busy, during } = useBusy();
   const { path, name, begin_s, seconds, bytes, messages: count } = one;
   const facts = [shortTime(seconds), sizeWords(bytes), t("bag.messages.count", { count })];
-  const when = begin_s > 0 ? timeAgo(begin_s * 1000, Date.now(), language.value) : "";
+  if (begin_s > 0) facts.unshift(timeAgo(begin_s * 1000, Date.now(), language.value));
   const show = () => openBag(path);
   const canShow = documentId.value !== "" && mayEdit.value;
   return html`<li class="entry bag-entry">
     <button type="button" class="entry-main" disabled=${busy || !mayManage.value} onClick=${during(() => openRecorded(path))} title=${path}>
-      <${Icon} name="bag" /><span class="entry-two"><span class="entry-name">${name}</span><span class="entry-path">${facts.join(" · ")}</span></span>
-      <span class="entry-when">${when}</span></button>
+      <${Icon} name="bag" /><span class="entry-two"><span class="entry-name">${name}</span><span class="bag-entry-facts">${facts.join(" · ")}</span></span></button>
     ${mayManage.value && one.files.length > 0 && html`<${MenuButton} label=${t("bag.download", { name })} items=${() => filesOf(one)}><${Icon} name="download" /><//>`}
     ${canShow && html`<${IconButton} icon="robot" label=${t("bag.show_here", { name })} disabled=${busy} onClick=${during(show)} />`}
   </li>`;
