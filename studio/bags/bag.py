@@ -69,7 +69,8 @@ class Bag:
             troubles: What is damaged or missing beside what the files themselves say.
         """
         self.path, self.storage, self.metadata = path, storage, metadata
-        self.distro = metadata.distro if metadata else ""
+        told = [metadata.distro if metadata else "", *(one.distro for one in files)]
+        self.distro = next((distro for distro in told if distro), "")
         self.files = tuple(sources)
         self._read = tuple(files)
         self._own_troubles = tuple(troubles)

@@ -151,6 +151,27 @@ def test_what_a_killed_recorder_left_in_its_log_is_read(tmp_path: Path):
     assert not found.troubles
 
 
+def test_a_transaction_that_was_never_ended_costs_none_before_it_and_is_told(tmp_path: Path):
+    rows = _many(2_000)
+    file = write_rows(tmp_path / "a.db3", rows)
+    (tmp_path / "copy").mkdir()
+    with closing(sqlite3.connect(file, isolation_level=None)) as database:
+        database.execute("PRAGMA cache_size=2")  # so that it is written before it ends
+        database.execute("BEGIN")
+        database.executemany(
+            "INSERT INTO messages(topic_id, timestamp, data) VALUES(1, ?, ?)",
+            [(BEGIN_NS + 10**6 + n, bytes(200)) for n in range(3_000)],
+        )
+        for one in tmp_path.glob("a.db3*"):
+            (tmp_path / "copy" / one.name).write_bytes(one.read_bytes())
+    before = {one: one.read_bytes() for one in (tmp_path / "copy").iterdir()}
+    assert len(before) == 2
+    found = read_bag(tmp_path / "copy" / "a.db3", tmp_path / "kept")
+    assert found.messages[: len(rows)] == _read_as(rows)
+    assert "it was not closed" in found.troubles[0]
+    assert {one: one.read_bytes() for one in (tmp_path / "copy").iterdir()} == before
+
+
 def _grow(file: Path) -> None:
     with closing(sqlite3.connect(file)) as database, database:
         database.execute(

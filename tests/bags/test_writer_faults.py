@@ -19,6 +19,7 @@ from studio.bags.opening import open_bag
 from studio.bags.writer import BagWriter, Storing
 from studio.bags.writing_thread import TopicInput, WritingThread
 from studio.errors import BagNotReadableError, BagNotWrittenError
+from tests.support.read_bags import read_bag
 from tests.support.wire import wait_until
 from tests.support.written_bags import (
     BEGIN_NS,
@@ -162,6 +163,7 @@ def test_kill_9_leaves_all_but_the_last_chunk(tmp_path: Path, storage: Storage):
                 process.kill()
                 break
         last = max((int(one) for one in process.stdout.read().split() if one), default=enough)
+    opened = read_bag(bag).messages
     if storage == "mcap":
         kept = kept_in_mcap(bag / "bag_0.mcap")
         assert len(kept) >= last - CHUNK / 1_000 - 1
@@ -171,6 +173,7 @@ def test_kill_9_leaves_all_but_the_last_chunk(tmp_path: Path, storage: Storage):
         database.close()
         assert len(kept) >= last - 4_300
     assert [int.from_bytes(one[:4], "little") for one in kept] == list(range(len(kept)))
+    assert [payload for _, _, payload in opened[: len(kept)]] == kept
     assert (bag / "metadata.yaml").is_file()
 
 
