@@ -69,7 +69,8 @@ class Bag:
             troubles: What is damaged or missing beside what the files themselves say.
         """
         self.path, self.storage, self.metadata = path, storage, metadata
-        self.distro = metadata.distro if metadata else ""
+        told = [metadata.distro if metadata else "", *(one.distro for one in files)]
+        self.distro = next((distro for distro in told if distro), "")
         self.files = tuple(sources)
         self._read = tuple(files)
         self._own_troubles = tuple(troubles)
@@ -220,16 +221,18 @@ class Bag:
         """Return the newest samples in [since_ns, at_ns], at most so many, the oldest first."""
         if most < 1:
             return []
-        found: list[RawSample] = []
+        found: list[tuple[int, RawSample]] = []
         outlines = self._outlines([topic])
+        ranks = {i: rank for rank, i in enumerate(self._by_begin())}
         for i in self._backwards(at_ns):
             enough = len(found) >= most
-            if self._read[i].table.span_ns[1] < (found[0].received_ns if enough else since_ns):
+            if self._read[i].table.span_ns[1] < (found[0][1].received_ns if enough else since_ns):
                 continue
             more = queries.newest(self._read[i], outlines[i], at_ns, most, since_ns)
             if more:
-                found = list(heapq.merge(more, found, key=_received))[-most:]
-        return found
+                both = [*found, *((ranks[i], one) for one in more)]
+                found = sorted(both, key=lambda one: (one[1].received_ns, one[0]))[-most:]
+        return [sample for _, sample in found]
 
     def _backwards(self, at_ns: int) -> list[int]:
         """Return the files that begin by a time, the one that ends last first."""
@@ -251,12 +254,16 @@ class Bag:
             else:
                 yield from heapq.merge(*parts, key=lambda one: one.sample.received_ns)
 
+    def _by_begin(self) -> list[int]:
+        """Return the files by time: of messages of one time, those of the first come first."""
+        return sorted(range(len(self._read)), key=lambda i: (self._read[i].table.span_ns, i))
+
     def _groups(self) -> list[list[int]]:
         """Return the files by time; those that overlap stand together."""
         spans = [one.table.span_ns for one in self._read]
         groups: list[list[int]] = []
         end_ns = 0
-        for i in sorted(range(len(spans)), key=lambda i: (spans[i], i)):
+        for i in self._by_begin():
             if groups and spans[i][0] <= end_ns:
                 groups[-1].append(i)
             else:
@@ -352,10 +359,6 @@ def _span_of(file: BlockFile) -> Span:
 def gid_of(topic: str, type_name: str) -> bytes:
     """Return what names the sender of a topic's messages: a bag does not say who it was."""
     return hashlib.blake2b(f"{topic}\0{type_name}".encode(), digest_size=16).digest()
-
-
-def _received(sample: RawSample) -> int:
-    return sample.received_ns
 
 
 def _chosen_channels(files: Sequence[BlockFile]) -> dict[str, list[tuple[int, Channel]]]:

@@ -177,6 +177,11 @@ class BlockFile(Protocol):
         ...
 
     @property
+    def distro(self) -> str:
+        """What recorded it; empty: it does not say."""
+        ...
+
+    @property
     def table(self) -> BlockTable:
         """Its blocks."""
         ...

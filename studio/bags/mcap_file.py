@@ -62,6 +62,7 @@ class McapFile:
         table: Its blocks.
         channels: By their keys.
         definitions: Its schemas.
+        distro: Empty: what recorded it stands in no part that is read here.
     """
 
     def __init__(
@@ -83,6 +84,7 @@ class McapFile:
             for key, one in index.channels.items()
         }
         self.definitions: Sequence[Definition] = list(index.schemas.values())
+        self.distro = ""
         self.compresses_messages = False
         self._blocks, self._stamp = index.blocks, stamp
         self._chunks, self._indexes = caches

@@ -20,6 +20,7 @@ from studio.ros.qos import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
     from enum import IntEnum
     from pathlib import Path
 
@@ -29,6 +30,7 @@ QOS_BYTES_MAX: Final = 256 * 2**10
 PROFILES_MAX: Final = 64
 FILES_MAX: Final = 10_000
 VERSION_MAX: Final = 9
+_DEPTH_MAX: Final = 50
 _FOREVER_S: Final = 2**31 - 1
 """What rosbag2 writes for a span without end is this, or more."""
 _Fields = dict[str, Any]
@@ -118,10 +120,28 @@ class _Loader(_BaseLoader):
 
 def _loaded(text: str) -> object:
     try:
+        _check_depth(text)
         return yaml.load(text, Loader=_Loader)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         reason = str(error).partition("\n")[0]
         raise ValueError(f"it is no YAML ({reason:.100})") from None
+
+
+def _check_depth(text: str) -> None:
+    """Check that values are not nested deeper than any recorder does: it would end the process.
+
+    Raises:
+        ValueError: They are.
+    """
+    depth = 0
+    parse = cast("Callable[..., Iterator[yaml.Event]]", yaml.parse)  # pyright: ignore[reportUnknownMemberType]
+    for event in parse(text, Loader=_Loader):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > _DEPTH_MAX:
+                raise ValueError(f"its values are nested deeper than {_DEPTH_MAX}")
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
 
 
 def _metadata(about: _Fields) -> BagMetadata:

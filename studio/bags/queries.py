@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from studio.ros.node.samples import RawSample
 
 _ATTEMPTS: Final = 8
-"""For as many blocks that turn out to be damaged, what lies before them is looked for."""
+"""As often as messages turn out to be damaged, what lies before them is looked for."""
 
 _ALL: Final = 2**62
 _AHEAD: Final = 3
@@ -57,17 +57,22 @@ def newest(
 ) -> list[RawSample]:
     """Return the newest messages of some channels in [since, at], at most so many, oldest first."""
     whole: list[RawSample] = []
+    damaged: set[Place] = set()
     for _ in range(_ATTEMPTS):
-        places = [
-            place for key in channels for place in _newest_places(file, key, at_ns, most, since_ns)
-        ]
+        places = {
+            place
+            for key in channels
+            for place in _newest_places(file, key, at_ns, most + len(damaged), since_ns)
+        }
+        wanted = sorted(places - damaged)[-most:]
         found = [
             file.sample(one.block, one.channel, one.place, channels[one.channel].gid)
-            for one in sorted(places)[-most:]
+            for one in wanted
         ]
         whole = [one for one in found if one is not None]
         if len(whole) == len(found):
             break
+        damaged.update(place for place, one in zip(wanted, found, strict=True) if one is None)
     return whole
 
 

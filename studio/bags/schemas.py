@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 SCHEMA_BYTES_MAX: Final = 1_000_000
 PARTS_MAX: Final = 500
 """Types in one schema."""
-_RULE: Final = re.compile(r"^=+[ \t]*$", re.MULTILINE)
+_RULE: Final = re.compile(r"^=+[ \t\r]*$", re.MULTILINE)
 _TITLE: Final = re.compile(r"\s*(MSG|IDL):[ \t]*([\w/]{1,255})[ \t]*\r?\n?")
 
 

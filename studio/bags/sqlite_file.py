@@ -110,7 +110,10 @@ class SqliteFile:
     # Opening
 
     def _connected(self) -> sqlite3.Connection:
-        """Open it for reading: with its write-ahead log, and where that cannot be, without."""
+        """Open it for reading: with its write-ahead log, and where that cannot be, without.
+
+        What a killed recorder left half done is not taken back, which would change the files.
+        """
         place = f"file:{quote(str(self.path.resolve()))}"
         try:
             return self._tried(f"{place}?mode=ro")
@@ -119,6 +122,11 @@ class SqliteFile:
                 self._tell(
                     f"{self.path.name}: its last messages are left out: they are in a log beside "
                     f"it that cannot be read ({error})."
+                )
+            elif is_there(self.path.with_name(f"{self.path.name}-journal")):
+                self._tell(
+                    f"{self.path.name}: it was not closed, so that some of its last messages may "
+                    "be missing."
                 )
         try:
             return self._tried(f"{place}?mode=ro&immutable=1")

@@ -13,6 +13,7 @@ from studio.bags.compression import ZSTD_MAGIC
 from studio.bags.opening import open_bag
 from tests.support.bag_oracle import (
     ROSBAGS,
+    Oracle,
     check_all_answers,
     oracle_of_mcap,
     oracle_of_rosbags,
@@ -42,7 +43,7 @@ FORMS = st.builds(
 )
 
 
-@settings(max_examples=40)
+@settings(max_examples=30)
 @given(TOLD, FORMS)
 def test_what_mcap_wrote_answers_as_its_own_reader(told: list[Told], form: McapForm):
     with tempfile.TemporaryDirectory() as folder:
@@ -54,7 +55,7 @@ def test_what_mcap_wrote_answers_as_its_own_reader(told: list[Told], form: McapF
             bag.close()
 
 
-@settings(max_examples=40)
+@settings(max_examples=30)
 @given(TOLD, st.sampled_from(sorted(ROSBAGS)))
 def test_what_rosbags_wrote_answers_as_its_own_reader(told: list[Told], manner: str):
     with tempfile.TemporaryDirectory() as folder:
@@ -65,3 +66,26 @@ def test_what_rosbags_wrote_answers_as_its_own_reader(told: list[Told], manner: 
             assert not bag.troubles
         finally:
             bag.close()
+
+
+@settings(max_examples=30)
+@given(st.lists(TOLD, min_size=2, max_size=3), st.sampled_from(["mcap", "sqlite3"]))
+def test_files_that_overlap_in_time_answer_as_one(parts: list[list[Told]], manner: str):
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "bag").mkdir()
+        for number, told in enumerate(parts):
+            one = write_rosbags(Path(folder) / f"one_{number}", told, manner)
+            (file,) = (file for file in one.iterdir() if file.name != "metadata.yaml")
+            file.rename(Path(folder) / "bag" / f"bag_{number}{file.suffix}")
+        bag = open_bag(Path(folder) / "bag", kept_in=Path(folder) / "kept")
+        try:
+            check_all_answers(bag, Oracle(_in_order(parts)), LAST_NS)
+        finally:
+            bag.close()
+
+
+def _in_order(parts: list[list[Told]]) -> list[Told]:
+    """All messages; of those of one time, the ones of the file that begins first come first."""
+    times = [[at_ns for _, at_ns, _ in told] or [0] for told in parts]
+    order = sorted(range(len(parts)), key=lambda i: (min(times[i]), max(times[i]), i))
+    return [one for i in order for one in parts[i]]

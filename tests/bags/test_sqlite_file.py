@@ -8,9 +8,12 @@ from contextlib import closing
 from typing import TYPE_CHECKING
 
 import pytest
+import zstandard
 
+from studio.bags.compression import PART_BYTES_MAX
 from studio.bags.opening import open_bag
 from studio.errors import BagNotReadableError
+from tests.support.bag_oracle import write_rosbags
 from tests.support.bags import BEGIN_NS, string_cdr
 from tests.support.damaged_bags import overwrite
 from tests.support.read_bags import all_of, read_bag
@@ -151,6 +154,27 @@ def test_what_a_killed_recorder_left_in_its_log_is_read(tmp_path: Path):
     assert not found.troubles
 
 
+def test_a_transaction_that_was_never_ended_costs_none_before_it_and_is_told(tmp_path: Path):
+    rows = _many(2_000)
+    file = write_rows(tmp_path / "a.db3", rows)
+    (tmp_path / "copy").mkdir()
+    with closing(sqlite3.connect(file, isolation_level=None)) as database:
+        database.execute("PRAGMA cache_size=2")  # so that it is written before it ends
+        database.execute("BEGIN")
+        database.executemany(
+            "INSERT INTO messages(topic_id, timestamp, data) VALUES(1, ?, ?)",
+            [(BEGIN_NS + 10**6 + n, bytes(200)) for n in range(3_000)],
+        )
+        for one in tmp_path.glob("a.db3*"):
+            (tmp_path / "copy" / one.name).write_bytes(one.read_bytes())
+    before = {one: one.read_bytes() for one in (tmp_path / "copy").iterdir()}
+    assert len(before) == 2
+    found = read_bag(tmp_path / "copy" / "a.db3", tmp_path / "kept")
+    assert found.messages[: len(rows)] == _read_as(rows)
+    assert "it was not closed" in found.troubles[0]
+    assert {one: one.read_bytes() for one in (tmp_path / "copy").iterdir()} == before
+
+
 def _grow(file: Path) -> None:
     with closing(sqlite3.connect(file)) as database, database:
         database.execute(
@@ -200,3 +224,23 @@ def test_a_topic_of_two_types_is_that_of_most_messages(tmp_path: Path):
     ]
     assert found.topics["/a"].type_name == "std_msgs/msg/String"
     assert "4 messages of other types are left out: std_msgs/msg/Empty" in found.topics["/a"].note
+
+
+def test_a_message_that_unpacks_to_too_much_costs_itself(tmp_path: Path):
+    told = [("/a", BEGIN_NS + n, string_cdr(str(n))) for n in range(9)]
+    folder = write_rosbags(tmp_path / "bag", told, "sqlite3, messages")
+    (file,) = folder.glob("*.db3")
+    bomb = zstandard.compress(bytes(PART_BYTES_MAX + 1))
+    with closing(sqlite3.connect(file)) as database, database:
+        database.execute("UPDATE messages SET data=? WHERE timestamp=?", (bomb, BEGIN_NS + 4))
+        database.execute("UPDATE messages SET data=? WHERE timestamp=?", (b"rub", BEGIN_NS + 5))
+    found = read_bag(folder, tmp_path / "kept")
+    assert found.messages == told[:4] + told[6:]
+    assert ["a message would take more than" in one for one in found.troubles] == [True, False]
+    assert ["no frame of zstd" in one for one in found.troubles] == [False, True]
+    bag = open_bag(folder, kept_in=tmp_path / "kept")
+    assert [one.payload for one in bag.last("/a", BEGIN_NS + 6, 3)] == [
+        string_cdr(text) for text in "236"
+    ]
+    assert bag.latest(["/a"], BEGIN_NS + 5)["/a"].payload == string_cdr("3")
+    bag.close()

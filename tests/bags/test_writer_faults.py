@@ -19,6 +19,8 @@ from studio.bags.opening import open_bag
 from studio.bags.writer import BagWriter, Storing
 from studio.bags.writing_thread import TopicInput, WritingThread
 from studio.errors import BagNotReadableError, BagNotWrittenError
+from tests.support.permissions import open_folder, unprivileged
+from tests.support.read_bags import read_bag
 from tests.support.wire import wait_until
 from tests.support.written_bags import (
     BEGIN_NS,
@@ -142,12 +144,12 @@ def test_a_folder_that_is_there_and_one_that_is_read_only_are_refused(tmp_path: 
         BagWriter(tmp_path / "file" / "bag", TYPES)
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
-def test_a_read_only_folder_is_refused(tmp_path: Path):
-    tmp_path.chmod(0o500)
-    with pytest.raises(BagNotWrittenError, match="Permission denied"):
-        BagWriter(tmp_path / "bag", TYPES)
-    tmp_path.chmod(0o700)
+def test_a_read_only_folder_is_refused():
+    with open_folder() as folder:
+        folder.chmod(0o555)
+        with unprivileged(), pytest.raises(BagNotWrittenError, match="Permission denied"):
+            BagWriter(folder / "bag", TYPES)
+        folder.chmod(0o755)
 
 
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
@@ -162,6 +164,7 @@ def test_kill_9_leaves_all_but_the_last_chunk(tmp_path: Path, storage: Storage):
                 process.kill()
                 break
         last = max((int(one) for one in process.stdout.read().split() if one), default=enough)
+    opened = read_bag(bag).messages
     if storage == "mcap":
         kept = kept_in_mcap(bag / "bag_0.mcap")
         assert len(kept) >= last - CHUNK / 1_000 - 1
@@ -171,6 +174,7 @@ def test_kill_9_leaves_all_but_the_last_chunk(tmp_path: Path, storage: Storage):
         database.close()
         assert len(kept) >= last - 4_300
     assert [int.from_bytes(one[:4], "little") for one in kept] == list(range(len(kept)))
+    assert [payload for _, _, payload in opened[: len(kept)]] == kept
     assert (bag / "metadata.yaml").is_file()
 
 
