@@ -6,7 +6,6 @@ from bisect import bisect_left, bisect_right
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -244,12 +243,12 @@ def _blocks_of(
 ) -> list[int]:
     """Return the blocks that may hold messages of some channels in [begin, end)."""
     table = file.table
-    parts = [table.presence[key].blocks for key in channels if key in table.presence]
-    if not parts:
-        return []
-    found = np.unique(np.concatenate(parts))
-    near = (table.begins_ns[found] < end_ns) & (table.ends_ns[found] >= begin_ns)
-    return found[near].tolist()
+    is_in = np.zeros(len(table.begins_ns), np.bool_)
+    for key in channels:
+        if key in table.presence:
+            is_in[table.presence[key].blocks] = True
+    near = (table.begins_ns < end_ns) & (table.ends_ns >= begin_ns)
+    return np.flatnonzero(is_in & near).tolist()
 
 
 def _whole_block(
@@ -262,8 +261,8 @@ def _whole_block(
     if table.begins_ns[block] < begin_ns or table.ends_ns[block] >= end_ns:
         found = [one for one in found if begin_ns <= one.sample.received_ns < end_ns]
     times_ns = [sample.received_ns for _, sample in found]
-    if any(one > other for one, other in pairwise(times_ns)):
-        found.sort(key=lambda one: one.sample.received_ns)
+    if times_ns != sorted(times_ns):
+        found.sort(key=_time_ns)
     return found
 
 
