@@ -6,6 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -13,7 +14,8 @@ import numpy as np
 from studio.bags.recording import Recorded
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+    from concurrent.futures import Future
 
     from numpy.typing import NDArray
 
@@ -25,8 +27,8 @@ _ATTEMPTS: Final = 8
 
 _ALL: Final = 2**62
 _AHEAD: Final = 3
-"""So many blocks are read before they are asked for, by threads: decompression runs beside us."""
-_AHEAD_THREADS: Final = 2
+"""So many blocks are read before they are asked for, by one thread, while who asks works on others:
+several would take turns with each other more than they would read."""
 _HELD_BYTES_MAX: Final = 16 * 2**20
 """Messages that wait for later blocks are held; where they are more, they are read once more."""
 
@@ -157,48 +159,62 @@ def messages(
     there a chunk was full between two messages of one time.
     """
     blocks = _blocks_of(file, channels, begin_ns, end_ns)
-    with _ahead(file, blocks) as coming:
+    with _ahead(file, channels, blocks) as coming:
         yield from _merged(file, channels, (begin_ns, end_ns), coming)
 
 
+class _Coming(NamedTuple):
+    """A block, the one that follows, and what gives its messages as they lie in the file."""
+
+    block: int
+    following: int | None
+    scanned: Callable[[], list[Recorded]]
+
+
 @contextmanager
-def _ahead(file: BlockFile, blocks: list[int]) -> Generator[Iterator[tuple[int, int | None]]]:
-    """Give blocks, each with the one that follows, while threads read those that come next."""
+def _ahead(
+    file: BlockFile, channels: Mapping[int, Outline], blocks: list[int]
+) -> Generator[Iterator[_Coming]]:
+    """Give blocks; of many, those that come next are read by a thread meanwhile, and not kept."""
     following = [*blocks[1:], None]
     if len(blocks) < _AHEAD * 2:
-        yield zip(blocks, following, strict=False)
+        yield (
+            _Coming(block, after, partial(file.scanned, block, channels))
+            for block, after in zip(blocks, following, strict=False)
+        )
         return
-    threads = ThreadPoolExecutor(_AHEAD_THREADS, "bag")
+    thread = ThreadPoolExecutor(1, "bag")
+
+    def read(block: int) -> Future[list[Recorded]]:
+        return thread.submit(file.scanned, block, channels, keep=False)
+
+    def coming() -> Iterator[_Coming]:
+        waiting = deque(read(block) for block in blocks[:_AHEAD])
+        for at, block in enumerate(blocks):
+            first = waiting.popleft()
+            if at + _AHEAD < len(blocks):
+                waiting.append(read(blocks[at + _AHEAD]))
+            yield _Coming(block, following[at], first.result)
+
     try:
-        yield _coming(threads, file, blocks, following)
+        yield coming()
     finally:
-        threads.shutdown(wait=True, cancel_futures=True)
-
-
-def _coming(
-    threads: ThreadPoolExecutor, file: BlockFile, blocks: list[int], following: list[int | None]
-) -> Iterator[tuple[int, int | None]]:
-    waiting = deque(threads.submit(file.load, block) for block in blocks[:_AHEAD])
-    for at, block in enumerate(blocks):
-        waiting.popleft().result()
-        if at + _AHEAD < len(blocks):
-            waiting.append(threads.submit(file.load, blocks[at + _AHEAD]))
-        yield block, following[at]
+        thread.shutdown(wait=True, cancel_futures=True)
 
 
 def _merged(
     file: BlockFile,
     channels: Mapping[int, Outline],
     span_ns: tuple[int, int],
-    coming: Iterator[tuple[int, int | None]],
+    coming: Iterator[_Coming],
 ) -> Iterator[Recorded]:
     table, (begin_ns, end_ns) = file.table, span_ns
     waiting: list[_Waiting] = []
-    for block, following in coming:
+    for block, following, scanned in coming:
         until_ns = end_ns if following is None else int(table.begins_ns[following])
         alone: list[Recorded] = []
         if _held_bytes(waiting) < _HELD_BYTES_MAX:
-            found = _whole_block(file, block, channels, span_ns)
+            found = _in_order(table, block, scanned(), span_ns)
             if not waiting and (following is None or _is_before(table, block, following)):
                 yield from found
                 continue
@@ -251,13 +267,11 @@ def _blocks_of(
     return np.flatnonzero(is_in & near).tolist()
 
 
-def _whole_block(
-    file: BlockFile, block: int, channels: Mapping[int, Outline], span_ns: tuple[int, int]
+def _in_order(
+    table: BlockTable, block: int, found: list[Recorded], span_ns: tuple[int, int]
 ) -> list[Recorded]:
-    """Return a block's messages of some channels in [begin, end), by time."""
-    found = file.scanned(block, channels)
+    """Return those of a block's messages that lie in [begin, end), by time."""
     begin_ns, end_ns = span_ns
-    table = file.table
     if table.begins_ns[block] < begin_ns or table.ends_ns[block] >= end_ns:
         found = [one for one in found if begin_ns <= one.sample.received_ns < end_ns]
     times_ns = [sample.received_ns for _, sample in found]
