@@ -50,8 +50,8 @@ def open_bag(
     """Open a bag.
 
     For a bag of any size, decompressed chunks take 64 MB of memory, and the indexes of their
-    messages 32 MB, unless one chunk alone is larger; who reads on has four more chunks read ahead.
-    Besides, each chunk of a file takes 41 bytes, and 20 for each topic in it.
+    messages 32 MB, unless one chunk alone is larger. Besides, each chunk of a file takes 41 bytes,
+    and 20 for each topic in it.
 
     Args:
         path: A folder of rosbag2, its `metadata.yaml`, or one `.mcap` or `.db3` file.

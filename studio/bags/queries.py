@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections import deque
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
-from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -14,8 +10,7 @@ import numpy as np
 from studio.bags.recording import Recorded
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-    from concurrent.futures import Future
+    from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -26,9 +21,8 @@ _ATTEMPTS: Final = 8
 """For as many blocks that turn out to be damaged, what lies before them is looked for."""
 
 _ALL: Final = 2**62
-_AHEAD: Final = 3
-"""So many blocks are read before they are asked for, by one thread, while who asks works on others:
-several would take turns with each other more than they would read."""
+_KEPT_BLOCKS_MAX: Final = 5
+"""Of a range of more blocks none is kept for whoever asks next: it would drive out all others."""
 _HELD_BYTES_MAX: Final = 16 * 2**20
 """Messages that wait for later blocks are held; where they are more, they are read once more."""
 
@@ -158,63 +152,16 @@ def messages(
     they lie. A block that ends with the very time at which the next begins does not overlap it:
     there a chunk was full between two messages of one time.
     """
+    table = file.table
     blocks = _blocks_of(file, channels, begin_ns, end_ns)
-    with _ahead(file, channels, blocks) as coming:
-        yield from _merged(file, channels, (begin_ns, end_ns), coming)
-
-
-class _Coming(NamedTuple):
-    """A block, the one that follows, and what gives its messages as they lie in the file."""
-
-    block: int
-    following: int | None
-    scanned: Callable[[], list[Recorded]]
-
-
-@contextmanager
-def _ahead(
-    file: BlockFile, channels: Mapping[int, Outline], blocks: list[int]
-) -> Generator[Iterator[_Coming]]:
-    """Give blocks; of many, those that come next are read by a thread meanwhile, and not kept."""
-    following = [*blocks[1:], None]
-    if len(blocks) < _AHEAD * 2:
-        yield (
-            _Coming(block, after, partial(file.scanned, block, channels))
-            for block, after in zip(blocks, following, strict=False)
-        )
-        return
-    thread = ThreadPoolExecutor(1, "bag")
-
-    def read(block: int) -> Future[list[Recorded]]:
-        return thread.submit(file.scanned, block, channels, keep=False)
-
-    def coming() -> Iterator[_Coming]:
-        waiting = deque(read(block) for block in blocks[:_AHEAD])
-        for at, block in enumerate(blocks):
-            first = waiting.popleft()
-            if at + _AHEAD < len(blocks):
-                waiting.append(read(blocks[at + _AHEAD]))
-            yield _Coming(block, following[at], first.result)
-
-    try:
-        yield coming()
-    finally:
-        thread.shutdown(wait=True, cancel_futures=True)
-
-
-def _merged(
-    file: BlockFile,
-    channels: Mapping[int, Outline],
-    span_ns: tuple[int, int],
-    coming: Iterator[_Coming],
-) -> Iterator[Recorded]:
-    table, (begin_ns, end_ns) = file.table, span_ns
+    keep = len(blocks) <= _KEPT_BLOCKS_MAX
     waiting: list[_Waiting] = []
-    for block, following, scanned in coming:
+    for block, following in zip(blocks, [*blocks[1:], None], strict=False):
         until_ns = end_ns if following is None else int(table.begins_ns[following])
         alone: list[Recorded] = []
         if _held_bytes(waiting) < _HELD_BYTES_MAX:
-            found = _in_order(table, block, scanned(), span_ns)
+            found = file.scanned(block, channels, keep=keep)
+            found = _in_order(table, block, found, (begin_ns, end_ns))
             if not waiting and (following is None or _is_before(table, block, following)):
                 yield from found
                 continue
