@@ -204,16 +204,20 @@ class BlockFile(Protocol):
         """Return one message; None: it is damaged, and `entries` may know better now."""
         ...
 
-    def scanned(self, block: int, wanted: Mapping[int, Outline]) -> list[Recorded]:
-        """Return all messages of some channels in a block, as they lie in the file."""
+    def scanned(
+        self, block: int, wanted: Mapping[int, Outline], *, keep: bool = True
+    ) -> list[Recorded]:
+        """Return all messages of some channels in a block, as they lie in the file.
+
+        Args:
+            block: Its number.
+            wanted: How the messages of each channel are handed out.
+            keep: Whether the block will be asked for again: otherwise others stay at hand for it.
+        """
         ...
 
     def columns(self, block: int, channel: int) -> Columns | None:
         """Return the payloads of a channel in a block; None: there are none, or it is damaged."""
-        ...
-
-    def load(self, block: int) -> None:
-        """Have a block at hand when it is asked for."""
         ...
 
     def close(self) -> None:

@@ -29,6 +29,12 @@ class BoundedCache(Generic[T]):
         """Bytes of what it keeps."""
         return self._bytes
 
+    def found(self, key: Hashable) -> T | None:
+        """Return a value that is kept; None: it is not."""
+        with self._lock:
+            kept = self._kept.get(key)
+        return kept[0] if kept else None
+
     def get(self, key: Hashable, make: Callable[[], tuple[T, int]]) -> T:
         """Return a value; `make` makes it and says how many bytes it takes."""
         with self._lock:

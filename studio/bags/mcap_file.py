@@ -190,9 +190,11 @@ class McapFile:
             self._tell(f"A message of {self.path.name} is left out: {error.reason}.")
             return None
 
-    def scanned(self, block: int, wanted: Mapping[int, Outline]) -> list[Recorded]:
+    def scanned(
+        self, block: int, wanted: Mapping[int, Outline], *, keep: bool = True
+    ) -> list[Recorded]:
         """Return all messages of some channels in a block, as they lie in the file."""
-        data = self._data(block)
+        data = self._data(block, keep=keep)
         if data is None:
             return []
         found = scan_messages(data, wanted)
@@ -239,16 +241,14 @@ class McapFile:
 
     # Its bytes
 
-    def load(self, block: int) -> None:
-        """Have a block at hand when it is asked for."""
-        self._data(block)
-
-    def _data(self, block: int) -> bytes | None:
+    def _data(self, block: int, *, keep: bool = True) -> bytes | None:
         """Return the records of a block, decompressed; None: it is damaged, which is said."""
         if block in self._bad:
             return None
         try:
-            return self._chunks.get((self.path, block), lambda: self._load(block))
+            if keep:
+                return self._chunks.get((self.path, block), lambda: self._load(block))
+            return self._chunks.found((self.path, block)) or self._load(block)[0]
         except DamagedPartError as error:
             self._check_unchanged()
             self._bad.add(block)

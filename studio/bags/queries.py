@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections import deque
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
-from itertools import pairwise
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
@@ -14,7 +10,7 @@ import numpy as np
 from studio.bags.recording import Recorded
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -25,9 +21,8 @@ _ATTEMPTS: Final = 8
 """As often as messages turn out to be damaged, what lies before them is looked for."""
 
 _ALL: Final = 2**62
-_AHEAD: Final = 3
-"""So many blocks are read before they are asked for, by threads: decompression runs beside us."""
-_AHEAD_THREADS: Final = 2
+_KEPT_BLOCKS_MAX: Final = 5
+"""Of a range of more blocks none is kept for whoever asks next: it would drive out all others."""
 _HELD_BYTES_MAX: Final = 16 * 2**20
 """Messages that wait for later blocks are held; where they are more, they are read once more."""
 
@@ -162,49 +157,16 @@ def messages(
     they lie. A block that ends with the very time at which the next begins does not overlap it:
     there a chunk was full between two messages of one time.
     """
+    table = file.table
     blocks = _blocks_of(file, channels, begin_ns, end_ns)
-    with _ahead(file, blocks) as coming:
-        yield from _merged(file, channels, (begin_ns, end_ns), coming)
-
-
-@contextmanager
-def _ahead(file: BlockFile, blocks: list[int]) -> Generator[Iterator[tuple[int, int | None]]]:
-    """Give blocks, each with the one that follows, while threads read those that come next."""
-    following = [*blocks[1:], None]
-    if len(blocks) < _AHEAD * 2:
-        yield zip(blocks, following, strict=False)
-        return
-    threads = ThreadPoolExecutor(_AHEAD_THREADS, "bag")
-    try:
-        yield _coming(threads, file, blocks, following)
-    finally:
-        threads.shutdown(wait=True, cancel_futures=True)
-
-
-def _coming(
-    threads: ThreadPoolExecutor, file: BlockFile, blocks: list[int], following: list[int | None]
-) -> Iterator[tuple[int, int | None]]:
-    waiting = deque(threads.submit(file.load, block) for block in blocks[:_AHEAD])
-    for at, block in enumerate(blocks):
-        waiting.popleft().result()
-        if at + _AHEAD < len(blocks):
-            waiting.append(threads.submit(file.load, blocks[at + _AHEAD]))
-        yield block, following[at]
-
-
-def _merged(
-    file: BlockFile,
-    channels: Mapping[int, Outline],
-    span_ns: tuple[int, int],
-    coming: Iterator[tuple[int, int | None]],
-) -> Iterator[Recorded]:
-    table, (begin_ns, end_ns) = file.table, span_ns
+    keep = len(blocks) <= _KEPT_BLOCKS_MAX
     waiting: list[_Waiting] = []
-    for block, following in coming:
+    for block, following in zip(blocks, [*blocks[1:], None], strict=False):
         until_ns = end_ns if following is None else int(table.begins_ns[following])
         alone: list[Recorded] = []
         if _held_bytes(waiting) < _HELD_BYTES_MAX:
-            found = _whole_block(file, block, channels, span_ns)
+            found = file.scanned(block, channels, keep=keep)
+            found = _in_order(table, block, found, (begin_ns, end_ns))
             if not waiting and (following is None or _is_before(table, block, following)):
                 yield from found
                 continue
@@ -249,26 +211,24 @@ def _blocks_of(
 ) -> list[int]:
     """Return the blocks that may hold messages of some channels in [begin, end)."""
     table = file.table
-    parts = [table.presence[key].blocks for key in channels if key in table.presence]
-    if not parts:
-        return []
-    found = np.unique(np.concatenate(parts))
-    near = (table.begins_ns[found] < end_ns) & (table.ends_ns[found] >= begin_ns)
-    return found[near].tolist()
+    is_in = np.zeros(len(table.begins_ns), np.bool_)
+    for key in channels:
+        if key in table.presence:
+            is_in[table.presence[key].blocks] = True
+    near = (table.begins_ns < end_ns) & (table.ends_ns >= begin_ns)
+    return np.flatnonzero(is_in & near).tolist()
 
 
-def _whole_block(
-    file: BlockFile, block: int, channels: Mapping[int, Outline], span_ns: tuple[int, int]
+def _in_order(
+    table: BlockTable, block: int, found: list[Recorded], span_ns: tuple[int, int]
 ) -> list[Recorded]:
-    """Return a block's messages of some channels in [begin, end), by time."""
-    found = file.scanned(block, channels)
+    """Return those of a block's messages that lie in [begin, end), by time."""
     begin_ns, end_ns = span_ns
-    table = file.table
     if table.begins_ns[block] < begin_ns or table.ends_ns[block] >= end_ns:
         found = [one for one in found if begin_ns <= one.sample.received_ns < end_ns]
     times_ns = [sample.received_ns for _, sample in found]
-    if any(one > other for one, other in pairwise(times_ns)):
-        found.sort(key=lambda one: one.sample.received_ns)
+    if times_ns != sorted(times_ns):
+        found.sort(key=_time_ns)
     return found
 
 

@@ -350,8 +350,17 @@ class SqliteFile:
                 return None
         return RawSample(payload, Attachment(0, at_ns, gid), at_ns)
 
-    def scanned(self, block: int, wanted: Mapping[int, Outline]) -> list[Recorded]:
-        """Return all messages of some channels in a block, as they lie in the file."""
+    def scanned(
+        self,
+        block: int,
+        wanted: Mapping[int, Outline],
+        *,
+        keep: bool = True,
+    ) -> list[Recorded]:
+        """Return all messages of some channels in a block, as they lie in the file.
+
+        Nothing is kept: the system keeps what was read last.
+        """
         rows = self._of_block(block, list(wanted))
         found: list[Recorded] = []
         for key, at_ns, data in rows:
@@ -383,9 +392,6 @@ class SqliteFile:
         times_ns = np.array([one.received_ns for one in samples], np.int64)
         data = b"".join(one.payload for one in samples)
         return Columns(times_ns, data, np.cumsum(lengths) - lengths, lengths) if samples else None
-
-    def load(self, block: int) -> None:
-        """Do nothing: the system keeps what was read last."""
 
     def _tell(self, sentence: str) -> None:
         with self._lock:

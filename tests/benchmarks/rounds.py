@@ -25,10 +25,13 @@ def figures() -> dict[str, str]:
     return {one.what: one.got for one in VERDICTS} | NOTED
 
 
-def last_round() -> tuple[str, dict[str, str]]:
-    """Return the name of the last round that was kept, and its figures; empty without one."""
-    files = sorted(FOLDER.glob("*.txt"))
-    return (files[-1].stem, read(files[-1])) if files else ("", {})
+def last_figures() -> dict[str, tuple[str, str]]:
+    """Return the newest figure that was kept of each thing, with the name of its round."""
+    return {
+        what: (path.stem, figure)
+        for path in sorted(FOLDER.glob("*.txt"))
+        for what, figure in read(path).items()
+    }
 
 
 def read(path: Path) -> dict[str, str]:
@@ -49,11 +52,12 @@ def keep(name: str, measured: Mapping[str, str]) -> Path:
 
 
 def say_beside_last(measured: Mapping[str, str]) -> None:
-    """Print each figure beside that of the last round."""
-    name, before = last_round()
+    """Print each figure beside that of the last round that has it."""
+    before = last_figures()
     known = {what: figure for what, figure in measured.items() if what in before}
     if not known:
         return
-    say(f"\n[beside the round {name}]")
+    say("\n[beside the last rounds]")
     for what, figure in known.items():
-        say(f"  {what:<64}{figure:>16}   before {before[what]:>16}")
+        name, other = before[what]
+        say(f"  {what:<64}{figure:>16}   round {name} {other:>16}")
