@@ -67,6 +67,7 @@ function ShownTimeline({ state }) {
       <${Clock} />
       <span class="push"></span>
       <${Waiting} state=${state} />
+      <${Skipping} state=${state} />
       <${TopicChoice} />
       <${TicksMenu} />
       <${BookmarksMenu} />
@@ -175,6 +176,13 @@ function Waiting({ state }) {
   if (state.queue === 0) return null;
   return html`<span class="timeline-queue" role="status"><span class="spinner"></span>${t("timeline.queue", { place: state.queue })}
     <${IconButton} icon="close" size=${12} class="narrow" label=${t("timeline.queue.leave")} disabled=${!mayMoveTime.value} onClick=${goLive} /></span>`;
+}
+
+/** @param {{state: TimeState}} props it is played faster than it can be read */
+function Skipping({ state }) {
+  if (!state.skipping) return null;
+  const words = t("timeline.skipping", { rate: rateWords(state.rate) });
+  return html`<span class="timeline-queue" role="status" title=${words}><${Icon} name="alert" size=${15} /><span class="hidden-words">${words}</span></span>`;
 }
 
 /** @param {{done: number}} props the index of a damaged file is made */

@@ -4500,6 +4500,7 @@ export interface TimeState {
   playing: boolean;
   rate: number;
   loop: [number, number] | null;
+  skipping: boolean;
   queue: number;
   progress: number | null;
   troubles: string[];

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import CdrError, CommandError, StudioError, UnknownTypeError
+from studio.errors import CdrError, CommandError, StudioError
 from studio.files import is_file, is_folder
 from studio.live.time.recorded_robot import DESCRIPTION
 from studio.live.time.shown import ShownRecording
@@ -127,34 +127,36 @@ def location_of_bag(
         known: Indexes of open documents, which may have the packages of its meshes.
 
     Raises:
-        StudioError: The bag cannot be read, or the data folder cannot take it.
+        StudioError: The data folder cannot take it.
     """
-    text = _description(shown.recording)
-    if text:
-        digest = hashlib.sha256(os.fsencode(path)).hexdigest()[:8]
-        try:
+    try:
+        text = _description(shown.recording)
+        if text:
+            digest = hashlib.sha256(os.fsencode(path)).hexdigest()[:8]
             file = keep_description(data_folder, f"{path.stem} {digest}", text)
-        except StudioError:
-            file = None  # no robot: then the rest of the bag is shown
-        if file is not None:
             choose_packages(data_folder, file, text, known)
             return file
+    except StudioError as error:  # then the rest of the bag is shown
+        shown.troubles = (f"There is no robot, for {DESCRIPTION} cannot be used: {error}",)
     return bare_location(path, frame or _NO_FRAME, data_folder)
 
 
 def _description(recording: Recording) -> str:
-    """Return the first description of a robot in a recording; empty: it has none."""
+    """Return the first description of a robot in a recording; empty: it has none.
+
+    Raises:
+        StudioError: What is there is none.
+    """
     found = next((one for one in recording.topics if one.name == DESCRIPTION), None)
     first_ns = None if found is None else recording.next_ns(DESCRIPTION, recording.begin_ns - 1)
-    if found is None or first_ns is None or found.type_name != _STRING:
+    if found is None or first_ns is None:
         return ""
+    if found.type_name != _STRING:
+        raise CommandError(f"it is of {found.type_name}, and not of {_STRING}.")
     from studio.ros.cdr import codec_of  # noqa: PLC0415 - takes its time
 
     sample = recording.latest([DESCRIPTION], first_ns)[DESCRIPTION]
-    try:
-        return str(codec_of(recording.types.message(_STRING)).decode(sample.payload).data)
-    except (CdrError, UnknownTypeError):
-        return ""
+    return str(codec_of(recording.types.message(_STRING)).decode(sample.payload).data)
 
 
 def root_frame(recording: Recording) -> str:

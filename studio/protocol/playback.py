@@ -124,6 +124,8 @@ class TimeState(Event):
     playing: bool
     rate: float
     loop: tuple[float, float] | None
+    skipping: bool
+    """Whether messages are left out, for they cannot be read as fast as it is played."""
     queue: int
     """How many wait before this one, for too many rewind at once; 0: it is shown."""
     progress: float | None

@@ -35,6 +35,7 @@ from studio.protocol.topics import GetTopicEnds, ListTopics
 from studio.scene import DocumentScene
 from tests.support.open_documents import Ear, engine, opened, until
 from tests.support.recorded_arm import BEGIN_NS, LENGTH_S, angle_rad, base_pose, write_arm_bag
+from tests.support.told_recording import ToldRecording, written
 from tests.support.wired_studio import ARM
 
 if TYPE_CHECKING:
@@ -317,6 +318,35 @@ def test_a_bag_without_a_robot_is_a_frame_to_show_its_topics_in(tmp_path: Path):
         assert (await shown.pose("base"))[0] == pytest.approx([x, y, 0.0], abs=1e-6)
 
     run(tmp_path, work, with_robot=False)
+
+
+@pytest.mark.parametrize(
+    ("kind", "payload", "why"),
+    [
+        ("std_msgs/msg/Header", b"\0\1\0\0", "it is of std_msgs/msg/Header"),
+        ("std_msgs/msg/String", b"\0\1\0\0\xff\xff\0\0", "std_msgs/msg/String"),
+        ("std_msgs/msg/String", b"\0\1\0\0\2\0\0\0a\0", "no <robot> in it"),
+    ],
+)
+def test_a_description_that_is_none_leaves_the_rest_and_says_so(
+    tmp_path: Path, kind: str, payload: bytes, why: str
+):
+    recording = ToldRecording()
+    recording.topic("/robot_description", kind)
+    recording.tell_bytes("/robot_description", 0, payload)
+    recording.topic("/chatter")
+    recording.tell("/chatter", 1000, data="on")
+
+    async def work() -> None:
+        async with engine(tmp_path / "data") as made:
+            document, ear = await opened(made, written(recording, tmp_path / "run"))
+            assert ear.last("document")["is_bare"]
+            [trouble] = ear.last("time_state")["troubles"]
+            assert trouble.startswith("There is no robot")
+            assert why in trouble
+            assert document.title == "run"
+
+    asyncio.run(work())
 
 
 def test_an_open_robot_is_shown_against_the_recorded_one(tmp_path: Path):

@@ -460,6 +460,7 @@ class DocumentTime:
             playing=head.playing,
             rate=head.rate,
             loop=loop,
+            skipping=source is not None and source.is_skipping,
             queue=self._seat.place if self._seat is not None else 0,
             progress=self._progress,
             troubles=tuple(one[:_SENTENCE_MAX] for one in said if one),
@@ -471,7 +472,8 @@ class DocumentTime:
         """Return when it begins and ends, and what is left out of it."""
         if shown is not None and shown.mode == "bag":
             recording = shown.recording
-            return recording.begin_ns, recording.end_ns, recording.troubles
+            troubles = (*shown.troubles, *recording.troubles)
+            return recording.begin_ns, recording.end_ns, troubles
         facts = self._rewinding.facts
         # A page counts on by itself, though nothing may come.
         end_ns = max(facts.end_ns, time.time_ns()) if facts.end_ns else 0

@@ -44,6 +44,8 @@ _READING_S: Final = 0.05
 """So long a tick reads at most."""
 _LATE_NS: Final = 200_000_000
 """Where reading is too slow, and the time falls behind by more, messages are left out."""
+_SKIPPING_S: Final = 3.0
+"""So long it is said that messages were left out."""
 _ELAPSED_MAX_NS: Final = 250_000_000
 """Time does not go further in a tick, as after the machine slept."""
 _AHEAD_NS: Final = 300_000_000
@@ -137,6 +139,7 @@ class RecordingSource(SharedSource):
         self._ticked_ns = time.monotonic_ns()
         self._late_ns = 0
         """By how much the time stayed behind in the last ticks without a pause."""
+        self._skipped_s = -_SKIPPING_S
         self._wake = threading.Event()
         self.on_stop: Callable[[str], object] = _nothing
         """Called in the thread when it came to its end, or could not be read: then why."""
@@ -144,6 +147,11 @@ class RecordingSource(SharedSource):
         self._thread.start()
 
     # Time
+
+    @property
+    def is_skipping(self) -> bool:
+        """Whether messages were left out just now, for they are read more slowly than played."""
+        return self.playhead.playing and time.monotonic() - self._skipped_s < _SKIPPING_S
 
     @property
     def playhead(self) -> Playhead:
@@ -439,7 +447,7 @@ class RecordingSource(SharedSource):
         late_ns = after.at_ns - reached_ns
         self._late_ns = self._late_ns + late_ns if late_ns else 0
         if self._late_ns > _LATE_NS * before.rate:
-            self._late_ns = 0
+            self._late_ns, self._skipped_s = 0, time.monotonic()
             self._go_to(after.at_ns, settled=True)
             reached_ns = after.at_ns
             self._ticked_ns = now_ns  # what that took is time that went by

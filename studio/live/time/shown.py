@@ -25,6 +25,7 @@ class ShownRecording:
         mode: Whether it is a bag, or the last minutes of the live system.
         zero_ns: What the times of pages count from: its beginning, though that may be gone.
         ticks: Its errors and warnings.
+        troubles: Sentences on what of it cannot be shown, for documents that it cannot serve.
     """
 
     def __init__(  # noqa: PLR0913 - the last minutes have their own zero and ticks
@@ -42,6 +43,7 @@ class ShownRecording:
         self.zero_ns = recording.begin_ns if zero_ns is None else zero_ns
         self.ticks = ticks or RecordingTicks(recording)
         self.mode: Literal["past", "bag"] = mode
+        self.troubles: tuple[str, ...] = ()
         self._series: RecordingSeries | None = None
         self._close, self._holders = close, 1
         self._lock = threading.Lock()

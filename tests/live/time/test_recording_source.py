@@ -192,7 +192,9 @@ def test_what_is_read_too_slowly_is_left_out_but_for_the_newest_and_time_goes_on
         flags.clear()
         epoch, before = made.epoch, newest.received
         made.change(lambda head: replace(head, playing=True, rate=10.0))
+        wait_until("it is said", lambda: made.is_skipping)
         assert ended.wait(30)
+        assert not made.is_skipping
         assert 5 < newest.received - before < 200  # of 300 in three seconds
         assert texts(newest.take()) == ["299"]
         assert flags == [BEGIN + number * S + 1 for number in range(30)]
