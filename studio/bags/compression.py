@@ -64,7 +64,7 @@ def decompressed(data: bytes | memoryview, compression: str, size: int) -> bytes
 
 
 def decompressed_begin(data: bytes | memoryview, compression: str, size: int) -> bytes:
-    """Return what can be had of the begin of a frame, the end of which is missing.
+    """Decompress the beginning of a frame whose end is missing, as far as it goes.
 
     Raises:
         DamagedPartError: It is something else.

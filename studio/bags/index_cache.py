@@ -42,7 +42,7 @@ class _About(msgspec.Struct):
 
 @dataclass(frozen=True, slots=True)
 class IndexCache:
-    """Keeps indexes in a folder; None of it is needed: what cannot be read or written is left."""
+    """Keeps indexes in a folder. One that cannot be read or written is made anew from its bag."""
 
     folder: Path
 

@@ -15,7 +15,7 @@ MAGIC: Final = b"\x89MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX = 1, 2, 3, 4, 5, 6, 7
 CHUNK_INDEX, ATTACHMENT, METADATA, STATISTICS, DATA_END = 8, 9, 12, 11, 15
 OPCODES: Final = range(1, 16)
-"""Those of the specification."""
+"""The opcodes that the MCAP specification defines."""
 PRIVATE: Final = 0x80
 """From here on they are a user's own."""
 HEAD: Final = struct.Struct("<BQ")

@@ -154,7 +154,7 @@ class Bookmarks:
         self._file: BookmarkFile | None = None
         self._marks: Sequence[Mark] = ()
         self._past: tuple[int, Sequence[Mark]] = 0, ()
-        """Those of the last minutes, and their zero."""
+        """The bookmarks of the last minutes, and the zero of their times."""
         self._trouble = ""
         self._turn = asyncio.Lock()
 

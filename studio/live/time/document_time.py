@@ -112,7 +112,7 @@ class DocumentTime:
         self._telling: asyncio.Task[None] | None = None
         self._closed = False
         self.others: Callable[[], ShownRecording | None] = lambda: None
-        """What is gone back to instead of the last minutes, as a copy to the bag of its class."""
+        """Returns the bag that a copy rewinds instead of the last minutes: that of its class."""
         self.on_switch: Callable[[], Awaitable[None]] = _nothing
         """Called once topics come from elsewhere."""
         self.on_moment: Callable[[], Awaitable[None]] = _nothing

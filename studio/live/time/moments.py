@@ -1,4 +1,4 @@
-"""What each topic has at a moment of a recording, as far as those need it who show it."""
+"""The messages that subscribers of each topic are given at a moment of a recording."""
 
 from __future__ import annotations
 
