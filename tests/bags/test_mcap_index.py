@@ -38,7 +38,8 @@ def _without_length(_number: int, chunk: ChunkIndex) -> None:
 
 def _sums_that_wrap(number: int, chunk: ChunkIndex) -> None:
     if number == 3:
-        chunk.chunk_start_offset = chunk.chunk_length = FAR
+        chunk.chunk_start_offset = chunk.chunk_length = 2**63 - 1
+        chunk.message_index_length = 102  # 100 in 64 bits, with the two
 
 
 def _channels_unknown(_number: int, chunk: ChunkIndex) -> None:

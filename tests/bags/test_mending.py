@@ -9,6 +9,7 @@ import pytest
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, IndexType, Writer
 
+from studio.bags.compression import PART_BYTES_MAX
 from studio.bags.opening import open_bag
 from tests.support.bags import BEGIN_NS, STRING, Chunks, Told, string_cdr, write_mcap
 from tests.support.damaged_bags import chunks_of, data_at, overwrite
@@ -78,12 +79,12 @@ def test_the_first_messages_of_a_chunk_that_is_cut_off_are_kept(tmp_path: Path):
     assert 140 < len(found.messages) < 160
 
 
-def test_a_message_that_claims_a_file_of_any_size_is_passed_over(tmp_path: Path):
+def test_a_message_that_claims_more_than_it_may_is_passed_over(tmp_path: Path):
     file = write_mcap(tmp_path / "bag.mcap", TOLD, chunked=False)
     at = file.read_bytes().index(string_cdr("text 150")) - 31
-    overwrite(file, at + 1, struct.pack("<Q", 2**38))
+    overwrite(file, at + 1, struct.pack("<Q", PART_BYTES_MAX + 1))
     with file.open("r+b") as stream:
-        stream.truncate(2**28 + 2**20)  # more than any part may have, and no room on the disk
+        stream.truncate(2 * PART_BYTES_MAX)  # takes no room on the disk
     found = read_bag(file, tmp_path / "kept")
     assert found.messages[:150] == as_read(TOLD)[:150]
     assert set(found.messages) <= set(as_read(TOLD))
