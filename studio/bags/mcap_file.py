@@ -337,7 +337,7 @@ def _message_at(data: bytes, channel: int, place: int) -> tuple[int, int, int, i
 def scan_messages(data: bytes, wanted: Mapping[int, Outline]) -> list[Recorded]:
     """Return the messages of some channels among records, in their order; to the first damage."""
     found: list[Recorded] = []
-    take, unpack, outline_of = found.append, MESSAGE_HEAD.unpack_from, wanted.get
+    take, unpack, outline_of, new = found.append, MESSAGE_HEAD.unpack_from, wanted.get, _new
     head, at, last = MESSAGE_HEAD.size, 0, len(data) - MESSAGE_HEAD.size
     while at <= last:
         opcode, length, channel, sequence, log_ns, publish_ns = unpack(data, at)
@@ -347,9 +347,10 @@ def scan_messages(data: bytes, wanted: Mapping[int, Outline]) -> list[Recorded]:
             if outline is not None:
                 if end > last + head or length < MESSAGE_FIELDS_BYTES:
                     break
-                attachment = _new(Attachment, (sequence, publish_ns, outline[1]))
-                sample = _new(RawSample, (data[at + head : end], attachment, log_ns))
-                take(_new(Recorded, (outline[0], sample)))
+                topic, gid = outline
+                attachment = new(Attachment, (sequence, publish_ns, gid))
+                sample = new(RawSample, (data[at + head : end], attachment, log_ns))
+                take(new(Recorded, (topic, sample)))
         at = end
     return found
 

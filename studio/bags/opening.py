@@ -37,7 +37,7 @@ CHUNK_CACHE_BYTES: Final = 64 * 2**20
 INDEX_CACHE_BYTES: Final = 32 * 2**20
 STORAGES: Final = {".mcap": "mcap", ".db3": "sqlite3"}
 ZSTD: Final = ".zstd"
-KEPT_AFTER_S: Final = 0.1
+KEPT_AFTER_S: Final = 0.03
 """An index that took longer to make is kept in the data folder."""
 
 
