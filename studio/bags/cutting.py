@@ -69,13 +69,12 @@ def write_recording(  # noqa: PLR0913 - a part has two ends
             if untold >= _REPORT_EVERY or untold_bytes >= _REPORT_EVERY_BYTES:
                 untold = untold_bytes = 0
                 progress((sample.received_ns - begin_ns) / (end_ns - begin_ns))
-        written = writer.close()
+        progress(1.0)
+        return writer.close()
     except BaseException:
         writer.abandon()
         shutil.rmtree(writer.path, ignore_errors=True)
         raise
-    progress(1.0)
-    return written
 
 
 def _chosen(recording: Recording, topics: Iterable[str]) -> list[RecordedTopic]:
