@@ -93,7 +93,8 @@ class WritingThread:
 
     def close(self) -> Written:
         """Write all that waits, and complete the bag; `trouble` says whether that succeeded."""
-        self._is_closing = True
+        with self._lock:  # what is being posted is written, or counted as lost
+            self._is_closing = True
         self._is_due.set()
         self._thread.join()
         return self._writer.close()
