@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
+    from pathlib import Path
 
     import numpy as np
     from numpy.typing import NDArray
@@ -58,6 +59,14 @@ class Recorded(NamedTuple):
 
     topic: str
     sample: RawSample
+
+
+class Split(NamedTuple):
+    """The place at which one file of a bag ends and the next begins; `begin_ns` is the next's."""
+
+    begin_ns: int
+    closed: Path
+    opened: Path
 
 
 class Recording(Protocol):
