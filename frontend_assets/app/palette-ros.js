@@ -1,5 +1,6 @@
 /** What the palette offers of ROS 2: lessons, their demos, and command lines of `ros2`. */
 
+/** @import { BagLine } from "../lib/bag-lines.js" */
 /** @import { Ros2Line } from "../lib/ros2-lines.js" */
 /** @import { LessonView } from "../types/wire.d.ts" */
 /** @import { Choice } from "./palette-choices.js" */
@@ -218,7 +219,18 @@ function followInPanel({ panel, about, form }, rest, text) {
 function followBagLine(text) {
   const line = readBagLine(text);
   if (line?.verb === "record") prepareRecording(line.form);
-  else void openBagNamed(line?.path ?? "");
+  else void openBagNamed(line?.paths[0] ?? "");
+  for (const sentence of line ? unsaidOf(line) : []) notify(sentence, { long: true });
+}
+
+/** @param {BagLine} line @returns {string[]} what the page does not do of it */
+function unsaidOf(line) {
+  const [opened = "", ...others] = line.verb === "record" ? [] : line.paths;
+  const sentences = [];
+  if (others.length > 0) sentences.push(t("line.bag.one", { opened, others: others.join(", ") }));
+  if (line.leftOut.length > 0)
+    sentences.push(t("line.bag.left_out", { words: line.leftOut.join(", ") }));
+  return sentences;
 }
 
 /** @param {string} name @returns {string} */

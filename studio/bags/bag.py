@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import heapq
+import itertools
 import threading
 from functools import cached_property
 from typing import TYPE_CHECKING, Final
@@ -14,7 +15,7 @@ from studio.bags import queries
 from studio.bags.blocks import Columns, Outline
 from studio.bags.metadata import profiles_of
 from studio.bags.metadata_text import BagDescription, Span
-from studio.bags.recording import RecordedTopic
+from studio.bags.recording import RecordedTopic, Split
 from studio.bags.schemas import types_of
 from studio.errors import RecordingError
 from studio.files import stamp_of
@@ -46,6 +47,7 @@ class Bag:
         path: As it was asked for.
         storage: `mcap` or `sqlite3`.
         distro: That it was recorded with; empty: it does not say.
+        splits: Where one file of it ends and the next begins, in their order.
         metadata: What `metadata.yaml` says; None without one.
     """
 
@@ -73,6 +75,7 @@ class Bag:
         self.distro = next((distro for distro in told if distro), "")
         self.files = tuple(sources)
         self._read = tuple(files)
+        self.splits = _splits(files, sources)
         self._own_troubles = tuple(troubles)
         self._stamps = [stamp_of(one) for one in sources]
         self._channels = _chosen_channels(files)
@@ -89,7 +92,11 @@ class Bag:
         files = [file for one in bags for file in one._read]
         sources = [source for one in bags for source in one.files]
         troubles = [trouble for one in bags for trouble in one._own_troubles]
-        return cls(first.path, first.storage, files, sources, first.metadata, troubles)
+        made = cls(first.path, first.storage, files, sources, first.metadata, troubles)
+        made.splits = tuple(
+            sorted((split for one in bags for split in one.splits), key=lambda one: one.begin_ns)
+        )
+        return made
 
     @property
     def title(self) -> str:
@@ -349,6 +356,18 @@ class Bag:
         for i, channel in self._channels.get(topic, ()):
             queries.add_counts(self._read[i], channel.key, edges, counts)
         return counts
+
+
+def _splits(files: Sequence[BlockFile], sources: Sequence[Path]) -> tuple[Split, ...]:
+    """Return where the files of one bag change; none begins before those that stand before it."""
+    spans = [one.table.span_ns if len(one.table.begins_ns) else (0, 0) for one in files]
+    begins_ns = itertools.accumulate((begin for begin, _ in spans), max)
+    return tuple(
+        Split(begin_ns, closed, opened)
+        for begin_ns, (closed, opened) in zip(
+            itertools.islice(begins_ns, 1, None), itertools.pairwise(sources), strict=True
+        )
+    )
 
 
 def _span_of(file: BlockFile) -> Span:

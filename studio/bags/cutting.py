@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from typing import TYPE_CHECKING, Final
 
+from studio.bags.recording import latched_count
 from studio.bags.writer import BagWriter
 from studio.errors import RecordingError
 
@@ -15,9 +16,6 @@ if TYPE_CHECKING:
     from studio.bags.recording import RecordedTopic, Recording
     from studio.bags.writer import Storing, Written
 
-_TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
-_BROADCASTERS_MAX: Final = 1_000
-_DEPTH_MAX: Final = 100
 _REPORT_EVERY: Final = 500
 """Messages between two reports of progress, unless they are large."""
 _REPORT_EVERY_BYTES: Final = 8_000_000
@@ -60,7 +58,7 @@ def write_recording(  # noqa: PLR0913 - a part has two ends
         numbers = {topic.name: writer.add_topic(topic) for topic in chosen}
         for topic in chosen:
             if topic.is_latched:
-                for sample in recording.last(topic.name, begin_ns - 1, _kept(topic)):
+                for sample in recording.last(topic.name, begin_ns - 1, latched_count(topic)):
                     writer.write(numbers[topic.name], sample._replace(received_ns=begin_ns))
         untold = untold_bytes = 0
         for topic, sample in recording.messages(numbers, begin_ns, end_ns):
@@ -86,11 +84,3 @@ def _chosen(recording: Recording, topics: Iterable[str]) -> list[RecordedTopic]:
             f"It has no topic {missing[0][:200]}: studio bag info names those that it has."
         )
     return [known[name] for name in names] if names else list(known.values())
-
-
-def _kept(topic: RecordedTopic) -> int:
-    """Return how many messages of a latched topic a late subscriber would have been given."""
-    if topic.type_name == _TRANSFORMS:  # many nodes broadcast, each keeps its last
-        return _BROADCASTERS_MAX
-    # That of a publisher that keeps all is 0.
-    return min(max((one.depth for one in topic.qos), default=1) or _DEPTH_MAX, _DEPTH_MAX)

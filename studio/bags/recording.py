@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
+    from pathlib import Path
 
     import numpy as np
     from numpy.typing import NDArray
@@ -17,6 +18,11 @@ if TYPE_CHECKING:
 
 LATCHED_BY_NAME: Final = frozenset({"/tf_static", "/robot_description", "/map"})
 """Taken as latched where a recording does not say how they were published."""
+KEPT_MAX: Final = 1_000
+"""So many messages of a latched topic are given to late subscribers at most."""
+_DEPTH_UNKNOWN: Final = 10
+"""That of a publisher whose depth was not recorded, as with DDS: ROS's usual one."""
+_TRANSFORM_TYPE: Final = "tf2_msgs/msg/TFMessage"
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +59,38 @@ class RecordedTopic:
         return any(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in self.qos)
 
 
+def latched_count(topic: RecordedTopic) -> int:
+    """Return how many last messages of a latched topic a late subscriber would have been given.
+
+    Each publisher gives as many as it keeps, and a bag does not tell whose a message is: of their
+    last ones together those of a quiet publisher may be missing, the more the fewer are taken.
+    So the depths are added up. Static transforms add up besides, and a bag does not tell of
+    publishers that came after its topic was first met: of those all are taken that may be.
+    """
+    from studio.ros.qos import HistoryPolicy  # noqa: PLC0415 - values alone need none of ros
+
+    if topic.type_name == _TRANSFORM_TYPE:
+        return KEPT_MAX
+    kept = [
+        KEPT_MAX if one.history is HistoryPolicy.KEEP_ALL else one.depth or _DEPTH_UNKNOWN
+        for one in topic.qos
+    ]
+    return min(KEPT_MAX, sum(kept) or _DEPTH_UNKNOWN)
+
+
 class Recorded(NamedTuple):
     """A message and its topic."""
 
     topic: str
     sample: RawSample
+
+
+class Split(NamedTuple):
+    """The place at which one file of a bag ends and the next begins; `begin_ns` is the next's."""
+
+    begin_ns: int
+    closed: Path
+    opened: Path
 
 
 class Recording(Protocol):

@@ -36,6 +36,21 @@ _INSTEAD: Final = {
     "apt": "the studio needs no ROS to be installed",
 }
 """Commands of a shell that courses print, and what there is here."""
+_BAG_INSTEAD: Final = {
+    "burst": (
+        "studio bag play BAG --start-paused waits, and the service /rosbag2_player/burst "
+        "(rosbag2_interfaces/srv/Burst) plays as many messages as num_messages says"
+    ),
+    "convert": (
+        "studio bag cut IN OUT writes the whole bag anew, with the storage and the compression of "
+        "its options, as -s sqlite3"
+    ),
+    "list": (
+        "there are no plugins to list, mcap and sqlite3 are read and written, and studio bag info "
+        "BAG says what a bag is"
+    ),
+}
+"""Verbs of `ros2 bag` that are not offered."""
 
 
 class MendingParser(argparse.ArgumentParser):
@@ -63,6 +78,8 @@ def instead_of(arguments: Sequence[str]) -> str | None:
             "the demo lifecycle_service_client is not here: studio lifecycle get NODE says the "
             "state of a node, and studio lifecycle set NODE configure changes it (ros2 has both)."
         )
+    if word == "bag" and (instead := _BAG_INSTEAD.get(words[1] if len(words) > 1 else "")):
+        return f"bag {words[1]} is not here: {instead}."
     instead = _INSTEAD.get(word)
     return None if instead is None else f"{word} is no command of the studio: {instead}."
 

@@ -41,6 +41,9 @@ def test_a_line_may_be_pasted_with_its_ros2():
         ("rqt_graph", "Node graph"),
         ("rviz2 -d x.rviz", "studio open"),
         ("ros2 doctor --report --include-dds", "studio doctor --report"),
+        ("ros2 bag convert -i bag1 -o out.yaml", "studio bag cut IN OUT"),
+        ("ros2 bag burst bag1 --num-messages 5", "/rosbag2_player/burst"),
+        ("bag list storage", "mcap and sqlite3"),
         ("ros2 run lifecycle lifecycle_service_client --ros-args", "studio lifecycle get NODE"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError
@@ -117,15 +118,23 @@ class RecordedGraph:
 
 
 class RecordedParameters:
-    """Parameters of nodes as far as their changes were recorded."""
+    """Parameters of nodes as far as their changes were recorded.
+
+    What was read up to a moment is kept: where time went on since, only what came meanwhile is
+    read.
+    """
 
     def __init__(self, source: RecordingSource) -> None:
         self._source = source
+        self._decode = decoder(source, _EVENT_TYPE)
+        self._reading = threading.Lock()
+        self._read_ns = -1
+        """The moment up to which events were read; -1: not yet."""
+        self._nodes: dict[str, dict[str, ParameterView]] = {}
 
     async def nodes(self, command: GetParameterNodes) -> ParameterNodes:
         """Return the nodes whose parameters changed while it was recorded, up to the moment."""
-        events = await asyncio.to_thread(self._events)
-        nodes = tuple(sorted({str(one.node) for one in events}))
+        nodes = await asyncio.to_thread(self._node_names)
         return ParameterNodes(request=command.request, nodes=nodes)
 
     async def parameters(self, command: GetParameters) -> Parameters:
@@ -135,24 +144,42 @@ class RecordedParameters:
             CommandError: None of it is recorded.
         """
         node = f"/{command.node.removeprefix('/')}"
-        found = await asyncio.to_thread(self._parameters, node)
-        if found is None:
+        views = await asyncio.to_thread(self._views, node)
+        if views is None:
             raise CommandError(f"No change of a parameter of {node} is recorded up to this moment.")
-        views = tuple(view for _, view in sorted(found.items()))
         return Parameters(request=command.request, node=node, parameters=views)
 
-    def _events(self) -> list[MessageValue]:
-        decode, recording = decoder(self._source, _EVENT_TYPE), self._source.recording
-        return [decode(one) for one in recording.last(_EVENTS, self._source.now_ns, _EVENTS_MAX)]
+    def _node_names(self) -> tuple[str, ...]:
+        with self._reading:
+            self._read()
+            return tuple(sorted(self._nodes))
 
-    def _parameters(self, node: str) -> dict[str, ParameterView] | None:
+    def _views(self, node: str) -> tuple[ParameterView, ...] | None:
+        with self._reading:
+            self._read()
+            found = self._nodes.get(node)
+            return None if found is None else tuple(view for _, view in sorted(found.items()))
+
+    def _read(self) -> None:
+        """Read what came since the last time; from the beginning after a jump back."""
+        now_ns = self._source.now_ns
+        if now_ns == self._read_ns:
+            return
+        goes_on = 0 <= self._read_ns < now_ns
+        since_ns = self._read_ns + 1 if goes_on else 0
+        samples = self._source.recording.last(_EVENTS, now_ns, _EVENTS_MAX, since_ns)
+        events = [self._decode(one) for one in samples]
+        if not goes_on or len(events) == _EVENTS_MAX:  # what lies between may say otherwise
+            self._nodes.clear()
+        for event in events:
+            self._apply(event)
+        self._read_ns = now_ns
+
+    def _apply(self, event: MessageValue) -> None:
         from studio.live.panels.parameter_work import changed_view  # noqa: PLC0415 - zenoh
 
-        events = [one for one in self._events() if str(one.node) == node]
-        found: dict[str, ParameterView] = {}
-        for event in events:
-            for one in (*event.new_parameters, *event.changed_parameters):
-                found[str(one.name)] = changed_view(one)
-            for one in event.deleted_parameters:
-                found.pop(str(one.name), None)
-        return found if events else None
+        found = self._nodes.setdefault(str(event.node), {})
+        for one in (*event.new_parameters, *event.changed_parameters):
+            found[str(one.name)] = changed_view(one)
+        for one in event.deleted_parameters:
+            found.pop(str(one.name), None)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from typing_extensions import override
 
+from studio.bags.recording import latched_count
 from studio.errors import (
     BagError,
     RecordingError,
@@ -555,9 +556,7 @@ def _depth(topic: RecordedTopic, depth: int) -> int:
     if topic.name == TF:
         return TF_MAX
     if is_latched(topic):
-        offered = sum(max(1, one.depth) for one in topic.qos)
-        least = DEPTH_MAX if topic.name == "/tf_static" else offered
-        return min(DEPTH_MAX, max(depth, least))
+        return min(DEPTH_MAX, max(depth, latched_count(topic)))
     return depth
 
 

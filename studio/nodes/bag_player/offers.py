@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
+from studio.bags.recording import KEPT_MAX, latched_count
 from studio.errors import RosNameError, UnknownTypeError
 from studio.nodes.recorded_topics import SERVICE_EVENTS, check_expressions
 from studio.ros.node.publisher import RawPublisher
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
 
 DEPTH: Final = 10
 """As rosbag2: how many samples were kept then says nothing of those who listen now."""
-_KEPT_MAX: Final = 1_000
-_TRANSFORM_TYPE: Final = "tf2_msgs/msg/TFMessage"
-_TRANSFORMS: Final = 100
 _OF_EVERY_NODE: Final = ("/rosout", "/parameter_events")
 
 
@@ -167,17 +165,8 @@ def _opened(
     endpoint = node.endpoint(kind, topic.type_name, topic.name, qos, type_hash)
     publisher = RawPublisher(endpoint)
     node.on_destroy(publisher.destroy)
-    kept = (qos.depth or DEPTH) if topic.name in overrides else _kept(topic)
-    return Offer(topic, qos, publisher, min(_KEPT_MAX, kept))
-
-
-def _kept(topic: RecordedTopic) -> int:
-    """Return how many messages of a latched topic late subscribers got.
-
-    Static transforms add up, and bags do not tell of publishers that came later.
-    """
-    kept = min(_KEPT_MAX, sum(one.depth for one in topic.qos) or DEPTH)
-    return max(kept, _TRANSFORMS) if topic.type_name == _TRANSFORM_TYPE else kept
+    kept = (qos.depth or DEPTH) if topic.name in overrides else latched_count(topic)
+    return Offer(topic, qos, publisher, min(KEPT_MAX, kept))
 
 
 def _qos_of(node: Node, topic: RecordedTopic, overrides: Mapping[str, QoSProfile]) -> QoSProfile:
@@ -186,10 +175,10 @@ def _qos_of(node: Node, topic: RecordedTopic, overrides: Mapping[str, QoSProfile
         return given
     if not topic.qos and topic.is_latched:
         latched = DurabilityPolicy.TRANSIENT_LOCAL
-        return QoSProfile(depth=_kept(topic), durability=latched)
+        return QoSProfile(depth=latched_count(topic), durability=latched)
     if (found := offered_qos(topic.qos)) is not None:
         if found.durability is DurabilityPolicy.TRANSIENT_LOCAL:
-            return replace(found, depth=max(found.depth, _kept(topic)))
+            return replace(found, depth=max(found.depth, latched_count(topic)))
         return found
     node.get_logger().warning(
         f"Not all original publishers on topic {topic.name} offered the same QoS profiles. It is "

@@ -12,14 +12,15 @@ from studio.errors import BagError, DestroyedError
 from studio.nodes.bag_player.offers import full_names, learn_types, open_offers
 from studio.nodes.bag_player.pace import Pace
 from studio.nodes.bag_player.read_ahead import ReadAhead
+from studio.nodes.bag_player.split_events import SplitEvents
 from studio.ros.condition import Condition
 from studio.ros.duration import NANOSECONDS
 from studio.ros.node.clock import CLOCK_QOS, CLOCK_TOPIC, Clock, ClockType
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
-    from studio.bags.recording import Recording
+    from studio.bags.recording import Recording, Split
     from studio.nodes.bag_player.offers import Offer
     from studio.nodes.bag_player.options import PlayOptions
     from studio.ros.client import Node
@@ -42,6 +43,7 @@ class BagPlayer:
         recording: Read from a thread of the player's; close it after `stop`.
         options: See there.
         ended: Called in the player's thread when it has ended.
+        splits: Where the files of the recording change, for those who follow that.
     """
 
     def __init__(
@@ -50,6 +52,7 @@ class BagPlayer:
         recording: Recording,
         options: PlayOptions,
         ended: Callable[[], object] = lambda: None,
+        splits: Sequence[Split] = (),
     ) -> None:
         self._node, self._log = node, node.get_logger()
         self._recording, self._options, self._ended = recording, options, ended
@@ -66,6 +69,7 @@ class BagPlayer:
         """Why the recording could not be played to its end; None: nothing was wrong."""
         self.set_rate(options.rate)
         self._offers = self._opened_offers()
+        self._splits = SplitEvents(node, splits)
         self._clock_topics = options.clock_topics and full_names(options.clock_topics)
         self._clock_kind = node.wire.types.message("rosgraph_msgs/msg/Clock")
         self._clock_out, self._clock_timer = None, None
@@ -157,6 +161,7 @@ class BagPlayer:
         """Stop, and publish no more: the node stays; again is harmless."""
         self.stop()
         self._node.forget_destroy(self.stop)
+        self._splits.close()
         for offer in self._offers.values():
             offer.publisher.destroy()
         if self._clock_timer is not None:
@@ -315,6 +320,7 @@ class BagPlayer:
         self._reading = ReadAhead(self._lock, self._changed, messages, self._options.read_ahead)
         self._gone_to_ns = at_ns
         self._pace.jump(at_ns)
+        self._splits.restart()
         self._tell(at_ns)
         for one in latched:
             self._send(one)
@@ -352,6 +358,7 @@ class BagPlayer:
             while (reading := self._reading) is not None and not self._is_stopping:
                 head = reading.head()
                 if head is None and reading.is_over and not self._pace.is_paused:
+                    self._splits.tell_until(self._end_ns())  # files may have nothing to play
                     return False
                 left_s = self._left_s(reading, head)
                 if head is not None and left_s <= 0:
@@ -393,6 +400,7 @@ class BagPlayer:
         return False
 
     def _publish(self, one: Recorded) -> None:
+        self._splits.tell_until(one.sample.received_ns)
         triggers = self._clock_topics
         if triggers is not None and (not triggers or one.topic in triggers):
             self._tell(one.sample.received_ns)

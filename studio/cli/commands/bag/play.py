@@ -22,7 +22,7 @@ from studio.ros.duration import NANOSECONDS
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
 
-    from studio.bags.recording import Recording
+    from studio.bags.bag import Bag
     from studio.cli.own_node import OwnNode
     from studio.cli.verbs import Verbs
     from studio.nodes.bag_player.options import PlayOptions
@@ -222,16 +222,14 @@ def _paths(options: argparse.Namespace) -> list[Path]:
         raise SettingsError(str(error)) from None
 
 
-def _play(
-    own: OwnNode, options: argparse.Namespace, recording: Recording, played: PlayOptions
-) -> int:
+def _play(own: OwnNode, options: argparse.Namespace, bag: Bag, played: PlayOptions) -> int:
     from studio.nodes.bag_player.player import BagPlayer
     from studio.nodes.bag_player.services import serve_player
     from studio.ros.node.logger import LoggingSeverity
 
     own.node.get_logger().set_level(LoggingSeverity[options.log_level.upper()])
     guard = own.node.create_guard_condition(lambda: None)
-    player = BagPlayer(own.node, recording, played, ended=guard.trigger)
+    player = BagPlayer(own.node, bag, played, guard.trigger, bag.splits)
     try:
         serve_player(own.node, player)
         with _keys(options, own, player), _progress(options.progress_bar_update_rate, player):
