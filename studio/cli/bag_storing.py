@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from studio.bags.mcap_writer import ChunkCompression, Chunking
     from studio.bags.writer import Storing
 
-_LEVELS: Final[Mapping[str, int]] = {
+STORAGES: Final = ("mcap", "sqlite3")
+"""Those of `bags.writer`, which takes its time to import; the first is the usual one."""
+_ZSTD_LEVELS: Final[Mapping[str, int]] = {
     "Fastest": -5, "Fast": -3, "Default": 1, "Slow": 5, "Slowest": 19,
 }  # fmt: skip
 """Levels of zstd's by the names of rosbag2's mcap storage."""
@@ -26,7 +28,7 @@ _CHUNK_BYTES_MAX: Final = 1024**3
 def add_storing_options(parser: argparse.ArgumentParser) -> None:
     """Add them."""
     group = parser.add_argument_group("how it is stored")
-    group.add_argument("-s", "--storage", choices=("mcap", "sqlite3"), default="mcap")
+    group.add_argument("-s", "--storage", choices=STORAGES, default=STORAGES[0])
     group.add_argument(
         "-b", "--max-bag-size", type=int, default=0, metavar="BYTES", help="then another file"
     )
@@ -98,9 +100,9 @@ def _chunking(options: argparse.Namespace) -> Chunking:
     if file is not None:
         return _configured(file)
     if preset == "zstd_fast":
-        return Chunking(compression="zstd", level=_LEVELS["Fastest"], with_crc=False)
+        return Chunking(compression="zstd", level=_ZSTD_LEVELS["Fastest"], with_crc=False)
     if preset == "zstd_small":
-        return Chunking(bytes=4 * 1024 * 1024, compression="zstd", level=_LEVELS["Slowest"])
+        return Chunking(bytes=4 * 1024 * 1024, compression="zstd", level=_ZSTD_LEVELS["Slowest"])
     return Chunking(with_crc=preset != "fastwrite")
 
 
@@ -126,7 +128,7 @@ def _configured(file: Path) -> Chunking:
     chunking = Chunking(
         bytes=size,
         compression=_one_of(file, given, "compression", "None", _COMPRESSIONS),
-        level=_one_of(file, given, "compressionLevel", "Default", _LEVELS),
+        level=_one_of(file, given, "compressionLevel", "Default", _ZSTD_LEVELS),
         with_crc=not given.pop("noChunkCRC", False),
     )
     for key, value in given.items():

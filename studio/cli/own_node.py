@@ -7,7 +7,7 @@ import sys
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from studio.cli.graph import full_name, settle
 from studio.cli.wire import opened_wire
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from studio.ros.node.node import Node
     from studio.ros.node.task import Future
     from studio.ros.types.library import TypeLibrary
+
+LOG_LEVELS: Final = ("debug", "info", "warn", "error", "fatal")
+"""What `--log-level` takes; see `set_log_level`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +98,13 @@ def own_node(
             yield OwnNode(node, node.graph, wire.types, executor)
         finally:
             context.shutdown()
+
+
+def set_log_level(own: OwnNode, options: argparse.Namespace) -> None:
+    """Let the node say what `--log-level` wants."""
+    from studio.ros.node.logger import LoggingSeverity
+
+    own.node.get_logger().set_level(LoggingSeverity[options.log_level.upper()])
 
 
 def learn_type(own: OwnNode, endpoints: Iterable[GraphEndpoint]) -> None:

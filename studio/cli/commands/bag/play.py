@@ -11,9 +11,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from studio.cli.bag_storing import STORAGES
 from studio.cli.keys import watching_keys
 from studio.cli.numbers import count, whole
-from studio.cli.own_node import own_node
+from studio.cli.own_node import LOG_LEVELS, own_node, set_log_level
 from studio.cli.refused import refuse_options
 from studio.cli.wire import STARTING, add_wire_options
 from studio.errors import SettingsError
@@ -33,8 +34,6 @@ _READ_AHEAD: Final = 1_000
 _RATE_STEP: Final = 0.1
 _LATER_S: Final = 0.1
 """So long it stays after the last message, which would else be under way."""
-_LEVELS: Final = ("debug", "info", "warn", "error", "fatal")
-_STORAGES: Final = ("mcap", "sqlite3")
 
 
 def add(verbs: Verbs) -> None:
@@ -150,8 +149,8 @@ def _add_rest(play: argparse.ArgumentParser) -> None:
         "--wait-for-all-acked", type=whole, default=None, metavar="MILLISECONDS",
         help="is taken, and changes nothing: Zenoh tells nobody what has arrived",
     )  # fmt: skip
-    play.add_argument("--log-level", choices=_LEVELS, default="info", help="what is said of it")
-    play.add_argument("-s", "--storage", choices=_STORAGES, help=argparse.SUPPRESS)
+    play.add_argument("--log-level", choices=LOG_LEVELS, default="info", help="what is said of it")
+    play.add_argument("-s", "--storage", choices=STORAGES, help=argparse.SUPPRESS)
     play.add_argument("--storage-config-file", type=Path, help=argparse.SUPPRESS)
     play.add_argument("--disable-loan-message", action="store_true", help=argparse.SUPPRESS)
     play.add_argument("--publish-service-requests", action="store_true", help=argparse.SUPPRESS)
@@ -225,9 +224,8 @@ def _paths(options: argparse.Namespace) -> list[Path]:
 def _play(own: OwnNode, options: argparse.Namespace, bag: Bag, played: PlayOptions) -> int:
     from studio.nodes.bag_player.player import BagPlayer
     from studio.nodes.bag_player.services import serve_player
-    from studio.ros.node.logger import LoggingSeverity
 
-    own.node.get_logger().set_level(LoggingSeverity[options.log_level.upper()])
+    set_log_level(own, options)
     guard = own.node.create_guard_condition(lambda: None)
     player = BagPlayer(own.node, bag, played, guard.trigger, bag.splits)
     try:

@@ -14,7 +14,7 @@ from studio.cli.bag_storing import add_storing_options, storing_of
 from studio.cli.graph import full_name
 from studio.cli.keys import watching_keys
 from studio.cli.numbers import whole
-from studio.cli.own_node import own_node
+from studio.cli.own_node import LOG_LEVELS, own_node, set_log_level
 from studio.cli.refused import refuse_options
 from studio.cli.wire import add_wire_options
 from studio.errors import SettingsError
@@ -36,7 +36,6 @@ _LEFT_OUT: Final = {
     "compression_threads_priority": "one thread compresses, with the priority of the process",
 }
 """Options that are accepted and change nothing, with the reason."""
-_LEVELS: Final = ("debug", "info", "warn", "error", "fatal")
 _OF_LATER_DISTROS: Final = {
     "--actions": "name the topics of an action, as --topics /turn/_action/feedback",
     "--all-actions": "actions are hidden topics: --include-hidden-topics -e _action/ records them",
@@ -119,7 +118,7 @@ def _add_manner(record: argparse.ArgumentParser) -> None:
         help="how long messages are kept for snapshots (default: as many as fit)",
     )  # fmt: skip
     group.add_argument("--disable-keyboard-controls", action="store_true", help="no SPACE")
-    group.add_argument("--log-level", choices=_LEVELS, default="info", help="what is said of it")
+    group.add_argument("--log-level", choices=LOG_LEVELS, default="info", help="what is said of it")
     for name in _LEFT_OUT:
         group.add_argument(f"--{name.replace('_', '-')}", type=int, help=argparse.SUPPRESS)
 
@@ -140,11 +139,10 @@ def _record(
 ) -> int:
     from studio.nodes.bag_recorder import BagRecorder
     from studio.nodes.bag_recorder_services import serve_recorder
-    from studio.ros.node.logger import LoggingSeverity
     from studio.ros.parameters.parameter import Parameter
 
+    set_log_level(own, options)
     logger = own.node.get_logger()
-    logger.set_level(LoggingSeverity[options.log_level.upper()])
 
     def say(sentence: str) -> None:
         if sentence.startswith("WARNING: "):

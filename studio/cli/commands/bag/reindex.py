@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from studio.cli.bag_storing import STORAGES
 from studio.cli.terminal import shown
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def add(verbs: Verbs) -> None:
         "studio bag cut.",
     )
     reindex.add_argument("bag", type=Path, help="its folder")
-    reindex.add_argument("-s", "--storage", choices=("mcap", "sqlite3"), help="of its files")
+    reindex.add_argument("-s", "--storage", choices=STORAGES, help="of its files")
 
 
 def _run(options: argparse.Namespace) -> int:
