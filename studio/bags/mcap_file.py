@@ -28,12 +28,12 @@ from studio.ros.attachment import Attachment
 from studio.ros.node.samples import RawSample
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from studio.bags.blocks import BlockTable, Definition, Outline
+    from studio.bags.blocks import BlockTable, Definition, Outline, Scan
     from studio.bags.bounded_cache import BoundedCache
 
 _INDEX_REGION_MAX: Final = 64 * 2**20
@@ -190,23 +190,10 @@ class McapFile:
             self._tell(f"A message of {self.path.name} is left out: {error.reason}.")
             return None
 
-    def scanned(
-        self, block: int, wanted: Mapping[int, Outline], *, keep: bool = True
-    ) -> list[Recorded]:
-        """Return all messages of some channels in a block, as they lie in the file."""
-        data = self._data(block, keep=keep)
-        if data is None:
-            return []
-        found = scan_messages(data, wanted)
-        return self._all_whole(found) if self.compresses_messages else found
-
-    def _all_whole(self, found: list[Recorded]) -> list[Recorded]:
-        made: list[Recorded] = []
-        for topic, sample in found:
-            payload = self._whole(sample.payload)
-            if payload is not None:
-                made.append(Recorded(topic, sample._replace(payload=payload)))
-        return made
+    def scanned(self, block: int, wanted: Mapping[int, Outline], *, keep: bool = True) -> Scan:
+        """Return all messages of some channels in a block; those before the first damage."""
+        data = self._data(block, keep=keep) or b""
+        return McapScan(data, wanted, self._whole if self.compresses_messages else None)
 
     def columns(self, block: int, channel: int) -> Columns | None:
         """Return the payloads of a channel in a block; None: there are none, or it is damaged."""
@@ -334,25 +321,50 @@ def _message_at(data: bytes, channel: int, place: int) -> tuple[int, int, int, i
     return sequence, log_ns, publish_ns, until
 
 
-def scan_messages(data: bytes, wanted: Mapping[int, Outline]) -> list[Recorded]:
-    """Return the messages of some channels among records, in their order; to the first damage."""
-    found: list[Recorded] = []
-    take, unpack, outline_of, new = found.append, MESSAGE_HEAD.unpack_from, wanted.get, _new
-    head, at, last = MESSAGE_HEAD.size, 0, len(data) - MESSAGE_HEAD.size
-    while at <= last:
-        opcode, length, channel, sequence, log_ns, publish_ns = unpack(data, at)
-        end = at + 9 + length
-        if opcode == MESSAGE:
-            outline = outline_of(channel)
-            if outline is not None:
-                if end > last + head or length < MESSAGE_FIELDS_BYTES:
+class McapScan:
+    """The messages of some channels among records; see `Scan`.
+
+    Attributes:
+        times_ns: When each came.
+    """
+
+    def __init__(
+        self,
+        data: bytes,
+        wanted: Mapping[int, Outline],
+        whole: Callable[[bytes], bytes | None] | None = None,
+    ) -> None:
+        """Find them, up to the first damage; `whole` decompresses a message."""
+        self._data, self._wanted, self._whole = data, wanted, whole
+        self._heads: list[tuple[int, ...]] = []
+        self._ends: list[int] = []
+        take, ends, unpack = self._heads.append, self._ends.append, MESSAGE_HEAD.unpack_from
+        at, last = 0, len(data) - MESSAGE_HEAD.size
+        while at <= last:
+            head = unpack(data, at)
+            length = head[1]
+            at += 9 + length
+            if head[0] == MESSAGE and head[2] in wanted:
+                if at > len(data) or length < MESSAGE_FIELDS_BYTES:
                     break
-                topic, gid = outline
-                attachment = new(Attachment, (sequence, publish_ns, gid))
-                sample = new(RawSample, (data[at + head : end], attachment, log_ns))
-                take(new(Recorded, (topic, sample)))
-        at = end
-    return found
+                take(head)
+                ends(at)
+        self.times_ns = [head[4] for head in self._heads]
+
+    def made(self, numbers: Iterable[int]) -> Iterator[Recorded]:
+        """Yield those, without the ones that are damaged."""
+        data, wanted, whole, new = self._data, self._wanted, self._whole, _new
+        heads, ends = self._heads, self._ends
+        for number in numbers:
+            _, length, channel, sequence, log_ns, publish_ns = heads[number]
+            end = ends[number]
+            payload = data[end - length + MESSAGE_FIELDS_BYTES : end]
+            if whole is not None and (payload := whole(payload)) is None:
+                continue
+            topic, gid = wanted[channel]
+            attachment = new(Attachment, (sequence, publish_ns, gid))
+            sample = new(RawSample, (payload, attachment, log_ns))
+            yield new(Recorded, (topic, sample))
 
 
 def scan_entries(data: bytes) -> dict[int, Entries]:

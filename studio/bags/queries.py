@@ -10,7 +10,7 @@ import numpy as np
 from studio.bags.recording import Recorded
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -40,7 +40,7 @@ class Place(NamedTuple):
 class _Waiting(NamedTuple):
     """A message that waits for those of later blocks; the places of no two are equal.
 
-    One that is held has its number within the block as its place, which sorts in the same way.
+    One that is held has its number in the block as its place, which sorts in the same way.
     """
 
     place: Place
@@ -163,20 +163,22 @@ def messages(
     waiting: list[_Waiting] = []
     for block, following in zip(blocks, [*blocks[1:], None], strict=False):
         until_ns = end_ns if following is None else int(table.begins_ns[following])
-        alone: list[Recorded] = []
+        alone: Iterable[Recorded] = ()
         if _held_bytes(waiting) < _HELD_BYTES_MAX:
-            found = file.scanned(block, channels, keep=keep)
-            found = _in_order(table, block, found, (begin_ns, end_ns))
+            scan = file.scanned(block, channels, keep=keep)
+            found = _in_order(table, block, scan.times_ns, (begin_ns, end_ns))
             if not waiting and (following is None or _is_before(table, block, following)):
-                yield from found
+                yield from scan.made(found)
                 continue
-            first = bisect_right(found, waiting[-1].place.time_ns, key=_time_ns) if waiting else 0
-            last = max(first, bisect_left(found, until_ns, key=_time_ns))
-            alone = found[first:last]
+            time_ns = scan.times_ns.__getitem__
+            first = bisect_right(found, waiting[-1].place.time_ns, key=time_ns) if waiting else 0
+            last = max(first, bisect_left(found, until_ns, key=time_ns))
+            alone = scan.made(found[first:last])
             start = int(table.starts[block])
             waiting += [
-                _Waiting(Place(_time_ns(found[i]), start, i, block, -1), found[i])
-                for i in (*range(first), *range(last, len(found)))
+                _Waiting(Place(time_ns(number), start, number, block, -1), one)
+                for number in (*found[:first], *found[last:])
+                for one in scan.made((number,))
             ]
         else:
             for key in channels:
@@ -192,10 +194,6 @@ def messages(
 
 def _held_bytes(waiting: Sequence[_Waiting]) -> int:
     return sum(len(one.held.sample.payload) for one in waiting if one.held is not None)
-
-
-def _time_ns(one: Recorded) -> int:
-    return one.sample.received_ns
 
 
 def _is_before(table: BlockTable, block: int, following: int) -> bool:
@@ -220,16 +218,15 @@ def _blocks_of(
 
 
 def _in_order(
-    table: BlockTable, block: int, found: list[Recorded], span_ns: tuple[int, int]
-) -> list[Recorded]:
-    """Return those of a block's messages that lie in [begin, end), by time."""
+    table: BlockTable, block: int, times_ns: Sequence[int], span_ns: tuple[int, int]
+) -> Sequence[int]:
+    """Return the numbers of a block's messages that lie in [begin, end), by time."""
     begin_ns, end_ns = span_ns
+    numbers: Sequence[int] = range(len(times_ns))
     if table.begins_ns[block] < begin_ns or table.ends_ns[block] >= end_ns:
-        found = [one for one in found if begin_ns <= one.sample.received_ns < end_ns]
-    times_ns = [sample.received_ns for _, sample in found]
-    if times_ns != sorted(times_ns):
-        found.sort(key=_time_ns)
-    return found
+        numbers = [one for one in numbers if begin_ns <= times_ns[one] < end_ns]
+    ordered = sorted(times_ns)
+    return numbers if times_ns == ordered else sorted(numbers, key=times_ns.__getitem__)
 
 
 def _each(

@@ -26,10 +26,10 @@ from studio.ros.attachment import Attachment
 from studio.ros.node.samples import RawSample
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from studio.bags.blocks import Outline
+    from studio.bags.blocks import Outline, Scan
     from studio.bags.bounded_cache import BoundedCache
 
 _BLOCK_ROWS: Final = 1_024
@@ -356,8 +356,8 @@ class SqliteFile:
         wanted: Mapping[int, Outline],
         *,
         keep: bool = True,
-    ) -> list[Recorded]:
-        """Return all messages of some channels in a block, as they lie in the file.
+    ) -> Scan:
+        """Return all messages of some channels in a block.
 
         Nothing is kept: the system keeps what was read last.
         """
@@ -368,7 +368,7 @@ class SqliteFile:
             sample = self._sample(at_ns, data, outline.gid) if outline else None
             if outline and sample:
                 found.append(Recorded(outline.topic, sample))
-        return found
+        return _Scan(found)
 
     def _of_block(self, block: int, channels: Sequence[int]) -> list[tuple[object, ...]]:
         """Return the rows of a block, without those of other topics where few are wanted."""
@@ -410,6 +410,18 @@ def _is_plain(sql: str) -> bool:
     return (
         words.startswith("CREATE TABLE") and " AS (" not in words and "WITHOUT ROWID" not in words
     )
+
+
+class _Scan:
+    """Messages of a block that were read; see `Scan`."""
+
+    def __init__(self, found: Sequence[Recorded]) -> None:
+        self._found = found
+        self.times_ns = [sample.received_ns for _, sample in found]
+
+    def made(self, numbers: Iterable[int]) -> Iterator[Recorded]:
+        """Yield those."""
+        return map(self._found.__getitem__, numbers)
 
 
 class _Blocks:
