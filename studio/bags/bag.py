@@ -145,6 +145,11 @@ class Bag:
         with self._lock:
             return self._topics
 
+    def topic(self, name: str) -> RecordedTopic | None:
+        """Return a topic; None: there is none of that name."""
+        with self._lock:
+            return self._topics_by_name.get(name)
+
     @property
     def types(self) -> TypeLibrary:
         """Message types as the files define them; where they do not, as the studio does."""
@@ -158,9 +163,17 @@ class Bag:
 
     @cached_property
     def _topics(self) -> tuple[RecordedTopic, ...]:
-        return tuple(self._topic(name) for name in sorted(self._channels))
+        return tuple(self._topics_by_name.values())
 
-    def _topic(self, name: str) -> RecordedTopic:
+    @cached_property
+    def _topics_by_name(self) -> dict[str, RecordedTopic]:
+        everywhere: dict[str, list[Channel]] = {}
+        for file in self._read:
+            for channel in file.channels.values():
+                everywhere.setdefault(channel.topic, []).append(channel)
+        return {name: self._topic(name, everywhere[name]) for name in sorted(self._channels)}
+
+    def _topic(self, name: str, everywhere: Sequence[Channel]) -> RecordedTopic:
         chosen = self._channels[name]
         first = chosen[0][1]
         trouble = (
@@ -176,22 +189,9 @@ class Bag:
             tuple(profile for text in qos for profile in profiles_of(text)),
             sum(channel.count or 0 for _, channel in chosen),
             trouble,
-            self._note(name, first.type_name),
+            _note(everywhere, first.type_name),
             first.encoding,
         )
-
-    def _note(self, name: str, type_name: str) -> str:
-        others = [
-            channel
-            for file in self._read
-            for channel in file.channels.values()
-            if channel.topic == name and channel.type_name != type_name
-        ]
-        if not others:
-            return ""
-        types = ", ".join(sorted({channel.type_name or "none" for channel in others}))
-        count = sum(channel.count or 0 for channel in others)
-        return f"{count} messages of other types are left out: {types}."
 
     def description(self) -> BagDescription:
         """Return what a `metadata.yaml` is to say of the files as they are."""
@@ -368,6 +368,16 @@ def _splits(files: Sequence[BlockFile], sources: Sequence[Path]) -> tuple[Split,
             itertools.islice(begins_ns, 1, None), itertools.pairwise(sources), strict=True
         )
     )
+
+
+def _note(channels: Sequence[Channel], type_name: str) -> str:
+    """Return what is left out of a topic; empty: nothing."""
+    others = [one for one in channels if one.type_name != type_name]
+    if not others:
+        return ""
+    types = ", ".join(sorted({one.type_name or "none" for one in others}))
+    count = sum(one.count or 0 for one in others)
+    return f"{count} messages of other types are left out: {types}."
 
 
 def _span_of(file: BlockFile) -> Span:

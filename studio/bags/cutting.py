@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from studio.bags.recording import RecordedTopic, Recording
     from studio.bags.writer import Storing, Written
 
+_CDR: Final = "cdr"
 _REPORT_EVERY: Final = 500
 """Messages between two reports of progress, unless they are large."""
 _REPORT_EVERY_BYTES: Final = 8_000_000
@@ -83,4 +84,10 @@ def _chosen(recording: Recording, topics: Iterable[str]) -> list[RecordedTopic]:
         raise RecordingError(
             f"It has no topic {missing[0][:200]}: studio bag info names those that it has."
         )
-    return [known[name] for name in names] if names else list(known.values())
+    foreign = [name for name in names if known[name].encoding != _CDR]
+    if foreign:
+        raise RecordingError(
+            f'{foreign[0][:200]} is in the form "{known[foreign[0]].encoding[:40]}": only messages '
+            "of ROS 2 are written."
+        )
+    return [known[name] for name in names or known if known[name].encoding == _CDR]

@@ -145,7 +145,13 @@ def add_counts(
     last = int(np.searchsorted(presence.begins_ns, edges_ns[-1], "left"))
     for block in presence.blocks[first:last].tolist():
         times_ns = file.entries(block, channel).times_ns
-        counts += np.diff(np.searchsorted(times_ns, edges, "left"))
+        if not len(times_ns):
+            continue
+        # Only the parts that it reaches into: there may be thousands of blocks and of parts.
+        begin, end = np.searchsorted(edges, (times_ns[0], times_ns[-1]), "right").tolist()
+        begin, end = max(begin - 1, 0), min(end, len(counts))
+        if begin < end:
+            counts[begin:end] += np.diff(np.searchsorted(times_ns, edges[begin : end + 1], "left"))
 
 
 def messages(

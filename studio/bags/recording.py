@@ -129,6 +129,10 @@ class Recording(Protocol):
         """What is damaged or left out, a sentence each."""
         ...
 
+    def topic(self, name: str) -> RecordedTopic | None:
+        """Return a topic; None: there is none of that name."""
+        ...
+
     def latest(self, topics: Iterable[str], at_ns: int) -> dict[str, RawSample]:
         """Return the newest sample of each topic at or before a time."""
         ...

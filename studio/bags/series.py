@@ -272,7 +272,7 @@ class RecordingSeries:
             return _Line(topic, None, str(error))
 
     def _topic(self, name: str) -> RecordedTopic | None:
-        return next((one for one in self._recording.topics if one.name == name), None)
+        return self._recording.topic(name)
 
     def _is_read(self, line: _Line) -> bool:
         reading = line.reading

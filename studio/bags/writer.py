@@ -153,11 +153,18 @@ class BagWriter:
         self._is_closed = False
         self.on_split: Callable[[Path, Path], object] = _nothing
         """Called with the file that is complete and the one that begins, by who writes."""
+        self._file: StorageFile | None = None
         try:
             self._make_folder()
-            self._file: StorageFile | None = self._opened()
+        except OSError as error:
+            raise self._refusal(error) from error
+        try:
+            self._check_room()
+            self._file = self._opened()
             self._describe()
         except OSError as error:
+            self.abandon()
+            shutil.rmtree(self._folder, ignore_errors=True)
             raise self._refusal(error) from error
 
     def __enter__(self) -> Self:
@@ -276,14 +283,13 @@ class BagWriter:
         """Make the folder.
 
         Raises:
-            OSError: There is something of that name, it cannot be made, or there is no room.
+            OSError: There is something of that name, or it cannot be made.
         """
         if is_there(self._folder):
             raise FileExistsError(
                 errno.EEXIST, "there is something of that name already: give another name"
             )
         self._folder.mkdir(parents=True)
-        self._check_room()
 
     def _check_room(self) -> None:
         """Check that the disk has room.

@@ -20,6 +20,7 @@ from studio.packages.workspace import bare_location
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from studio.bags.bag import Bag
     from studio.bags.recording import Recording
     from studio.packages.index import PackageIndex
     from studio.packages.workspace import Location
@@ -106,9 +107,14 @@ async def opened_bag(path: Path, told: Callable[[float | None], object]) -> Show
             told_s = now_s
             loop.call_soon_threadsafe(told, share)
 
+    def opened() -> Bag:
+        bag = open_bag(path, progress)
+        bag.topic(DESCRIPTION)  # with it all topics are found, which takes long where they are many
+        return bag
+
     path = folder_of_bag(path)
     try:
-        bag = await asyncio.to_thread(open_bag, path, progress)
+        bag = await asyncio.to_thread(opened)
     finally:
         told(None)
     return ShownRecording(bag, "bag", bag.title, str(path), bag.close)
@@ -147,7 +153,7 @@ def _description(recording: Recording) -> str:
     Raises:
         StudioError: What is there is none.
     """
-    found = next((one for one in recording.topics if one.name == DESCRIPTION), None)
+    found = recording.topic(DESCRIPTION)
     first_ns = None if found is None else recording.next_ns(DESCRIPTION, recording.begin_ns - 1)
     if found is None or first_ns is None:
         return ""
@@ -155,7 +161,9 @@ def _description(recording: Recording) -> str:
         raise CommandError(f"it is of {found.type_name}, and not of {_STRING}.")
     from studio.ros.cdr import codec_of  # noqa: PLC0415 - takes its time
 
-    sample = recording.latest([DESCRIPTION], first_ns)[DESCRIPTION]
+    sample = recording.latest([DESCRIPTION], first_ns).get(DESCRIPTION)
+    if sample is None:
+        raise CommandError("its part of the file is damaged.")
     return str(codec_of(recording.types.message(_STRING)).decode(sample.payload).data)
 
 

@@ -336,7 +336,7 @@ class Document:
             with_ghost: Whether the robot of the bag is shown beside this one, as it was recorded.
         """
         await self.time.show(shown)
-        is_described = any(one.name == DESCRIPTION for one in shown.recording.topics)
+        is_described = shown.recording.topic(DESCRIPTION) is not None
         if with_ghost and is_described:
             await self._ghost.show(DESCRIPTION)
 
@@ -345,12 +345,17 @@ class Document:
         theirs, mine = original.time.shown, self.time.shown
         if theirs is not None and (theirs is mine or theirs.mode != "bag"):
             return
-        if theirs is not None and (held := theirs.hold()) is not None:
-            self._spawn("time", self.time.show(held))
-        elif mine is not None and mine.mode == "bag":
-            self._spawn("time", self.time.go_live())
-        else:
+        if theirs is None and (mine is None or mine.mode != "bag"):
             self.time.refresh()
+            return
+        self._spawn("time", self._take_time(theirs))
+
+    async def _take_time(self, theirs: ShownRecording | None) -> None:
+        held = None if theirs is None else theirs.hold()  # here, for it may never begin
+        if held is not None:
+            await self.time.show(held)
+        else:
+            await self.time.go_live()
 
     async def _time_switched(self) -> None:
         """Let displays, panels and joints follow the time that is shown now."""

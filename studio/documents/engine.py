@@ -151,14 +151,12 @@ class Engine:
         )
         self.browser_topics = self.ros.browser_topics
         self.wire_robots = ConnectionCommands(wire, settings.data_folder, self, self.ros)
+        self.bags_folder = self.ros.recording.folder
+        """Where topics are recorded, a folder for each bag."""
+        self.is_writing = self.ros.recording.is_writing
         self.served = ServedRoots((self.library.robots_folder,), (self.bags_folder,))
         """The folders that can be listed and opened from the page."""
         self.left_work = LeftDrafts(lambda: self.served, settings.data_folder)
-
-    @property
-    def bags_folder(self) -> Path:
-        """Where topics are recorded, a folder for each bag."""
-        return self.ros.recording.folder
 
     async def start(self) -> None:
         """Warm the workers in the background; pages are served meanwhile."""

@@ -273,6 +273,8 @@ class WrittenBags:
         path = folder / bag / file
         if not await asyncio.to_thread(_lies_within, path, folder):
             raise BagNotReadableError(f"{bag}/{file}", "the studio wrote no such file.")
+        if self._engine.is_writing(path.parent):
+            raise BagNotReadableError(f"{bag}/{file}", "it is being written: wait, or stop it.")
         headers = {"content-security-policy": "sandbox", "cache-control": "no-store"}
         return FileResponse(
             path, filename=file, media_type="application/octet-stream", headers=headers

@@ -146,6 +146,10 @@ class OpenDocuments(Protocol):
         """Where topics are recorded, a folder for each bag."""
         ...
 
+    def is_writing(self, folder: Path, /) -> bool:
+        """Whether a bag is recorded or written into a folder now."""
+        ...
+
     @property
     def uploads(self) -> TakesUploads:
         """Takes what is dropped on the page."""

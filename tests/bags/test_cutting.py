@@ -14,6 +14,7 @@ from studio.bags.writer import BagWriter
 from studio.errors import RecordingError
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tests.support.bags import string_cdr
+from tests.support.memory_recording import MemoryRecording
 from tests.support.read_bags import read_bag
 from tests.support.written_bags import BEGIN_NS, TYPES, sample, some_messages, write
 
@@ -88,3 +89,17 @@ def test_a_part_that_is_empty_or_of_no_topic_is_refused_and_what_is_broken_off_l
     ):
         write_recording(bag, tmp_path / "cut", [], BEGIN_NS, BEGIN_NS + 10**9, break_off)
     assert not (tmp_path / "cut").exists()
+
+
+def test_messages_that_are_not_of_ros_2_are_left_out_and_refused_by_name(tmp_path: Path):
+    recording = MemoryRecording()
+    recording.add_topic("/words", "std_msgs/msg/String")
+    recording.say("/words", BEGIN_NS, data="a")
+    recording.add_topic("/other", "thing", encoding="json")
+    recording.add("/other", BEGIN_NS, b"{}")
+    span_ns = BEGIN_NS, BEGIN_NS + 1
+    write_recording(recording, tmp_path / "cut", [], *span_ns, lambda _: None)
+    assert [one[0] for one in read_bag(tmp_path / "cut").messages] == ["/words"]
+    with pytest.raises(RecordingError, match='"json": only messages of ROS 2'):
+        write_recording(recording, tmp_path / "none", ["/other"], *span_ns, lambda _: None)
+    assert not (tmp_path / "none").exists()

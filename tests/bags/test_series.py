@@ -223,7 +223,7 @@ def test_closing_ends_what_is_being_read(tmp_path: Path):
 def test_of_what_goes_on_only_what_came_since_is_read_and_what_it_forgot_is_dropped():
     memory = SeriesMemory()
     recording = MemoryRecording()
-    recording.topic("/numbers", "std_msgs/msg/Float64")
+    recording.add_topic("/numbers", "std_msgs/msg/Float64")
     for n in range(3_000):
         recording.say("/numbers", S + n, data=float(n))
     series = RecordingSeries(recording, memory)

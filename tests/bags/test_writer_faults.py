@@ -223,3 +223,12 @@ def test_a_file_system_without_room_ends_a_bag_that_is_whole(
     told = told_by_rosbags(small_disk / "bag")
     assert writer.close().messages == len(told)
     assert storage == "sqlite3" or len(told) > 1_000
+
+
+def test_a_bag_that_cannot_be_begun_leaves_no_folder(tmp_path: Path):
+    folder = tmp_path / ("\u00e4" * 125)  # a name that a folder may have, and its file may not
+    with pytest.raises(BagNotWrittenError):
+        BagWriter(folder, TYPES)
+    with pytest.raises(BagNotWrittenError, match="the disk is full"):
+        BagWriter(tmp_path / "bag", TYPES, Storing(floor_bytes=2**62))
+    assert list(tmp_path.iterdir()) == []

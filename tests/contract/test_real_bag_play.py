@@ -37,8 +37,8 @@ SIMULATED = """
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
     recording = ToldRecording()
-    recording.topic("/number", STRING, QoSProfile(depth=10))
-    recording.topic("/map", STRING, LATCHED)
+    recording.add_topic("/number", STRING, QoSProfile(depth=10))
+    recording.add_topic("/map", STRING, LATCHED)
     recording.tell("/map", 0, data="map")
     for at in range(20):
         recording.tell("/number", at * 10, data=str(at))

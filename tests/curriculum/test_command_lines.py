@@ -174,7 +174,7 @@ def world(endpoint: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mybot.xacro").write_text(XACRO)
     numbers = ToldRecording()
-    numbers.topic("/number", "example_interfaces/msg/Int64")
+    numbers.add_topic("/number", "example_interfaces/msg/Int64")
     numbers.tell("/number", 0, data=7)
     (tmp_path / "bags").mkdir()
     written(numbers, tmp_path / "bags" / "bag1")

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import math
+import threading
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from studio.bags.mcap_writer import Chunking
+from studio.bags.writer import Storing
 from studio.errors import BagNotReadableError, CommandError, OutsideRootsError
+from studio.live.time.shown import ShownRecording
 from studio.protocol.connection import SetJointSource
 from studio.protocol.diagnostics import GetDiagnostics
 from studio.protocol.displays import AddDisplay, GetTf, GetTopics, SetFixedFrame
@@ -34,7 +38,7 @@ from studio.protocol.topic_rates import GetTopicRates
 from studio.protocol.topics import GetTopicEnds, ListTopics
 from studio.scene import DocumentScene
 from tests.support.open_documents import Ear, engine, opened, until
-from tests.support.recorded_arm import BEGIN_NS, LENGTH_S, angle_rad, base_pose, write_arm_bag
+from tests.support.recorded_arm import BEGIN_NS, LENGTH_S, URDF, angle_rad, base_pose, write_arm_bag
 from tests.support.told_recording import ToldRecording, written
 from tests.support.wired_studio import ARM
 
@@ -332,9 +336,9 @@ def test_a_description_that_is_none_leaves_the_rest_and_says_so(
     tmp_path: Path, kind: str, payload: bytes, why: str
 ):
     recording = ToldRecording()
-    recording.topic("/robot_description", kind)
+    recording.add_topic("/robot_description", kind)
     recording.tell_bytes("/robot_description", 0, payload)
-    recording.topic("/chatter")
+    recording.add_topic("/chatter")
     recording.tell("/chatter", 1000, data="on")
 
     async def work() -> None:
@@ -347,6 +351,54 @@ def test_a_description_that_is_none_leaves_the_rest_and_says_so(
             assert document.title == "run"
 
     asyncio.run(work())
+
+
+def test_a_description_in_a_damaged_chunk_leaves_the_rest_and_says_so(tmp_path: Path):
+    recording = ToldRecording()
+    recording.add_topic("/robot_description")
+    recording.tell("/robot_description", 0, data=URDF)
+    recording.add_topic("/chatter")
+    recording.tell("/chatter", 1000, data="on")
+    chunking = Chunking(100)  # so that the other one is in a chunk of its own
+    bag = written(recording, tmp_path / "run", Storing(chunking=chunking))
+    file = bag / "run_0.mcap"
+    file.write_bytes(file.read_bytes().replace(b"<robot", b"<tobor"))
+
+    async def work() -> None:
+        async with engine(tmp_path / "data") as made:
+            _, ear = await opened(made, bag)
+            assert ear.last("document")["is_bare"]
+            troubles = " ".join(ear.last("time_state")["troubles"])
+            assert "its part of the file is damaged" in troubles
+            assert "its checksum is wrong" in troubles
+
+    asyncio.run(work())
+
+
+def test_what_was_shown_is_let_go_though_nobody_waits_for_the_next(tmp_path: Path):
+    closed: list[str] = []
+
+    def of(title: str) -> ShownRecording:
+        recording = ToldRecording()
+        recording.add_topic("/chatter")
+        return ShownRecording(recording, "bag", title, title, lambda: closed.append(title))
+
+    async def work(shown: Shown) -> None:
+        time, source = shown.document.time, shown.document.source
+        for title in "ab":
+            with source.settling:  # so that nothing else is shown yet
+                waiting = asyncio.create_task(time.show(of(title)))
+                await until(lambda title=title: time.path == title)
+                waiting.cancel()
+                await asyncio.gather(waiting, return_exceptions=True)
+            await until(lambda: getattr(source.current, "recording", None) is time.recording)
+        await time.show(of("c"))
+        assert closed == ["a", "b"]
+        await shown.ask(CloseDocument())
+        await until(lambda: closed == ["a", "b", "c"])
+
+    run(tmp_path, work)
+    assert not [one for one in threading.enumerate() if one.name == "recording"]
 
 
 def test_an_open_robot_is_shown_against_the_recorded_one(tmp_path: Path):

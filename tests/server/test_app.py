@@ -82,6 +82,9 @@ def test_a_file_of_a_bag_is_given_out_whole_or_in_part_and_no_other_file_is(web:
         assert whole.headers["content-disposition"] == 'attachment; filename="bag_0.mcap"'
         part = client.get("/api/bags/bag/bag_0.mcap", headers={"range": "bytes=10-19"})
         assert (part.status_code, part.content) == (206, BAG[10:20])
+        web.engine.written.add(web.engine.bags_folder / "bag")
+        assert "being written" in client.get("/api/bags/bag/bag_0.mcap").text
+        web.engine.written.clear()
         (web.engine.bags_folder / "secret").write_text("")
         (web.engine.bags_folder / "bag" / "link").unlink(missing_ok=True)
         (web.engine.bags_folder / "bag" / "link").symlink_to("/etc/hostname")

@@ -38,7 +38,7 @@ class MemoryRecording:
         self.topics: tuple[RecordedTopic, ...] = ()
         self._samples: dict[str, list[RawSample]] = {}
 
-    def topic(self, name: str, type_name: str, *qos: QoSProfile, **more: Any) -> None:  # noqa: ANN401
+    def add_topic(self, name: str, type_name: str, *qos: QoSProfile, **more: Any) -> None:  # noqa: ANN401
         """Let there be a topic."""
         found = RecordedTopic(name, type_name, qos=qos, **more)
         self.topics = tuple(sorted((*self.topics, found), key=lambda one: one.name))
@@ -70,6 +70,9 @@ class MemoryRecording:
     def forget(self, name: str, before_ns: int) -> None:
         """Drop the messages of a topic before a time."""
         del self._samples[name][: self._place(name, before_ns)]
+
+    def topic(self, name: str) -> RecordedTopic | None:
+        return next((one for one in self.topics if one.name == name), None)
 
     @property
     def begin_ns(self) -> int:

@@ -161,6 +161,8 @@ class SmallEngine:
         self.uploads, self.copies = SmallUploads(), SmallCopies()
         self.browser_topics = SmallTopics()
         self.bags_folder = Path(os.environ["STUDIO_DATA_DIR"]) / "bags"
+        self.written: set[Path] = set()
+        self.is_writing = self.written.__contains__
         (self.bags_folder / "bag").mkdir(parents=True, exist_ok=True)
         (self.bags_folder / "bag" / "bag_0.mcap").write_bytes(BAG)
         self.default_document: str | None = "small"

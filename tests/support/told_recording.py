@@ -39,7 +39,7 @@ class ToldRecording(MemoryRecording):
         self.gate = threading.Event()
         self.gate.set()
 
-    def topic(
+    def add_topic(
         self,
         name: str,
         type_name: str = "std_msgs/msg/String",
@@ -48,7 +48,7 @@ class ToldRecording(MemoryRecording):
     ) -> None:
         """Have a topic, with what its publishers offered."""
         known = {} if "type_hash" in more else {"type_hash": self.types.hash_of(type_name)}
-        super().topic(name, type_name, *qos, **known, **more)
+        super().add_topic(name, type_name, *qos, **known, **more)
 
     def tell(self, name: str, at_ms: float, **fields: Any) -> bytes:  # noqa: ANN401
         """Have a message, by its fields; its bytes."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
-from studio.protocol.commands import Commands, Scope
+from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.topic_rates import GetTopicRates, TopicRate, TopicRates
 from studio.ros.qos import DurabilityPolicy
 
@@ -51,4 +51,4 @@ def _state(flow: Flow, *, is_latched: bool) -> _State:
 
 
 COMMANDS: Final = Commands["TopicSource"](Scope.ROS)
-COMMANDS.viewer(GetTopicRates, lambda one, c, _: topic_rates(one, c))
+COMMANDS.viewer(GetTopicRates, lambda one, c, _: topic_rates(one, c), limits=Limits(per_second=20))

@@ -69,7 +69,8 @@ class Shown(Protocol):
 class _Writing:
     """A part that is being written into a bag, and how far that is."""
 
-    def __init__(self) -> None:
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
         self.done = 0.0
         self.is_stopped = False
 
@@ -99,6 +100,8 @@ class BagRecording:
         self._wire, self._folder = wire, folder
         self._listeners: set[Listener] = set()
         self._recorder: BagRecorder | None = None
+        self._begun_in = folder
+        """Where the last recording was begun."""
         self._begun_s = 0.0
         self._last = _nothing_recorded()
         self._telling: asyncio.Task[None] | None = None
@@ -113,6 +116,11 @@ class BagRecording:
     def folder(self) -> Path:
         """Where bags are written."""
         return self._folder
+
+    def is_writing(self, folder: Path) -> bool:
+        """Whether a bag is recorded or written into a folder now."""
+        writing = None if self._writing is None else self._writing.folder
+        return folder in {writing, None if self._recorder is None else self._begun_in}
 
     def attach(self, listener: Listener) -> None:
         """Send a page the state, now and whenever it changes."""
@@ -138,7 +146,7 @@ class BagRecording:
             link = self._wire.current
             if link is None:
                 raise CommandError("There is no connection with a ROS system: connect first.")
-            path = self._new_path(command.name)
+            path = self._begun_in = self._new_path(command.name)
             loop = asyncio.get_running_loop()
 
             def ended() -> None:
@@ -217,7 +225,7 @@ class BagRecording:
         if self._writing is not None:
             raise CommandError("A part is being written already: wait for it, or stop it.")
         path = self._new_path(name)
-        writing = self._writing = _Writing()
+        writing = self._writing = _Writing(path)
         telling = asyncio.create_task(self._keep_telling_of(writing))
         try:
             written = await asyncio.to_thread(

@@ -220,9 +220,9 @@ def _read(path: Path) -> tuple[Mark, ...] | None:
     Raises:
         _ForeignFileError: It is no file of bookmarks, or too large, or cannot be read.
     """
-    if not is_there(path) and not path.is_symlink():
-        return None
     try:
+        if not is_there(path) and not path.is_symlink():
+            return None
         if path.is_symlink() or not is_file(path):
             raise _ForeignFileError(_FOREIGN.format(path.name))
         with path.open("rb") as stream:

@@ -109,6 +109,8 @@ class DocumentTime:
         self._turn = asyncio.Lock()
         """Held while another time is taken up."""
         self._stepping = asyncio.Lock()
+        self._counting = asyncio.Lock()
+        """Held while marks are counted: many who ask leave threads to others."""
         self._telling: asyncio.Task[None] | None = None
         self._closed = False
         self.others: Callable[[], ShownRecording | None] = lambda: None
@@ -166,12 +168,21 @@ class DocumentTime:
     async def show(self, shown: ShownRecording | None, at_ns: int | None = None) -> None:
         """Show a recording, which is let go with the next one; None: show what runs now.
 
+        Who waits for it may give that up: it is shown all the same, for what was shown before has
+        to be let go.
+
         Args:
             shown: The recording.
             at_ns: Where it stands at first; None: at its beginning.
         """
+        await asyncio.shield(self._spawn(self._show(shown, at_ns)))
+
+    async def _show(self, shown: ShownRecording | None, at_ns: int | None) -> None:
         self._leave_queue()
         async with self._turn:
+            if self._closed:
+                await asyncio.to_thread(_end, None, shown)
+                return
             if shown is None and self._shown is None:
                 return
             before, self._shown = self._shown, shown
@@ -181,9 +192,8 @@ class DocumentTime:
                 self._begin(shown, at_ns)
             await asyncio.to_thread(self._source.show, self._playing)
             await asyncio.to_thread(_end, source, before)
-            await self._tell_switch()
-        if self._closed:
-            await self.close()
+            if not self._closed:
+                await self._tell_switch()
 
     async def go_live(self) -> None:
         """Show what runs now."""
@@ -196,6 +206,7 @@ class DocumentTime:
         self._leave_queue()
         if self._telling is not None:
             self._telling.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)  # what is shown now is let go
         source, self._playing = self._playing, None
         shown, self._shown = self._shown, None
         if source is not None:
@@ -281,10 +292,11 @@ class DocumentTime:
         if now_s - self._left_s > _LEFT_S and (self._seat or self._shown):
             self._spawn(self.go_live())
 
-    def _spawn(self, work: Coroutine[None, None, None]) -> None:
+    def _spawn(self, work: Coroutine[None, None, None]) -> asyncio.Task[None]:
         task = asyncio.create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        return task
 
     # Where it stands
 
@@ -348,7 +360,9 @@ class DocumentTime:
         """Return how many messages of a topic lie in each part of a range."""
         recording = self._looked_at().recording
         range_ns = self.ns_of(command.begin_s), self.ns_of(command.end_s)
-        counts = await asyncio.to_thread(_counts, recording, command.topic, range_ns, command.bins)
+        topic, bins = command.topic, command.bins
+        async with self._counting:
+            counts = await asyncio.to_thread(_counts, recording, topic, range_ns, bins)
         return TimeMarks(request=command.request, counts=tuple(counts.tolist()))
 
     async def ticks(self, command: GetTimeTicks) -> TimeTicks:
@@ -506,8 +520,8 @@ def _node_name(title: str) -> str:
 
 
 def _neighbour(recording: Recording, command: StepTime, at_ns: int) -> int | None:
-    names = [command.topic] if command.topic else [one.name for one in recording.topics]
-    names = [one for one in names if any(one == each.name for each in recording.topics)]
+    known = [one.name for one in recording.topics]
+    names = [one for one in known if command.topic in {"", one}]
     if command.forward:
         found = (recording.next_ns(one, at_ns) for one in names)
         return min((one for one in found if one is not None), default=None)
@@ -548,7 +562,7 @@ def _tick_view(tick: Tick, zero_ns: int) -> TimeTick:
 
 
 _SEEKS: Final = Limits(per_second=120)
-_MARKS: Final = Limits(per_second=60)
+_MARKS: Final = Limits(per_second=30)
 _TICKS: Final = Limits(per_second=10)
 
 COMMANDS: Final = Commands[DocumentTime](Scope.DOCUMENT)

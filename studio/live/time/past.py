@@ -278,6 +278,13 @@ class LivePast:
             self._collect()
             return [_recorded(one) for _, one in sorted(self._topics.items()) if one.count]
 
+    def topic(self, name: str) -> RecordedTopic | None:
+        """Implement `Recording.topic`."""
+        with self._lock:
+            self._collect()
+            kept = self._topics.get(name)
+            return _recorded(kept) if kept is not None and kept.count else None
+
     @property
     def types(self) -> TypeLibrary:
         """Message types of the system."""

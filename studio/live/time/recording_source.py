@@ -135,7 +135,6 @@ class RecordingSource(SharedSource):
         self._begins_reading, self._read_end_ns = True, 0
         self._feeding = threading.RLock()
         """Held while anybody is given anything."""
-        self._topics: tuple[Sequence[RecordedTopic], dict[str, RecordedTopic]] = ((), {})
         self._due_to_fit = self._closed = False
         self._ticked_ns = time.monotonic_ns()
         self._late_ns = 0
@@ -198,7 +197,7 @@ class RecordingSource(SharedSource):
         self._wake.set()
         if threading.current_thread() is not self._thread:
             self._thread.join()
-        with self.fitting:
+        with self._feeding, self.fitting:  # in the order of `fit_all`
             self.end_all()
 
     # The source
@@ -347,6 +346,7 @@ class RecordingSource(SharedSource):
             try:
                 self._step()
             except StudioError as error:
+                self._begins_reading = True  # who plays on is told again
                 self._stop(str(error))
             except Exception:  # noqa: BLE001 - what fails once must not end the rest
                 _log.exception("A tick of a recording failed.")
@@ -495,16 +495,14 @@ class RecordingSource(SharedSource):
         if self._begins_reading or (self._next is None and end_ns > self._read_end_ns):
             self._begins_reading, self._read_end_ns = False, end_ns
             names = {one.topic.name for one in self._readers}
+            self._reading, self._next = iter(()), None
             self._reading = iter(self.recording.messages(names, self._given_ns + 1, end_ns))
             self._next = next(self._reading, None)
 
     # What the recording has
 
     def _topic(self, name: str) -> RecordedTopic | None:
-        topics = self.recording.topics
-        if self._topics[0] is not topics:
-            self._topics = topics, {one.name: one for one in topics}
-        return self._topics[1].get(name)
+        return self.recording.topic(name)
 
     def _ends(self, topic: RecordedTopic) -> tuple[Endpoint, ...]:
         type_hash = self._hash_of(topic) or ""

@@ -92,7 +92,8 @@ class RecordingTicks:
             names = [name for name, kind in _TYPES.items() if topics.get(name) == kind]
             self._end_ns = end_ns
             self._reading = iter(self._recording.messages(names, self._until_ns + 1, end_ns + 1))
-        for topic, sample in self._reading:
+        reading, self._reading = self._reading, None  # of one that fails nothing more comes
+        for topic, sample in reading:
             self._until_ns = sample.received_ns
             decode = self._decoder(topic)
             if decode is not None:
@@ -100,8 +101,9 @@ class RecordingTicks:
                 is_late = self._recording.begin_ns <= sent_ns < sample.received_ns - _LATE_NS
                 self._take(topic, decode, sample.payload, sent_ns if is_late else self._until_ns)
             if time.monotonic() > until_s:
+                self._reading = reading
                 return
-        self._reading, self._until_ns = None, self._end_ns
+        self._until_ns = self._end_ns
 
     def _decoder(self, topic: str) -> Callable[[bytes], MessageValue] | None:
         if topic not in self._decoders:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+_RATE_MAX: Final = 1e9
+"""With it ages pass in a second; the time of far more is no number any longer."""
 
 
 class Pace:
@@ -74,8 +77,8 @@ class Pace:
         self._is_paused = False
 
     def set_rate(self, rate: float) -> bool:
-        """Go faster or slower; whether it is a rate: finite and above 0."""
-        if not 0 < rate < math.inf:
+        """Go faster or slower; whether it is a rate: above 0, and not more than can be counted."""
+        if not 0 < rate <= _RATE_MAX:
             return False
         self.jump(self.now_ns())
         self._rate = rate

@@ -38,9 +38,9 @@ def say(made: MemoryRecording, at_s: float, node: str, **fields: Any) -> None:  
 def recording() -> MemoryRecording:
     """A node has two parameters, changes one and gets one, then loses one; another comes late."""
     made = MemoryRecording()
-    made.topic("/clock", "rosgraph_msgs/msg/Clock")
+    made.add_topic("/clock", "rosgraph_msgs/msg/Clock")
     made.say("/clock", BEGIN)
-    made.topic(EVENTS, "rcl_interfaces/msg/ParameterEvent")
+    made.add_topic(EVENTS, "rcl_interfaces/msg/ParameterEvent")
     say(made, 1.0, "/arm", new_parameters=[parameter("speed", 1), parameter("gain", 5)])
     say(
         made,

@@ -105,7 +105,7 @@ def test_b1_what_a_page_records_is_listed_whole_and_a_part_of_it_is_cut(endpoint
 
 def test_a_part_that_is_written_is_told_and_can_be_stopped(endpoint: str):
     recording = ToldRecording()
-    recording.topic("/words")
+    recording.add_topic("/words")
     for at in range(1_000):
         recording.tell("/words", at, data="word")
 

@@ -242,3 +242,12 @@ def test_times_that_no_recording_has_are_refused(at_s: str):
     text = f'{{"type": "set_bookmarks", "bookmarks": [{{"at_s": {at_s}, "name": "x"}}]}}'
     with pytest.raises(ValidationError):
         SetBookmarks.model_validate_json(text)
+
+
+def test_beside_a_file_whose_name_leaves_no_room_for_another_they_are_kept_elsewhere(data: Path):
+    bag = data.parent / ("b" * 245 + ".mcap")
+    bag.touch()
+    file = BookmarkFile(bag, data)
+    file.read()
+    file.write([START])
+    assert reopened(bag, data)[0] == [START]

@@ -19,9 +19,9 @@ BEGIN = 1_700_000_000 * S
 def recording() -> MemoryRecording:
     """Texts ten times a second for a minute; a latched one in the first second, and TF."""
     made = MemoryRecording()
-    made.topic("/words", STRING, QoSProfile(depth=10))
-    made.topic("/latched", STRING, LATCHED)
-    made.topic("/tf", "tf2_msgs/msg/TFMessage")
+    made.add_topic("/words", STRING, QoSProfile(depth=10))
+    made.add_topic("/latched", STRING, LATCHED)
+    made.add_topic("/tf", "tf2_msgs/msg/TFMessage")
     made.say("/latched", BEGIN, data="once")
     for number in range(600):
         at_ns = BEGIN + number * S // 10

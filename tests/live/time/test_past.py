@@ -321,3 +321,17 @@ def test_a_topic_says_what_its_publishers_offer_and_still_does_when_they_are_gon
     assert topic.qos == (latched,)
     assert topic.is_latched
     assert topic.type_hash == "RIHS01_1"
+
+
+def test_a_message_is_counted_in_its_part_however_long_the_range_is():
+    past = a_past()
+    inbox = opened(past, "/a")
+    at_ns = 1_800_000_000_000_000_000
+    inbox.put([sample(at_ns)])
+    begin_ns = at_ns - 10**16
+    counts = past.counts("/a", begin_ns, at_ns + 1, 4_000)
+    assert (counts.sum(), counts[-1]) == (1, 1)
+    topic = past.topic("/a")
+    assert topic is not None
+    assert topic.count == 1
+    assert past.topic("/b") is None

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import queue
 import threading
 import time
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from studio.errors import BagNotReadableError, StudioError
+from studio.errors import BagError, BagNotReadableError, StudioError
 from studio.live.time.recording_source import FAR_NS, RecordingSource
 from studio.live.topics.request import Request
 from studio.ros.qos import DurabilityPolicy, QoSProfile
@@ -33,9 +34,9 @@ def words(
 ) -> MemoryRecording:
     """Numbers ten times a second, a latched text, and a flag each second."""
     made = made or MemoryRecording()
-    made.topic("/words", STRING, QoSProfile(depth=10))
-    made.topic("/latched", STRING, LATCHED)
-    made.topic("/flag", BOOL)
+    made.add_topic("/words", STRING, QoSProfile(depth=10))
+    made.add_topic("/latched", STRING, LATCHED)
+    made.add_topic("/flag", BOOL)
     made.say("/latched", BEGIN, data="once")
     for number in range(count):
         made.say("/words", BEGIN + number * every_ns, data=str(number))
@@ -201,6 +202,26 @@ def test_what_is_read_too_slowly_is_left_out_but_for_the_newest_and_time_goes_on
         assert made.epoch == epoch
 
 
+class GoneRecording(MemoryRecording):
+    """A file that cannot be read from its second second on."""
+
+    def messages(self, topics: Iterable[str], begin_ns: int, end_ns: int) -> Iterator[Recorded]:
+        for one in super().messages(topics, begin_ns, end_ns):
+            if one.sample.received_ns > BEGIN + S:
+                raise BagError("The disk is gone.")
+            yield one
+
+
+def test_who_plays_on_where_a_file_fails_is_told_again():
+    with source(words(made=GoneRecording()), at_s=0.9) as made:
+        stops: queue.SimpleQueue[str] = queue.SimpleQueue()
+        made.on_stop = stops.put
+        receiving(made.subscribe(Request("/words", newest_only=True)))
+        for _ in range(2):
+            made.change(lambda head: replace(head, playing=True))
+            assert stops.get(timeout=30) == "The disk is gone."
+
+
 def test_a_loop_is_a_jump_back_each_time():
     with source(words(200, S // 100)) as made:
         one = receiving(made.subscribe(Request("/words", depth=1)))
@@ -214,8 +235,8 @@ def test_a_loop_is_a_jump_back_each_time():
 
 def test_a_topic_that_cannot_be_read_says_why_and_one_of_another_form_is_not_decoded():
     recording = words()
-    recording.topic("/locked", STRING, trouble="It is encoded as protobuf.")
-    recording.topic("/old", STRING, type_hash="RIHS01_" + "1" * 64)
+    recording.add_topic("/locked", STRING, trouble="It is encoded as protobuf.")
+    recording.add_topic("/old", STRING, type_hash="RIHS01_" + "1" * 64)
     recording.say("/old", BEGIN, data="x")
     with source(recording, at_s=1.0) as made:
         locked = made.subscribe(Request("/locked"))
@@ -266,7 +287,7 @@ def test_a_file_that_cannot_be_read_any_more_is_told_and_costs_nobody_what_they_
 
 def test_where_time_stands_still_the_transforms_that_come_next_are_there_to_be_looked_up():
     recording = words(10)
-    recording.topic("/tf", "tf2_msgs/msg/TFMessage")
+    recording.add_topic("/tf", "tf2_msgs/msg/TFMessage")
     for number in range(10):
         recording.add("/tf", BEGIN + number * S // 10, text_payload(str(number)))
     with source(recording, at_s=0.25) as made:

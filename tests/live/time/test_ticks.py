@@ -28,8 +28,8 @@ LOG, DIAGNOSTICS = "rcl_interfaces/msg/Log", "diagnostic_msgs/msg/DiagnosticArra
 
 def recording() -> MemoryRecording:
     made = MemoryRecording()
-    made.topic("/rosout", LOG)
-    made.topic("/diagnostics", DIAGNOSTICS)
+    made.add_topic("/rosout", LOG)
+    made.add_topic("/diagnostics", DIAGNOSTICS)
     return made
 
 
@@ -98,9 +98,9 @@ def test_of_too_many_the_errors_stay_and_it_is_told_how_many_are_left_out():
 
 def test_what_is_no_log_has_no_ticks():
     made = MemoryRecording()
-    made.topic("/rosout", "std_msgs/msg/String")
+    made.add_topic("/rosout", "std_msgs/msg/String")
     made.say("/rosout", BEGIN, data="error")
-    made.topic("/diagnostics", DIAGNOSTICS)
+    made.add_topic("/diagnostics", DIAGNOSTICS)
     made.add("/diagnostics", BEGIN + S, b"\x00\x01\x00\x00rubbish")
     made.say("/diagnostics", BEGIN + 2 * S, **states(("motor", 2)))
     assert told(RecordingTicks(made)) == [(2.0, "error", "motor 2")]
@@ -125,7 +125,7 @@ class Broken(MemoryRecording):
 
 def test_a_file_that_cannot_be_read_is_said_and_read_again_later():
     made = Broken()
-    made.topic("/rosout", LOG)
+    made.add_topic("/rosout", LOG)
     log(made, 1, 40, "stop")
     ticks = RecordingTicks(made)
     with pytest.raises(BagError):
@@ -136,9 +136,30 @@ def test_a_file_that_cannot_be_read_is_said_and_read_again_later():
     assert made.begun == 2  # what was read is not read again
 
 
+class Torn(MemoryRecording):
+    """A file that cannot be read beyond its first message."""
+
+    def messages(self, topics: Iterable[str], begin_ns: int, end_ns: int) -> Iterator[Recorded]:
+        for number, one in enumerate(super().messages(topics, begin_ns, end_ns)):
+            if number or begin_ns > BEGIN:
+                raise BagError("The disk is gone.")
+            yield one
+
+
+def test_a_file_that_fails_in_its_midst_is_never_said_to_be_read():
+    made = Torn()
+    made.add_topic("/rosout", LOG)
+    log(made, 1, 40, "stop")
+    log(made, 2, 40, "stop again")
+    ticks = RecordingTicks(made)
+    for _ in range(2):
+        with pytest.raises(BagError):
+            ticks.read()
+
+
 def test_who_asks_while_another_reads_is_answered_at_once():
     made = Broken()
-    made.topic("/rosout", LOG)
+    made.add_topic("/rosout", LOG)
     log(made, 1, 40, "stop")
     made.is_broken = False
     made.gate.clear()

@@ -58,5 +58,5 @@ def test_it_stands_while_it_is_paused_and_goes_on_from_there():
 
 def test_no_rate_is_below_or_at_zero_or_without_end():
     pace = Pace(0)
-    assert [pace.set_rate(one) for one in (0, -1, math.nan, math.inf)] == [False] * 4
+    assert [pace.set_rate(one) for one in (0, -1, math.nan, math.inf, 1e305)] == [False] * 5
     assert pace.rate == 1

@@ -60,7 +60,7 @@ def told(messages: list[Any]) -> list[str]:
 def numbers(name: str, count: int = 5, apart_ms: float = 10) -> ToldRecording:
     """A topic with the messages 0, 1, 2 and so on."""
     recording = ToldRecording()
-    recording.topic(name)
+    recording.add_topic(name)
     for at in range(count):
         recording.tell(name, at * apart_ms, data=str(at))
     return recording
@@ -80,7 +80,7 @@ def test_messages_come_in_their_order_with_their_bytes(speaker: Node, listener: 
     recording = ToldRecording()
     raw: list[bytes] = []
     for name in ("/both/a", "/both/b"):
-        recording.topic(name)
+        recording.add_topic(name)
     for at in range(20):
         recording.tell(f"/both/{'ab'[at % 2]}", at, data=f"message {at}")
     listener.create_subscription(speaker.wire.types.message(STRING), "/both/a", raw.append, 100,
@@ -183,7 +183,7 @@ def test_a_loop_of_one_moment_rests_between_its_rounds(speaker: Node):
 
 def test_a_loop_of_nothing_ends(speaker: Node):
     recording = ToldRecording()
-    recording.topic("/silent")
+    recording.add_topic("/silent")
     with player_of(speaker, recording, replace(FAST, is_looping=True)) as player:
         player.play()
         assert player.wait(60)
@@ -226,7 +226,7 @@ def test_latched_messages_from_before_come_first_and_late_ones_hear_them(
 ):
     """Of `/tf_static` each of three publishers said one; all three come before anything else."""
     recording = numbers("/moving", 10)
-    recording.topic("/fixed", STRING, LATCHED, LATCHED, LATCHED)
+    recording.add_topic("/fixed", STRING, LATCHED, LATCHED, LATCHED)
     for at, name in enumerate(("laser", "camera", "imu")):
         recording.tell("/fixed", at, data=name)
     options = replace(HELD, start_offset_ns=50 * MS)
@@ -262,7 +262,7 @@ def test_what_is_latched_by_its_name_is_offered_so_where_a_bag_tells_no_quality(
 
 def test_a_latched_message_that_a_seek_passes_over_is_told(speaker: Node, listener: Node):
     recording = numbers("/beside", 10)
-    recording.topic("/map", STRING, LATCHED)
+    recording.add_topic("/map", STRING, LATCHED)
     recording.tell("/map", 1, data="old")
     recording.tell("/map", 55, data="new")
     came = heard(listener, STRING, "/map", replace(LATCHED, depth=9))
@@ -278,9 +278,9 @@ def test_a_latched_message_that_a_seek_passes_over_is_told(speaker: Node, listen
 def test_a_topic_is_offered_as_it_was_or_as_a_file_says(speaker: Node):
     recording = ToldRecording()
     quick = QoSProfile(depth=3, reliability=ReliabilityPolicy.BEST_EFFORT)
-    recording.topic("/qos/quick", STRING, quick, quick)
-    recording.topic("/qos/mixed", STRING, quick, LATCHED)
-    recording.topic("/qos/other", STRING, quick)
+    recording.add_topic("/qos/quick", STRING, quick, quick)
+    recording.add_topic("/qos/mixed", STRING, quick, LATCHED)
+    recording.add_topic("/qos/other", STRING, quick)
     overrides = {"/qos/other": QoSProfile(depth=7, durability=DurabilityPolicy.TRANSIENT_LOCAL)}
     with player_of(speaker, recording, PlayOptions(overrides=overrides)):
         offered = {
@@ -295,7 +295,7 @@ def test_a_topic_is_offered_as_it_was_or_as_a_file_says(speaker: Node):
 def test_the_time_is_told_so_often_and_stands_while_paused(speaker: Node, listener: Node):
     clock = heard(listener, CLOCK, "/clock")
     recording = numbers("/timed", 3, apart_ms=200)
-    recording.topic("/clock", CLOCK)
+    recording.add_topic("/clock", CLOCK)
     recording.tell("/clock", 1)
     options = PlayOptions(clock_hz=200, starts_paused=True)
     with player_of(speaker, recording, options) as player:
@@ -318,7 +318,7 @@ def test_the_time_is_told_before_each_message_and_goes_back_with_a_seek(
         clock = heard(listener, CLOCK, "/clock")
         wait_until("it listens", lambda: bool(speaker.count_subscribers("/clock")))
         recording = numbers("/a")
-        recording.topic("/b")
+        recording.add_topic("/b")
         recording.tell("/b", 15, data="b")
         options = replace(HELD, clock_topics=("a",))
         with player_of(speaker, recording, options) as player:
@@ -354,8 +354,8 @@ def test_what_cannot_be_published_is_said_and_left_out(
     speaker: Node, capsys: pytest.CaptureFixture[str]
 ):
     recording = numbers("/fine")
-    recording.topic("/foreign", "their_msgs/msg/Thing", type_hash="")
-    recording.topic("/protobuf", trouble="It is written as protobuf.")
+    recording.add_topic("/foreign", "their_msgs/msg/Thing", type_hash="")
+    recording.add_topic("/protobuf", trouble="It is written as protobuf.")
     with player_of(speaker, recording) as player:
         assert player.topics == ["/fine"]
     said = capsys.readouterr().err
@@ -377,7 +377,7 @@ def test_a_recording_that_cannot_be_read_further_is_played_up_to_there(speaker: 
 def test_a_topic_of_a_foreign_type_is_played_by_the_hash_that_was_recorded(speaker: Node):
     recording = ToldRecording()
     strange = f"RIHS01_{'ab' * 32}"
-    recording.topic("/strange", "their_msgs/msg/Thing", type_hash=strange)
+    recording.add_topic("/strange", "their_msgs/msg/Thing", type_hash=strange)
     recording.tell_bytes("/strange", 0, b"\0\1\0\0abcd")
     with player_of(speaker, recording):
         found = speaker.graph.publishers("/strange")[0]
@@ -396,7 +396,7 @@ def test_playing_may_begin_again_elsewhere(speaker: Node):
 def test_only_the_chosen_topics_are_played(speaker: Node):
     recording = ToldRecording()
     for name in ("/cam/left", "/cam/right", "/scan"):
-        recording.topic(name)
+        recording.add_topic(name)
     choice = Choice(regex="/cam/.*", exclude_topics=("/cam/right",))
     with player_of(speaker, recording, PlayOptions(choice)) as player:
         assert player.topics == ["/cam/left"]

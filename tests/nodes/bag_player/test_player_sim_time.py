@@ -47,7 +47,7 @@ def simulated(endpoint: str) -> Generator[Node]:
 def playing(endpoint: str, options: PlayOptions = HELD) -> Generator[BagPlayer]:
     """A player of ten transforms, 200 ms apart: frame `b` is at x = 0, 1, 2 ..."""
     recording = ToldRecording()
-    recording.topic("/tf", TF, QoSProfile(depth=100))
+    recording.add_topic("/tf", TF, QoSProfile(depth=100))
     kind = recording.types.message("geometry_msgs/msg/TransformStamped")
     for at in range(10):
         moved = kind(child_frame_id="b")

@@ -29,7 +29,7 @@ def asker(endpoint: str) -> Generator[Node]:
 @pytest.fixture
 def player(endpoint: str) -> Generator[BagPlayer]:
     recording = ToldRecording()
-    recording.topic("/number")
+    recording.add_topic("/number")
     for at in range(10):
         recording.tell("/number", at * 10, data=str(at))
     with ExitStack() as stack:

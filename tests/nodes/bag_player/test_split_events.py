@@ -51,8 +51,8 @@ def events(endpoint: str, speaker: Node) -> Generator[list[Any]]:
 def split_bag(folder: Path, files: int = 3) -> Path:
     """A number every 100 ms, two of them in each file; the first file alone has another topic."""
     recording = ToldRecording()
-    recording.topic("/split/number")
-    recording.topic("/split/early")
+    recording.add_topic("/split/number")
+    recording.add_topic("/split/early")
     recording.tell("/split/early", 0, data="early")
     for at in range(2 * files):
         recording.tell("/split/number", at * 100, data=str(at))

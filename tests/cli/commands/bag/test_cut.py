@@ -35,8 +35,8 @@ def test_a_part_has_the_messages_between_two_times(bag: Path, tmp_path: Path):
 
 def test_what_is_latched_by_its_name_comes_first_where_a_bag_tells_no_quality(tmp_path: Path):
     recording = ToldRecording()
-    recording.topic("/robot_description")
-    recording.topic("/words")
+    recording.add_topic("/robot_description")
+    recording.add_topic("/words")
     recording.tell("/robot_description", 0, data="<robot/>")
     for at in range(100):
         recording.tell("/words", at * 10, data=str(at))

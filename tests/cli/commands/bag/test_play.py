@@ -26,9 +26,9 @@ INT = "std_msgs/msg/Int32"
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
     recording = ToldRecording()
-    recording.topic("/number", INT)
-    recording.topic("/other", INT)
-    recording.topic("/latched", INT, LATCHED)
+    recording.add_topic("/number", INT)
+    recording.add_topic("/other", INT)
+    recording.add_topic("/latched", INT, LATCHED)
     recording.tell("/latched", 0, data=-1)
     for at in range(10):
         recording.tell("/number", at * 10, data=at)
@@ -77,8 +77,8 @@ def test_names_topics_and_parts_are_chosen_as_with_ros2(
 
 def test_several_bags_are_played_together(endpoint: str, listener: Node, bag: Path, tmp_path: Path):
     recording = ToldRecording()
-    recording.topic("/more", INT)
-    recording.topic("/number", INT)
+    recording.add_topic("/more", INT)
+    recording.add_topic("/number", INT)
     for at in range(3):
         recording.tell("/more", 15 + at * 10, data=at)
     recording.tell("/number", 65, data=100)
