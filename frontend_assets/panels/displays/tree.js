@@ -59,7 +59,7 @@ export function Tree({ rows, active, setOpen }) {
     active.value = row.id;
     requestAnimationFrame(() => document.getElementById(rowId(row.id))?.focus());
   };
-  useNeighbour(rows, active, go);
+  useNeighbour(rows, active);
   /** @param {KeyboardEvent} event */
   const onKeyDown = (event) => {
     if (event.target instanceof HTMLElement && event.target.closest(".tree-control")) return;
@@ -85,9 +85,9 @@ export function Tree({ rows, active, setOpen }) {
 
 /**
  * When the current row goes, as by Delete, the one above it takes its place, and the focus if that was on it.
- * @param {Row[]} rows @param {{value: string}} active @param {(row: Row | undefined) => void} go
+ * @param {Row[]} rows @param {{value: string}} active
  */
-function useNeighbour(rows, active, go) {
+function useNeighbour(rows, active) {
   const before = useRef(/** @type {string[]} */ ([]));
   useEffect(() => {
     const ids = before.current;
@@ -96,8 +96,12 @@ function useNeighbour(rows, active, go) {
     if (at < 0 || before.current.includes(active.value)) return;
     const left = ids.slice(0, at).findLast((id) => before.current.includes(id));
     const row = rows.find(({ id }) => id === left) ?? rows[0];
-    if (document.activeElement === document.body) go(row);
-    else if (row) active.value = row.id;
+    if (!row) return;
+    active.value = row.id;
+    requestAnimationFrame(() => {
+      // Unless somebody went elsewhere meanwhile.
+      if (document.activeElement === document.body) document.getElementById(rowId(row.id))?.focus();
+    });
   }, [rows]);
 }
 
