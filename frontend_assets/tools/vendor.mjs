@@ -207,6 +207,13 @@ async function bundle(contents, loader = "js") {
   return made.outputFiles[0].text;
 }
 
+/** @param {string} css of dockview @returns {string} without its themes, for the page has its own */
+function withoutThemes(css) {
+  return css.replaceAll(/([^{}@]+)\{[^{}]*\}/g, (rule, /** @type {string} */ selectors) =>
+    selectors.split(",").every((one) => one.includes(".dockview-theme-")) ? "" : rule,
+  );
+}
+
 /** @param {string} name @returns {Promise<{version: string, license: string, text: string}>} */
 async function licence(name) {
   const folder = join(TOOLS, "node_modules", name);
@@ -233,7 +240,7 @@ const FILES = {
     from: [...CODEMIRROR, ...CODEMIRROR_INNER],
   },
   "dockview.css": {
-    make: () => bundle(DOCKVIEW_CSS, "css"),
+    make: async () => withoutThemes(await bundle(DOCKVIEW_CSS, "css")),
     from: ["dockview"],
   },
   "uplot.js": { make: () => bundle('export { default } from "uplot";'), from: ["uplot"] },
