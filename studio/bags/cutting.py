@@ -5,12 +5,12 @@ from __future__ import annotations
 import shutil
 from typing import TYPE_CHECKING, Final
 
-from studio.bags.recording import latched_count
+from studio.bags.recording import Recorded, latched_count
 from studio.bags.writer import BagWriter
 from studio.errors import RecordingError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from pathlib import Path
 
     from studio.bags.recording import RecordedTopic, Recording
@@ -57,12 +57,8 @@ def write_recording(  # noqa: PLR0913 - a part has two ends
     writer = BagWriter(folder, recording.types, storing)
     try:
         numbers = {topic.name: writer.add_topic(topic) for topic in chosen}
-        for topic in chosen:
-            if topic.is_latched:
-                for sample in recording.last(topic.name, begin_ns - 1, latched_count(topic)):
-                    writer.write(numbers[topic.name], sample._replace(received_ns=begin_ns))
         untold = untold_bytes = 0
-        for topic, sample in recording.messages(numbers, begin_ns, end_ns):
+        for topic, sample in _messages(recording, chosen, begin_ns, end_ns):
             writer.write(numbers[topic], sample)
             untold, untold_bytes = untold + 1, untold_bytes + len(sample.payload)
             if untold >= _REPORT_EVERY or untold_bytes >= _REPORT_EVERY_BYTES:
@@ -74,6 +70,17 @@ def write_recording(  # noqa: PLR0913 - a part has two ends
         writer.abandon()
         shutil.rmtree(writer.path, ignore_errors=True)
         raise
+
+
+def _messages(
+    recording: Recording, topics: Sequence[RecordedTopic], begin_ns: int, end_ns: int
+) -> Iterator[Recorded]:
+    """Yield what topics had latched at the beginning, as of then, and the messages since."""
+    for topic in topics:
+        if topic.is_latched:
+            for sample in recording.last(topic.name, begin_ns - 1, latched_count(topic)):
+                yield Recorded(topic.name, sample._replace(received_ns=begin_ns))
+    yield from recording.messages([one.name for one in topics], begin_ns, end_ns)
 
 
 def _chosen(recording: Recording, topics: Iterable[str]) -> list[RecordedTopic]:

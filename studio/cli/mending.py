@@ -1,16 +1,18 @@
-"""What was meant by a line that `studio` does not know: a misspelt word, or a line of the shell."""
+"""What was meant by a line that `studio` does not know: misspelt, of the shell, or only of ros2."""
 
 from __future__ import annotations
 
 import argparse
 import difflib
 import re
-from typing import TYPE_CHECKING, Final, NoReturn
+from typing import TYPE_CHECKING, Any, Final, NoReturn
+
+from typing_extensions import override
 
 from studio.cli.terminal import harmless
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
 _WRONG: Final = re.compile(
     r"argument (?:COMMAND|VERB): invalid choice: '(.*)' \(choose from (.*)\)"
@@ -91,3 +93,21 @@ def _meant(prog: str, message: str) -> str:
     choices = re.findall(r"[\w-]+", found[2])
     nearest = difflib.get_close_matches(found[1].strip("_"), choices, n=1, cutoff=0.6)
     return f"\n{prog}: did you mean: {harmless(prog)} {nearest[0]}" if nearest else ""
+
+
+class _Refusal(argparse.Action):
+    """Ends with a sentence as soon as the option is met."""
+
+    def __init__(self, option_strings: list[str], dest: str, sentence: str, **more: Any) -> None:  # noqa: ANN401 - what argparse gives
+        super().__init__(option_strings, dest, nargs="*", help=argparse.SUPPRESS, **more)
+        self._sentence = sentence
+
+    @override
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        parser.error(f"{self.option_strings[0]}: {self._sentence}.")
+
+
+def refuse_options(parser: argparse.ArgumentParser, sentences: Mapping[str, str]) -> None:
+    """Refuse options, each with a sentence that has no dot; they are not in the help."""
+    for option, sentence in sentences.items():
+        parser.add_argument(option, action=_Refusal, sentence=sentence, default=argparse.SUPPRESS)

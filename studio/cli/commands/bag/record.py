@@ -15,7 +15,7 @@ from studio.cli.graph import full_name
 from studio.cli.keys import watching_keys
 from studio.cli.numbers import whole
 from studio.cli.own_node import LOG_LEVELS, own_node, set_log_level
-from studio.cli.refused import refuse_options
+from studio.cli.mending import refuse_options
 from studio.cli.wire import add_wire_options
 from studio.errors import SettingsError
 from studio.ros.names import full_type_name
