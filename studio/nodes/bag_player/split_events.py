@@ -28,7 +28,7 @@ class SplitEvents:
         self._told = 0
 
     def restart(self) -> None:
-        """Begin again with the first file, from which rosbag2 goes forward after each seek, too."""
+        """Begin again with the first file."""
         self._told = 0
 
     def tell_until(self, at_ns: int) -> None:

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Final
 
 from studio.cli.bag_storing import STORAGES
 from studio.cli.keys import watching_keys
+from studio.cli.mending import refuse_options
 from studio.cli.numbers import count, whole
 from studio.cli.own_node import LOG_LEVELS, own_node, set_log_level
-from studio.cli.mending import refuse_options
 from studio.cli.wire import STARTING, add_wire_options
 from studio.errors import SettingsError
 from studio.ros.duration import NANOSECONDS
