@@ -3,7 +3,7 @@
 /** @import { RecordedCount, RecordingState } from "../../types/wire.d.ts" */
 /** @import { RecordForm } from "../../model/recording.js" */
 
-import { html, useSignal } from "vendor/preact.js";
+import { html, useEffect, useRef, useSignal } from "vendor/preact.js";
 import { language, t } from "../../lib/i18n.js";
 import { parseNumber } from "../../lib/numbers.js";
 import { baseName } from "../../lib/paths.js";
@@ -31,14 +31,22 @@ import { ConnectFirst, isWireAway } from "../parts.js";
 
 export function RecordPart() {
   const state = recording.value;
+  const part = useRef(/** @type {HTMLElement | null} */ (null));
+  // What has begun, or ended, stands above the form whose button was pressed.
+  useEffect(() => part.current?.scrollTo(0, 0), [isRecording.value]);
   if (isWireAway() && !isRecording.value)
     return html`<div class="scroll"><${ConnectFirst} icon="bag" /></div>`;
-  return html`<div class="scroll bag-record">
+  return html`<div class="scroll bag-record" ref=${part}>
     ${state && (state.recording || state.path) && html`<${Running} state=${state} />`}
-    ${!isRecording.value && html`<${Form} />`}
-    ${recordTrouble.value && html`<p class="note bad padded" role="alert"><${Icon} name="error" size=${13} />${recordTrouble.value}</p>`}
+    ${isRecording.value ? html`<${Trouble} />` : html`<${Form} />`}
     <${SavePast} />
   </div>`;
+}
+
+/** Why what was asked was not done. */
+function Trouble() {
+  if (!recordTrouble.value) return null;
+  return html`<p class="note bad" role="alert"><${Icon} name="error" size=${13} />${recordTrouble.value}</p>`;
 }
 
 const PASTS_S = [30, 120, 300];
@@ -130,19 +138,19 @@ function Form() {
       ${form.which === "topics" && html`<${TopicChoice} />`}
     </fieldset>
     <${Text} name="exclude" placeholder=${EXAMPLES.exclude} />
-    <${Text} name="name" placeholder=${t("bag.name.auto")} />
+    <${Text} name="name" placeholder=${t("bag.name.auto")} invalid=${fault === "bag.fault.name"} />
     <div class="bag-pair"><${Choice} name="storage" of=${["mcap", "sqlite3"]} /><${Choice} name="compression" of=${["none", "zstd", "lz4"]} /></div>
     <div class="bag-pair"><${Figure} name="maxBytes" unit="MB" scale=${1e6} /><${Figure} name="maxSeconds" unit="s" scale=${1} /></div>
-    <footer>${fault && html`<span class="note">${t(fault)}</span>`}<span class="push"></span>
+    <footer>${fault ? html`<span class="note">${t(fault)}</span>` : html`<${Trouble} />`}<span class="push"></span>
       <button type="submit" class="button primary" disabled=${busy || fault !== "" || !mayManage.value} title=${whoMay()}>
         <span class="bag-light on" aria-hidden="true"></span>${t("bag.start")}</button></footer>
   </form>`;
 }
 
-/** @param {{name: "regex" | "exclude" | "name", placeholder: string}} props */
-function Text({ name, placeholder }) {
+/** @param {{name: "regex" | "exclude" | "name", placeholder: string, invalid?: boolean}} props */
+function Text({ name, placeholder, invalid }) {
   return html`<label class="bag-field"><span>${t(`bag.form.${name}`)}</span>
-    <input class="box wide" maxlength=${name === "name" ? 200 : 1000} spellcheck=${false} autocomplete="off" placeholder=${placeholder} value=${recordForm.value[name]}
+    <input class="box wide" aria-invalid=${invalid ? "true" : null} maxlength=${name === "name" ? 200 : 1000} spellcheck=${false} autocomplete="off" placeholder=${placeholder} value=${recordForm.value[name]}
       onInput=${(/** @type {any} */ event) => changeForm({ [name]: event.currentTarget.value })} /></label>`;
 }
 
