@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import expect
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
@@ -192,13 +193,27 @@ def record(day: Day, node: Node) -> None:
     """Record all that is said, with lines of a log among it."""
     panel = day.panel("bag", "Bag")
     panel.get_by_role("button", name="Record", exact=True).click()
+    a_bad_name_is_told_in_view(panel)
     panel.get_by_role("button", name="Start recording").click()
+    expect(panel.get_by_role("button", name="Stop")).to_be_in_viewport()
     panel.get_by_role("region", name="Recording").get_by_text("/odom").wait_for()
     for number in range(LINES):
         node.get_logger().info(f"line {number}")
         time.sleep(EVERY_S)  # what is recorded takes its time
     panel.get_by_role("button", name="Stop").click()
     panel.get_by_role("region", name="Recorded").wait_for()
+
+
+def a_bad_name_is_told_in_view(panel: Locator) -> None:
+    """However low the panel is: beside the button, which then is of no use."""
+    name = panel.get_by_role("textbox", name="Name", exact=True)
+    name.fill("../drive")
+    expect(name).to_have_attribute("aria-invalid", "true")
+    start = panel.get_by_role("button", name="Start recording")
+    expect(start).to_be_disabled()
+    expect(start).to_be_in_viewport()
+    expect(panel.get_by_text("The name must be that of a folder")).to_be_in_viewport()
+    name.fill("")
 
 
 def open_from_the_list(day: Day) -> None:
