@@ -119,6 +119,12 @@ StudioError
         NotInControlError
         NotJoiningError
         UnknownLaneError
+        TicketError
+    RelayError
+        RelayKeyError
+        RelayRefusedError
+        RelayLineError
+        OriginAwayError
     CommandError
         UnknownDocumentError
         SupersededError
@@ -1092,6 +1098,54 @@ class UnknownLaneError(AccessError):
 
     def __init__(self) -> None:
         super().__init__("No open data lane has this key: ask for one on your data lane.")
+
+
+class TicketError(AccessError):
+    """A ticket proves nobody: it was made up, changed, or is of another room."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(f"This ticket is not valid: {reason} Join the class again.")
+        self.reason = reason
+
+
+class RelayError(StudioError):
+    """A relay, or the line between it and the studio, does not work."""
+
+
+class RelayKeyError(RelayError):
+    """What was given is no relay's line, `tls/HOST:PORT#KEY`."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(
+            f"This is no line of a relay ({reason}): copy the one that `studio relay` prints, as "
+            "tls/HOST:7448#KEY."
+        )
+        self.reason = reason
+
+
+class RelayRefusedError(RelayError):
+    """The relay answers, and does not take this studio."""
+
+    def __init__(self, endpoint: str, reason: str) -> None:
+        super().__init__(f"The relay at {endpoint} does not serve this studio: {reason}")
+        self.endpoint, self.reason = endpoint, reason
+
+
+class RelayLineError(RelayError):
+    """What came on the line between studio and relay is not to be believed."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(f"The line between studio and relay is ended: {reason}")
+        self.reason = reason
+
+
+class OriginAwayError(RelayError):
+    """The studio that owns a room is not there, so that nothing can be changed in it."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "The studio is away: what you see is the last that came. Try again once it is back."
+        )
 
 
 class CommandError(StudioError):

@@ -1,0 +1,320 @@
+"""What origin and relay say to each other; all of it goes through one stream each way, in order.
+
+A lane is a snapshot and the frames after it, as the bytes that pages get: `""` is the lane of what
+every page is sent, whatever it shows, the others are those of documents, by their ids.
+"""
+
+from __future__ import annotations
+
+from typing import Final, TypeAlias, cast
+
+import msgspec
+
+from studio.errors import RelayLineError
+
+STUDIO_LANE: Final = ""
+
+
+class Frame(msgspec.Struct, frozen=True, array_like=True):
+    """One message for pages, as it goes onto their control lane; of one `key` the newest counts."""
+
+    data: bytes
+    binary: bool = False
+    key: str = ""
+
+
+# From the relay to the origin
+
+
+class OpenLane(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Send this lane from now on; `ticket` is of somebody who may see it, for a copy."""
+
+    lane: str
+    ticket: str = ""
+
+
+class CloseLane(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Send this lane no more."""
+
+    lane: str
+
+
+class Refresh(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Send the lane's snapshot again: the frames since the last are larger than it."""
+
+    lane: str
+
+
+class OpenScene(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Send the 3D view of a document from now on."""
+
+    document: str
+    ticket: str = ""
+
+
+class CloseScene(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Send the 3D view no more."""
+
+    document: str
+
+
+class WantBlobs(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """The relay has none of these (BLAKE2b digests); a frame of the 3D view waits for them."""
+
+    document: str
+    digests: tuple[bytes, ...]
+
+
+class Arrive(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A member has a page open now; `page` is the relay's number of it."""
+
+    page: int
+    ticket: str
+
+
+class Leave(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A page was closed."""
+
+    page: int
+
+
+class Viewers(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """So many pages are open of people who are not in the class, and of all."""
+
+    guests: int
+    pages: int
+
+
+class Ask(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A command of a page, as JSON; asked for again at the origin, which answers to the page."""
+
+    page: int
+    number: int
+    ticket: str
+    text: bytes
+
+
+class AskJoin(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Somebody filled in the form to join."""
+
+    number: int
+    name: str
+    code: str
+    password: str
+    ticket: str
+    """Of before; empty: none."""
+    address: str
+    """Of the browser, as the relay saw it."""
+
+
+class AskTopic(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A command of the data lane, as JSON; subscriptions are numbered by the relay."""
+
+    text: bytes
+    ticket: str = ""
+
+
+class AskDownload(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A document for other programs."""
+
+    number: int
+    ticket: str
+    document: str
+    what: str
+    options: tuple[tuple[str, str], ...] = ()
+
+
+class Ping(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Answered at once with a `Pong` of the same number; a clock of the sender's."""
+
+    sent_ns: int
+
+
+class Received(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """So many bytes of the stream came since it was opened: the sender may send more."""
+
+    size: int
+
+
+class Gap(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Messages of the stream are missing: send a snapshot of every lane."""
+
+
+# From the origin to the relay
+
+
+class RoomState(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """What the relay must know of the room to serve it; first on the stream, then at each change."""
+
+    session: str
+    """Changes when the studio was started anew."""
+    is_open: bool
+    has_password: bool
+    default_document: str
+    documents: tuple[str, ...]
+    """Shared documents that are open."""
+    shown: str
+    """The copy that everybody may see; empty: none."""
+    holder: str
+    """The person who has control; empty: the presenter."""
+    controlled: str
+    """The document that the holder has control of."""
+    others: tuple[str, ...]
+    """Addresses of the other relays of this room."""
+    sent_out: tuple[str, ...]
+    """Persons who may not come in."""
+
+
+class LaneSnapshot(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """The whole state of a lane; frames of it follow from `number` on."""
+
+    lane: str
+    number: int
+    frames: tuple[Frame, ...]
+
+
+class LaneFrame(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """What is new on a lane."""
+
+    lane: str
+    number: int
+    frame: Frame
+
+
+class LaneClosed(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """There is no such lane, or none that the ticket may see."""
+
+    lane: str
+    reason: str
+
+
+class SceneFrame(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A frame of viser's, the first of a scene with the whole state.
+
+    `parts`, joined, are the frame; a part of `DIGEST_BYTES` that `is_digest` marks stands for the
+    bytes that have this digest.
+    """
+
+    document: str
+    is_first: bool
+    parts: tuple[bytes, ...]
+    is_digest: tuple[bool, ...]
+
+
+class Blob(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """The bytes that have a digest."""
+
+    digest: bytes
+    data: bytes
+
+
+class SceneClosed(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """There is no such scene, or none that the ticket may see."""
+
+    document: str
+
+
+class Say(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """For one page alone."""
+
+    page: int
+    frame: Frame
+
+
+class Settled(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A command was answered, by what was said to its page before."""
+
+    page: int
+    number: int
+
+
+class Joined(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """Somebody is in the class, by this ticket; or may not, as `NotJoiningError` says."""
+
+    number: int
+    ticket: str
+    why: str = ""
+    reason: str = ""
+
+
+class EndPerson(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """End all connections of a person."""
+
+    person: str
+
+
+class TopicState(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A message of the data lane, as JSON."""
+
+    text: bytes
+
+
+class TopicTick(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """A frame of the data lane (`studio.live.topics.frames`)."""
+
+    frame: bytes
+    kept_for: int = -1
+    """A subscription: these are latched messages, for it alone; -1: for all."""
+
+
+class Downloaded(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """What was asked for; or why not: `kind` is the error's class name."""
+
+    number: int
+    name: str = ""
+    media_type: str = ""
+    data: bytes = b""
+    kind: str = ""
+    reason: str = ""
+
+
+class Pong(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """The answer to a `Ping`."""
+
+    sent_ns: int
+
+
+Up: TypeAlias = (
+    OpenLane | CloseLane | Refresh | OpenScene | CloseScene | WantBlobs | Arrive | Leave | Viewers
+    | Ask | AskJoin | AskTopic | AskDownload | Ping | Received | Gap
+)  # fmt: skip
+Down: TypeAlias = (
+    RoomState | LaneSnapshot | LaneFrame | LaneClosed | SceneFrame | Blob | SceneClosed | Say
+    | Settled | Joined | EndPerson | TopicState | TopicTick | Downloaded | Pong | Received | Gap
+)  # fmt: skip
+
+_ENCODER: Final = msgspec.msgpack.Encoder()
+_UP: Final = msgspec.msgpack.Decoder(Up)
+_DOWN: Final = msgspec.msgpack.Decoder(Down)
+
+
+def encode(message: Up | Down) -> bytes:
+    """Return a message as it goes into the stream."""
+    return _ENCODER.encode(message)
+
+
+def decode_up(data: bytes) -> Up:
+    """Read a message of a relay.
+
+    Raises:
+        RelayLineError: It is none.
+    """
+    return cast("Up", _decoded(_UP, data))
+
+
+def decode_down(data: bytes) -> Down:
+    """Read a message of an origin.
+
+    Raises:
+        RelayLineError: It is none.
+    """
+    return cast("Down", _decoded(_DOWN, data))
+
+
+def _decoded(
+    decoder: msgspec.msgpack.Decoder[Up] | msgspec.msgpack.Decoder[Down], data: bytes
+) -> Up | Down:
+    try:
+        return decoder.decode(data)
+    except (msgspec.MsgspecError, UnicodeDecodeError) as error:
+        raise RelayLineError(f"what came is none of its messages ({error}).") from None
