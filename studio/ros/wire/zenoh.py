@@ -35,10 +35,12 @@ __all__ = [
     "TransportEvent",
     "ZError",
     "admin_answers",
+    "ask",
     "close",
     "declare_publisher",
     "declare_querier",
     "declare_queryable",
+    "declare_stream",
     "declare_subscription",
     "declare_token",
     "insert",
@@ -58,6 +60,7 @@ REPLIES_WAITING_MAX: Final = 64
 """Limit for one request."""
 BATCH_MAX: Final = 512
 _HEARTBEAT_S: Final = 0.5
+_MATCHING_PAUSE_S: Final = 0.005
 _CLOSE_TIMEOUT_S: Final = 1.0
 _END_TIMEOUT_S: Final = 1.0
 _EXIT_TIMEOUT_S: Final = 0.5
@@ -354,6 +357,36 @@ def _room(depth: int) -> int:
 
 def _congestion(*, blocking: bool) -> zenoh.CongestionControl:
     return zenoh.CongestionControl.BLOCK if blocking else zenoh.CongestionControl.DROP
+
+
+def declare_stream(session: Session, key: str, timeout_s: float) -> Outgoing:
+    """Declare a publisher of messages that are sent as they are, once somebody subscribes them.
+
+    Raises:
+        ZError: Nobody did in time.
+    """
+    found = session.declare_publisher(
+        key,
+        congestion_control=zenoh.CongestionControl.BLOCK,
+        reliability=zenoh.Reliability.RELIABLE,
+        express=True,
+    )
+    end_s = time.monotonic() + timeout_s
+    while not cast("Any", found).matching_status.matching:
+        if time.monotonic() > end_s:
+            found.undeclare()
+            raise ZError(f"nobody subscribes {key}")
+        time.sleep(_MATCHING_PAUSE_S)
+    return cast("Outgoing", found)
+
+
+def ask(session: Session, key: str, payload: bytes, timeout_s: float) -> bytes | None:
+    """Ask whoever answers a key; None when nobody did in time."""
+    replies = session.get(key, _queue(), payload=payload, timeout=timeout_s)
+    for reply in cast("Iterator[Reply]", replies):
+        if reply.ok is not None:
+            return reply.ok.payload.to_bytes()
+    return None
 
 
 def declare_subscription(

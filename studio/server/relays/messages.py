@@ -1,7 +1,8 @@
 """What origin and relay say to each other; all of it goes through one stream each way, in order.
 
 A lane is a snapshot and the frames after it, as the bytes that pages get: `""` is the lane of what
-every page is sent, whatever it shows, the others are those of documents, by their ids.
+every page is sent, whatever it shows, those of documents have their ids, and those that begin with
+`!` are of what pages follow: `!changes graph`, `!operations goals`.
 """
 
 from __future__ import annotations
@@ -13,6 +14,36 @@ import msgspec
 from studio.errors import RelayLineError
 
 STUDIO_LANE: Final = ""
+CHANGES, OPERATIONS = "!changes ", "!operations "
+
+
+class Claim(msgspec.Struct, frozen=True):
+    """An origin asks a relay to serve its room."""
+
+    version: str
+    """Of the studio: both sides have the same, for pages of one speak with the other."""
+    room: str
+    public: bytes
+    """Of the room's identity, whose digest the room's name is."""
+    handshake: bytes
+    session: str
+
+
+class ClaimAnswer(msgspec.Struct, frozen=True):
+    """The relay serves it on a line of that name; or does not, for a reason."""
+
+    line: str = ""
+    handshake: bytes = b""
+    address: str = ""
+    """Of the room's page at this relay."""
+    reason: str = ""
+
+
+class Signed(msgspec.Struct, frozen=True):
+    """A claim or its answer, with the proof who made it."""
+
+    body: bytes
+    signature: bytes
 
 
 class Frame(msgspec.Struct, frozen=True, array_like=True):
@@ -66,7 +97,7 @@ class WantBlobs(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
 
 class Arrive(msgspec.Struct, frozen=True, tag=True, array_like=True):
-    """A member has a page open now; `page` is the relay's number of it."""
+    """A page of a member was opened, or one that asks for something; `page` is its number."""
 
     page: int
     ticket: str
@@ -79,10 +110,10 @@ class Leave(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
 
 class Viewers(msgspec.Struct, frozen=True, tag=True, array_like=True):
-    """So many pages are open of people who are not in the class, and of all."""
+    """So many pages are open in all, and of people who are not in the class."""
 
-    guests: int
     pages: int
+    guests: int
 
 
 class Ask(msgspec.Struct, frozen=True, tag=True, array_like=True):
@@ -90,7 +121,6 @@ class Ask(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
     page: int
     number: int
-    ticket: str
     text: bytes
 
 
@@ -130,14 +160,10 @@ class Ping(msgspec.Struct, frozen=True, tag=True, array_like=True):
     sent_ns: int
 
 
-class Received(msgspec.Struct, frozen=True, tag=True, array_like=True):
-    """So many bytes of the stream came since it was opened: the sender may send more."""
+class Taken(msgspec.Struct, frozen=True, tag=True, array_like=True):
+    """The relay serves this room for another studio that came later and proved that it is its."""
 
-    size: int
-
-
-class Gap(msgspec.Struct, frozen=True, tag=True, array_like=True):
-    """Messages of the stream are missing: send a snapshot of every lane."""
+    reason: str
 
 
 # From the origin to the relay
@@ -148,6 +174,8 @@ class RoomState(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
     session: str
     """Changes when the studio was started anew."""
+    tickets: bytes
+    """Public key of those who sign tickets."""
     is_open: bool
     has_password: bool
     default_document: str
@@ -276,11 +304,11 @@ class Pong(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
 Up: TypeAlias = (
     OpenLane | CloseLane | Refresh | OpenScene | CloseScene | WantBlobs | Arrive | Leave | Viewers
-    | Ask | AskJoin | AskTopic | AskDownload | Ping | Received | Gap
+    | Ask | AskJoin | AskTopic | AskDownload | Ping | Taken
 )  # fmt: skip
 Down: TypeAlias = (
     RoomState | LaneSnapshot | LaneFrame | LaneClosed | SceneFrame | Blob | SceneClosed | Say
-    | Settled | Joined | EndPerson | TopicState | TopicTick | Downloaded | Pong | Received | Gap
+    | Settled | Joined | EndPerson | TopicState | TopicTick | Downloaded | Pong
 )  # fmt: skip
 
 _ENCODER: Final = msgspec.msgpack.Encoder()

@@ -1,0 +1,262 @@
+"""The Origin: the studio's room as its relays see it, and the lines to all of them."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import secrets
+from typing import TYPE_CHECKING, Final
+
+from studio.errors import CommandError, NotJoiningError, TicketError
+from studio.protocol.listeners import send
+from studio.protocol.relays import Relays, RelayView
+from studio.protocol.roles import Role, Visitor
+from studio.server.joining import GUESSES, JOINS, Tries
+from studio.server.relays.keys import parse_relay_line
+from studio.server.relays.messages import RoomState
+from studio.server.relays.origin_end import OriginEnd
+from studio.server.relays.origin_topics import AllowedTopics
+from studio.server.relays.tickets import RoomIdentity, TicketIssuer, read_ticket
+from studio.server.relays.uplink import Uplink
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from studio.classroom.classroom import Classroom
+    from studio.protocol.listeners import Listener
+    from studio.protocol.roles import Person
+    from studio.server.relays.line import Line
+    from studio.server.relays.messages import AskJoin
+    from studio.server.relays.origin_end import SharedStudio
+
+RELAYS_MAX: Final = 16
+_SEEN_EVERY_S: Final = 1.0
+_VIEWER: Final = "viewer-"
+"""Before the id of people who look on and are kept in no list: the class is full."""
+
+
+class Origin:
+    """Used on the event loop only; built by who starts the server, with the class.
+
+    Args:
+        engine: The studio.
+        classroom: Its class.
+        session: Of this run of the studio.
+        topics: Patterns of the topics that relays may pass on; none: all that a guest sees.
+    """
+
+    def __init__(
+        self,
+        engine: SharedStudio,
+        classroom: Classroom,
+        session: str,
+        topics: Sequence[str] = (),
+    ) -> None:
+        self._engine, self._classroom, self._session = engine, classroom, session
+        self._allowed = AllowedTopics(tuple(topics))
+        self._uplinks: dict[str, Uplink] = {}
+        self._issuer: tuple[bytes, TicketIssuer] | None = None
+        self._tries, self._joins = Tries(*GUESSES), Tries(*JOINS)
+        self._shown: Relays | None = None
+        self._watching: asyncio.Task[None] | None = None
+        classroom.relays = self
+
+    # Relays
+
+    async def add(self, line: str) -> None:
+        """Share the class by one relay more, from now on.
+
+        Raises:
+            RelayKeyError: It is no line of a relay.
+            CommandError: There are as many as can be.
+        """
+        relay = parse_relay_line(line)
+        if relay.endpoint not in self._uplinks and len(self._uplinks) >= RELAYS_MAX:
+            raise CommandError(f"{RELAYS_MAX} relays are in use: remove one first.")
+        await self._drop(relay.endpoint)
+        self._uplinks[relay.endpoint] = Uplink(
+            relay, lambda: self.identity, self._session, self._end_of, self._changed
+        )
+        if self._watching is None:
+            self._watching = asyncio.create_task(self._watch())
+        self._changed()
+
+    async def remove(self, endpoint: str) -> None:
+        """Share the class by this relay no more.
+
+        Raises:
+            CommandError: It is none of those in use.
+        """
+        if not await self._drop(endpoint):
+            raise CommandError(f"{endpoint} is no relay of this studio.")
+        self._changed()
+
+    async def close(self) -> None:
+        """End all lines."""
+        if self._watching is not None:
+            self._watching.cancel()
+        await asyncio.gather(*(self._drop(one) for one in tuple(self._uplinks)))
+
+    def addresses(self) -> tuple[str, ...]:
+        """Return where people join at relays that are there."""
+        return tuple(one.address for one in self._uplinks.values() if one.state == "there")
+
+    def guests(self) -> int:
+        """Return how many pages of people outside of the class are open at relays."""
+        ends = (one.end for one in self._uplinks.values())
+        return sum(end.guests for end in ends if isinstance(end, OriginEnd))
+
+    def event(self) -> Relays:
+        """Return the relays, for presenters."""
+        return Relays(relays=tuple(map(_view, self._uplinks.values())))
+
+    def end_person(self, person: str) -> None:
+        """End a person's pages at all relays."""
+        for one in self._uplinks.values():
+            if isinstance(one.end, OriginEnd):
+                one.end.end_person(person)
+
+    def attach(self, listener: Listener) -> None:
+        """Show a presenter's page the relays."""
+        send(listener, self.event())
+
+    async def _drop(self, endpoint: str) -> bool:
+        uplink = self._uplinks.pop(endpoint, None)
+        if uplink is None:
+            return False
+        await uplink.close()
+        return True
+
+    def _end_of(self, line: Line, uplink: Uplink) -> OriginEnd:
+        return OriginEnd(
+            self._engine,
+            self,
+            line,
+            relay=uplink.relay.endpoint,
+            hang_up=lambda reason: uplink.hang_up(reason, refused=bool(reason)),
+            allows=self._allowed,
+        )
+
+    def _changed(self) -> None:
+        self._shown = self.event()
+        self._classroom.relays_changed(self._shown)
+        for one in self._uplinks.values():
+            if isinstance(one.end, OriginEnd):
+                one.end.tell_state()
+
+    async def _watch(self) -> None:
+        """Show presenters how many people there are, and which relay is behind."""
+        while True:
+            await asyncio.sleep(_SEEN_EVERY_S)
+            if self.event() != self._shown:
+                self._changed()
+
+    # The room, for the lines
+
+    @property
+    def identity(self) -> RoomIdentity:
+        """Of the room; the same after a restart."""
+        return RoomIdentity(bytes.fromhex(self._classroom.room_seed))
+
+    @property
+    def issuer(self) -> TicketIssuer:
+        """Of tickets, which are no longer valid once the class has another key."""
+        key = self._classroom.members.key
+        if self._issuer is None or self._issuer[0] != key:
+            seed = hmac.digest(key, b"tickets of relays", "sha256")
+            self._issuer = key, TicketIssuer(seed, self.identity.id)
+        return self._issuer[1]
+
+    def state(self, relay: str) -> RoomState:
+        """Return what a relay must know of the room."""
+        classroom, engine = self._classroom, self._engine
+        admission, control = classroom.admission, classroom.control
+        others = (one for one in self._uplinks.values() if one.relay.endpoint != relay)
+        return RoomState(
+            session=self._session,
+            tickets=self.issuer.public,
+            is_open=admission.open,
+            has_password=bool(admission.password),
+            default_document=engine.default_document or "",
+            documents=tuple(engine.documents),
+            shown=control.shown,
+            holder=control.holder,
+            controlled=control.document,
+            others=tuple(one.address for one in others if one.state == "there"),
+            sent_out=tuple(one.person for one in classroom.members if one.removed),
+        )
+
+    def person(self, ticket: str) -> Person:
+        """Return whose ticket it is.
+
+        Raises:
+            TicketError: It is nobody's, the class is closed, or they were sent out.
+        """
+        issuer, classroom = self.issuer, self._classroom
+        found = read_ticket(ticket, issuer.public, self.identity.id)
+        if not classroom.admission.open:
+            raise TicketError("the class is closed.")
+        if found.person.startswith(_VIEWER):
+            return Visitor(Role.GUEST, found.person, classroom.control)
+        member = classroom.members.find(found.person)
+        if member is None or member.removed:
+            raise TicketError("they are not in the class.")
+        return member
+
+    def has(self, person: Person) -> bool:
+        """Whether a person may still be here."""
+        classroom = self._classroom
+        if not classroom.admission.open:
+            return False
+        if person.person.startswith(_VIEWER):
+            return True
+        member = classroom.members.find(person.person)
+        return member is person and not member.removed
+
+    async def join(self, relay: str, form: AskJoin) -> str:
+        """Add a person, and return their ticket; one more than the class takes only looks.
+
+        Raises:
+            NotJoiningError: They may not join.
+        """
+        place = f"{relay} {form.address[:64]}"
+        self._tries.begin(place)
+        self._joins.begin(place)
+        classroom = self._classroom
+        try:
+            member = await classroom.join(
+                form.name, form.code, form.password, self._cookie_of(form.ticket)
+            )
+        except NotJoiningError as refusal:
+            self._joins.give_back(place)
+            if refusal.why not in {"code", "password"}:
+                self._tries.give_back(place)
+            if refusal.why != "full":
+                raise
+            person = f"{_VIEWER}{secrets.token_hex(8)}"
+            return self.issuer.issue(person, form.name[:40], Role.GUEST.value)
+        self._tries.give_back(place)
+        return self.issuer.issue(member.person, member.name, member.role.value)
+
+    def _cookie_of(self, ticket: str) -> str:
+        """Return the cookie that somebody with a ticket would have at the studio itself."""
+        try:
+            person = read_ticket(ticket, self.issuer.public, self.identity.id).person
+        except TicketError:
+            return ""
+        member = self._classroom.members.find(person)
+        return self._classroom.members.cookie_of(member) if member else ""
+
+
+def _view(uplink: Uplink) -> RelayView:
+    line, end = uplink.line, uplink.end
+    return RelayView(
+        endpoint=uplink.relay.endpoint,
+        state=uplink.state,
+        reason=uplink.reason,
+        address=uplink.address,
+        people=end.people() if end else 0,
+        lag_ms=round(line.lag_s * 1000, -2) if line else 0.0,
+    )
+
+

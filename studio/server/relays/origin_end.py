@@ -1,0 +1,455 @@
+"""The origin's end of one line: what the relay asks for, each asked again here, and what it gets."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from typing import TYPE_CHECKING, Final, Protocol, TypeVar
+
+from pydantic import ValidationError
+
+from studio.documents.engine import COMMANDS
+from studio.documents.exports import Download
+from studio.errors import (
+    CommandError,
+    NotJoiningError,
+    RelayLineError,
+    StudioError,
+    TicketError,
+    UnknownDocumentError,
+)
+from studio.outlet import Outlet
+from studio.protocol.calls import FollowOperations
+from studio.protocol.changes import FollowChanges
+from studio.protocol.classroom import Follow
+from studio.protocol.commands import demand
+from studio.protocol.documents import Refused
+from studio.protocol.listeners import encode as encode_event
+from studio.protocol.listeners import send
+from studio.protocol.message import Command
+from studio.protocol.roles import owner_of
+from studio.server.access import ROUTES
+from studio.server.commands import answer, malformed, request_of
+from studio.server.crowd import Allowance
+from studio.server.relays.messages import (
+    CHANGES,
+    OPERATIONS,
+    STUDIO_LANE,
+    Arrive,
+    Ask,
+    AskDownload,
+    AskJoin,
+    AskTopic,
+    CloseLane,
+    CloseScene,
+    Downloaded,
+    EndPerson,
+    Frame,
+    Joined,
+    LaneClosed,
+    Leave,
+    OpenLane,
+    OpenScene,
+    Ping,
+    Pong,
+    Refresh,
+    Say,
+    SceneClosed,
+    Settled,
+    Taken,
+    Viewers,
+    WantBlobs,
+    decode_up,
+    encode,
+)
+from studio.server.relays.origin_lanes import OriginLane, OriginScene, RelayedPage
+from studio.server.relays.origin_topics import TopicsOfRelay
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine
+
+    from studio.protocol.listeners import Listener
+    from studio.protocol.roles import Person
+    from studio.server.relays.line import Line
+    from studio.server.relays.messages import RoomState, Up
+    from studio.server.surface import OpenDocuments
+
+RUNNING_MAX: Final = 256
+"""Commands of one relay that run; what comes meanwhile is refused."""
+LANES_MAX: Final = 200
+PAGES_MAX: Final = 4_000
+"""Pages of one relay that the studio knows one by one: members', and those that asked for something."""
+_DOWNLOAD_BYTES_MAX: Final = 64 << 20
+_STATE_EVERY_S: Final = 0.5
+_UNITS_PER_S, _UNITS_AT_ONCE = 3_000.0, 6_000.0
+"""Messages of a relay: thirty classes type no more."""
+_log = logging.getLogger(__name__)
+
+
+class SharedStudio(OpenDocuments, Protocol):
+    """The engine, as far as a relay reaches it."""
+
+    async def watch(self, name: str, listener: Listener, /) -> None:
+        """Send a listener the state of a document, and what changes."""
+        ...
+
+    def arrive(self, listener: Listener, /) -> None:
+        """A page is there, which has from elsewhere what all pages are sent."""
+        ...
+
+
+class Room(Protocol):
+    """The room of the origin, which all its relays serve."""
+
+    def state(self, relay: str, /) -> RoomState:
+        """Return what a relay must know of it."""
+        ...
+
+    def person(self, ticket: str, /) -> Person:
+        """Return whose ticket it is.
+
+        Raises:
+            TicketError: Nobody's who may be here.
+        """
+        ...
+
+    async def join(self, relay: str, form: AskJoin, /) -> str:
+        """Add a person, and return their ticket.
+
+        Raises:
+            NotJoiningError: They may not join.
+        """
+        ...
+
+    def has(self, person: Person, /) -> bool:
+        """Whether a person may still be here."""
+        ...
+
+
+class OriginEnd:
+    """Used on the event loop only; whatever comes may be forged, and costs within bounds.
+
+    Args:
+        engine: The studio.
+        room: Whom it knows.
+        line: To the relay.
+        relay: The relay's name.
+        hang_up: Ends the line: the relay is refused for good if a reason is given.
+        allows: Whether a topic is forwarded.
+    """
+
+    def __init__(  # noqa: PLR0913 - by name
+        self,
+        engine: SharedStudio,
+        room: Room,
+        line: Line,
+        *,
+        relay: str,
+        hang_up: Callable[[str], object],
+        allows: Callable[[str], bool],
+    ) -> None:
+        self._engine, self._room, self._line, self._relay = engine, room, line, relay
+        self._hang_up = hang_up
+        self.outlet = Outlet(line, on_hopeless=lambda: hang_up(""))
+        line.on_drain(self.outlet.resume)
+        self._sent: RoomState | None = None
+        self._lanes: dict[str, OriginLane] = {}
+        self._scenes: dict[str, OriginScene] = {}
+        self._pages: dict[int, RelayedPage] = {}
+        self._viewers = Viewers(0, 0)
+        self._topics = TopicsOfRelay(engine.browser_topics, line.send, line, allows)
+        line.on_drain(self._topics.resume)
+        self._allowance = Allowance(_UNITS_PER_S, _UNITS_AT_ONCE)
+        self._running: set[asyncio.Task[None]] = set()
+        self._is_open = True
+        self.tell_state()
+        self._ticking = self._start(self._tick())
+
+    def take(self, data: bytes) -> None:
+        """Carry out a message of the relay; one that is none ends the line."""
+        try:
+            message = decode_up(data)
+            self._carry_out(message)
+        except TicketError as error:
+            _log.info("A relay asked with a ticket that is not valid: %s", error)
+        except StudioError as error:
+            _log.warning("%s", error)
+            self._hang_up("")
+
+    def missed(self) -> None:
+        """End the line: what was asked is asked again on the next, by the same ids."""
+        self._hang_up("")
+
+    def people(self) -> int:
+        """Return how many pages are open at the relay."""
+        return self._viewers.pages
+
+    @property
+    def guests(self) -> int:
+        """Pages at the relay of people who are not in the class."""
+        return self._viewers.guests
+
+    def end_person(self, person: str) -> None:
+        """Have the relay end a person's pages."""
+        self.tell_state()
+        self.outlet.post(encode(EndPerson(person)))
+
+    def tell_state(self) -> None:
+        """Send what the relay must know of the room, if that is not what it knows."""
+        state = self._room.state(self._relay)
+        if state != self._sent:
+            self._sent = state
+            self.outlet.post(encode(state))
+
+    def close(self) -> None:
+        """The line has ended: nobody is there by it any more."""
+        self._is_open = False
+        for task in tuple(self._running):
+            task.cancel()
+        for scene in self._scenes.values():
+            scene.close()
+        for listener in (*self._lanes.values(), *self._pages.values()):
+            self._engine.detach(listener)
+        self._topics.close()
+        self.outlet.close()
+        self._viewers = Viewers(0, 0)
+
+    def _carry_out(self, message: Up) -> None:  # noqa: C901, PLR0912 - one line each
+        match message:
+            case Ask():
+                self._ask(message)
+            case Ping():
+                self._line.send(Pong(message.sent_ns))
+            case AskTopic():
+                self._topics.carry_out(message, self._person_of(message.ticket))
+            case WantBlobs():
+                if scene := self._scenes.get(message.document):
+                    scene.wanted(message.digests)
+            case OpenLane():
+                self._start(self._open_lane(message.lane, self._person_of(message.ticket)))
+            case Refresh():
+                self._start(self._refresh(message.lane))
+            case CloseLane():
+                if lane := self._lanes.pop(message.lane, None):
+                    self._engine.detach(lane)
+            case OpenScene():
+                self._start(self._open_scene(message.document, self._person_of(message.ticket)))
+            case CloseScene():
+                if scene := self._scenes.get(message.document):
+                    scene.close()
+            case Arrive():
+                self._arrive(message)
+            case Leave():
+                if page := self._pages.pop(message.page, None):
+                    self._engine.detach(page)
+            case Viewers():
+                self._viewers = message
+            case AskJoin():
+                self._start(self._join(message))
+            case AskDownload():
+                self._start(self._download(message))
+            case Taken():
+                self._hang_up(message.reason[:200] or "Another studio has this room.")
+
+    def _person_of(self, ticket: str) -> Person | None:
+        return self._room.person(ticket) if ticket else None
+
+    def _start(self, work: Coroutine[object, object, None]) -> asyncio.Task[None]:
+        if len(self._running) > RUNNING_MAX + LANES_MAX:
+            work.close()
+            raise RelayLineError("the relay asks for more at once than a relay needs.")
+        task = asyncio.get_running_loop().create_task(work)
+        self._running.add(task)
+        task.add_done_callback(self._running.discard)
+        return task
+
+    # Lanes
+
+    async def _open_lane(self, name: str, person: Person | None) -> None:
+        if len(self._lanes) >= LANES_MAX:
+            raise RelayLineError("the relay asks for more documents than can be open.")
+        before = self._lanes.pop(name, None)
+        if before is not None:
+            self._engine.detach(before)
+        lane = OriginLane(name, self.outlet, self.tell_state, self._sight_of(name, person))
+        try:
+            await self._fill(lane)
+        except StudioError as error:
+            self._engine.detach(lane)
+            self.outlet.post(encode(LaneClosed(name, str(error))))
+            return
+        self._lanes[name] = lane
+        if owner_of(name):
+            self._start(self._close_with_sight(lane))
+
+    async def _refresh(self, name: str) -> None:
+        if lane := self._lanes.get(name):
+            await self._fill(lane)
+
+    async def _fill(self, lane: OriginLane) -> None:
+        """Send a lane's whole state, and every change from then on.
+
+        Raises:
+            StudioError: There is no such thing, or it may not be seen.
+        """
+        name = lane.lane
+        if name == STUDIO_LANE:
+            lane.begin_snapshot()
+            self._engine.attach(lane)
+            await self._follow(lane, Follow(following=True))
+        elif name.startswith(CHANGES):
+            command = _checked(FollowChanges, subject=name.removeprefix(CHANGES))
+            lane.begin_snapshot()
+            await self._follow(lane, command)
+        elif name.startswith(OPERATIONS):
+            command = _checked(FollowOperations, operations=name.removeprefix(OPERATIONS))
+            lane.begin_snapshot()
+            await self._follow(lane, command)
+        else:
+            if not lane.sees(name):
+                raise UnknownDocumentError(name)
+            await self._engine.ready(name)
+            lane.begin_snapshot()
+            await self._engine.watch(name, lane)
+        lane.end_snapshot()
+
+    async def _follow(self, lane: OriginLane, command: Command) -> None:
+        answered = await COMMANDS.carry_out(self._engine, command, lane)  # type: ignore[arg-type]
+        if answered is not None:
+            send(lane, answered)
+
+    def _sight_of(self, name: str, person: Person | None) -> Callable[[str], bool]:
+        def sees(document: str) -> bool:
+            if not owner_of(document):
+                return True
+            if person is None:
+                return document == self._room.state(self._relay).shown
+            return document == name and self._room.has(person) and person.sees(document)
+
+        return sees
+
+    async def _close_with_sight(self, lane: OriginLane) -> None:
+        while lane.sees(lane.lane):  # noqa: ASYNC110 - nobody tells it
+            await asyncio.sleep(_STATE_EVERY_S)
+        if self._lanes.get(lane.lane) is lane:
+            del self._lanes[lane.lane]
+            self._engine.detach(lane)
+            reason = str(UnknownDocumentError(lane.lane))
+            self.outlet.post(encode(LaneClosed(lane.lane, reason)))
+
+    async def _open_scene(self, document: str, person: Person | None) -> None:
+        sees = self._sight_of(document, person)
+        if before := self._scenes.pop(document, None):
+            before.close()
+        try:
+            if not sees(document) or len(self._scenes) >= LANES_MAX:
+                raise UnknownDocumentError(document)
+            scene = (await self._engine.ready(document)).scene
+        except StudioError:
+            self.outlet.post(encode(SceneClosed(document)))
+            return
+        shown = self._scenes[document] = OriginScene(document, self._line, lambda: sees(document))
+        try:
+            await shown.serve(scene)
+        finally:
+            if self._scenes.get(document) is shown:
+                del self._scenes[document]
+                if self._is_open:
+                    self.outlet.post(encode(SceneClosed(document)))
+
+    # People
+
+    def _arrive(self, message: Arrive) -> None:
+        if message.page in self._pages or len(self._pages) >= PAGES_MAX:
+            raise RelayLineError("the relay opens a page twice, or too many.")
+        person = self._room.person(message.ticket)
+        page = RelayedPage(message.page, person, self.outlet, self.tell_state)
+        self._pages[message.page] = page
+        self._engine.arrive(page)
+
+    def _ask(self, message: Ask) -> None:
+        page = self._pages.get(message.page)
+        loop = asyncio.get_running_loop()
+        pause_s = self._allowance.spend(1 + len(message.text) / 1024, loop.time())
+        if page is None or not self._room.has(page.visitor):
+            self._refuse(message, "You are not in this class any more: join it again.")
+        elif len(self._running) >= RUNNING_MAX or pause_s > 1:
+            self._refuse(message, "Too much is asked for by this relay at once: try again soon.")
+        else:
+            self._start(self._answer(page, message))
+
+    def _refuse(self, message: Ask, reason: str) -> None:
+        request = request_of(message.text)
+        refusal = encode_event(Refused(request=request, kind=CommandError.__name__, reason=reason))
+        self.outlet.post(encode(Say(message.page, Frame(refusal))))
+        self.outlet.post(encode(Settled(message.page, message.number)))
+
+    async def _answer(self, page: RelayedPage, message: Ask) -> None:
+        await answer(self._engine, page, message.text)
+        self.outlet.post(encode(Settled(message.page, message.number)))
+
+    async def _join(self, form: AskJoin) -> None:
+        try:
+            joined = Joined(form.number, await self._room.join(self._relay, form))
+        except NotJoiningError as error:
+            joined = Joined(form.number, "", error.why, str(error))
+        self.tell_state()
+        self.outlet.post(encode(joined))
+
+    async def _download(self, message: AskDownload) -> None:
+        try:
+            person = self._room.person(message.ticket)
+            demand(person, ROUTES.get(_ROUTE.format(message.what)), message.document)
+            found = await self._made(message)
+            data = await asyncio.to_thread(_joined, found)
+        except StudioError as error:
+            failed = Downloaded(message.number, kind=type(error).__name__, reason=str(error))
+            self.outlet.post(encode(failed))
+            return
+        self._line.send(Downloaded(message.number, found.name, found.media_type, data))
+
+    async def _made(self, message: AskDownload) -> Download:
+        options = list(message.options)
+        document = self._engine.document(message.document)
+        if message.what == "page":
+            return await document.exports.page(dark=("theme", "dark") in options)
+        if message.what == "series":
+            table = await document.time.series.table(options)
+            return Download("plot.csv", "text/csv", table)
+        raise CommandError("This is given out by the studio itself, not by a relay.")
+
+    async def _tick(self) -> None:
+        """Tell what changed though nothing was said to pages."""
+        while True:
+            await asyncio.sleep(_STATE_EVERY_S)
+            self.tell_state()
+
+
+_ROUTE: Final = "/api/documents/{{document}}/export/{}"
+_Followed = TypeVar("_Followed", bound=Command)
+
+
+def _checked(kind: type[_Followed], **fields: str) -> _Followed:
+    """Return a command of what a relay names.
+
+    Raises:
+        CommandError: It names nothing that can be followed.
+    """
+    try:
+        return kind(**fields)  # type: ignore[arg-type]
+    except ValidationError as error:
+        raise CommandError(malformed("lane", error)) from None
+
+
+def _joined(download: Download) -> bytes:
+    """Return all bytes of a download.
+
+    Raises:
+        CommandError: There are more than a relay passes on.
+    """
+    data = bytearray()
+    for chunk in download.chunks:
+        data += chunk
+        if len(data) > _DOWNLOAD_BYTES_MAX:
+            raise CommandError("This is too large for a relay: ask the presenter for it.")
+    return bytes(data)

@@ -1,0 +1,192 @@
+"""What the origin sends to a relay as it sends it to pages: lanes of events, and 3D views."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from typing import TYPE_CHECKING, Final
+
+from studio.protocol.roles import Role, owner_of
+from studio.scene import SUBPROTOCOL
+from studio.scene.frame_parts import split_frame
+from studio.server.relays.messages import (
+    Blob,
+    Frame,
+    LaneFrame,
+    LaneSnapshot,
+    Say,
+    SceneFrame,
+    encode,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.outlet import Outlet
+    from studio.protocol.roles import Person
+    from studio.server.relays.line import Line
+    from studio.server.surface import OpenScene
+
+_NOBODY: Final = ""
+
+
+class OriginLane:
+    """A Listener to which the studio sends what a guest's page gets, for all of a relay's pages.
+
+    Args:
+        lane: Its name.
+        outlet: Where its frames go.
+        before: Called before each.
+        sees: Whether it may show what is in a document.
+    """
+
+    def __init__(
+        self,
+        lane: str,
+        outlet: Outlet,
+        before: Callable[[], object],
+        sees: Callable[[str], bool],
+    ) -> None:
+        self.lane, self.sees = lane, sees
+        self.role, self.person = Role.GUEST, _NOBODY
+        self._outlet, self._before = outlet, before
+        self._number = 0
+        self._collected: list[Frame] | None = None
+
+    def controls(self, document: str) -> bool:
+        """Return that a relay controls nothing."""
+        del document
+        return False
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Send one message, or have it in the snapshot that is being made."""
+        frame = Frame(data, binary, key or "")
+        if self._collected is not None:
+            self._collected.append(frame)
+            return
+        self._before()
+        self._number += 1
+        place = f"{self.lane}\0{key}" if key else None
+        self._outlet.post(encode(LaneFrame(self.lane, self._number, frame)), place)
+
+    def begin_snapshot(self) -> None:
+        """Collect the whole state, which is posted now."""
+        self._collected = []
+
+    def end_snapshot(self) -> None:
+        """Send it."""
+        frames, self._collected = self._collected or [], None
+        self._before()
+        self._outlet.post(encode(LaneSnapshot(self.lane, self._number + 1, tuple(frames))))
+
+
+class RelayedPage:
+    """A page at a relay, as the studio knows it: who it is, and where its own answers go."""
+
+    def __init__(
+        self, page: int, visitor: Person, outlet: Outlet, before: Callable[[], object]
+    ) -> None:
+        self.page, self._visitor = page, visitor
+        self.person = visitor.person
+        self._outlet, self._before = outlet, before
+
+    @property
+    def role(self) -> Role:
+        """The role of its person, now."""
+        return self._visitor.role
+
+    @property
+    def visitor(self) -> Person:
+        """Its person."""
+        return self._visitor
+
+    def controls(self, document: str) -> bool:
+        """Whether its person has control."""
+        return self._visitor.controls(document)
+
+    def sees(self, document: str) -> bool:
+        """Whether its person may look at a document."""
+        return self._visitor.sees(document)
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Send one message to this page alone."""
+        self._before()
+        place = f"{self.page}\0{key}" if key else None
+        self._outlet.post(encode(Say(self.page, Frame(data, binary, key or ""))), place)
+
+
+class OriginScene:
+    """One 3D view of the studio, shown to a relay as to a page that only looks."""
+
+    def __init__(self, document: str, line: Line, may_go_on: Callable[[], bool]) -> None:
+        self._document, self._line, self._may_go_on = document, line, may_go_on
+        self._is_first = True
+        self._ended = asyncio.Event()
+        self._resume: Callable[[], object] = lambda: None
+        self._unasked: deque[dict[bytes, bytes]] = deque()
+        """What the digests of each frame stand for, until the relay has said which it has not."""
+        self._blobs: deque[tuple[bytes, bytes]] = deque()
+        """What it wants, and was not sent yet."""
+        line.on_drain(self._go_on)
+
+    async def serve(self, scene: OpenScene) -> None:
+        """Show it until it is closed."""
+        watching = asyncio.create_task(self._watch()) if owner_of(self._document) else None
+        try:
+            await scene.serve(self, lambda _: False, SUBPROTOCOL)
+        finally:
+            if watching is not None:
+                watching.cancel()
+            self._line.off_drain(self._go_on)
+
+    async def receive(self) -> bytes | None:
+        """Wait for the end: a relay says nothing to a 3D view."""
+        await self._ended.wait()
+        return None
+
+    def write(self, data: bytes, /) -> None:
+        """Send one frame."""
+        parts, is_digest, blobs = split_frame(data)
+        if blobs:
+            self._unasked.append(blobs)
+        first, self._is_first = self._is_first, False
+        self._line.send(SceneFrame(self._document, first, tuple(parts), tuple(is_digest)))
+
+    def wanted(self, digests: tuple[bytes, ...]) -> None:
+        """The relay has none of these, which the oldest frame with digests names."""
+        if self._unasked:
+            blobs = self._unasked.popleft()
+            self._blobs += [(one, blobs[one]) for one in digests if one in blobs]
+            self._send_blobs()
+
+    def pending_bytes(self) -> int:
+        """Bytes on the way that the relay has not confirmed."""
+        return self._line.pending_bytes()
+
+    def on_drain(self, resume: Callable[[], object], /) -> None:
+        """Call `resume` when there is room again."""
+        self._resume = resume
+
+    def close(self, code: int = 1000, /) -> None:
+        """End it."""
+        del code
+        self._ended.set()
+
+    def _go_on(self) -> None:
+        self._send_blobs()
+        self._resume()
+
+    def _send_blobs(self) -> None:
+        """Send as many as the line takes: what is urgent goes between them."""
+        while self._blobs and not self._line.pending_bytes():
+            digest, data = self._blobs.popleft()
+            self._line.send(Blob(digest, data))
+
+    async def _watch(self) -> None:
+        """End it once nobody at the relay may look at the copy any more."""
+        while self._may_go_on():  # noqa: ASYNC110 - nobody tells it
+            await asyncio.sleep(_LOOK_EVERY_S)
+        self.close()
+
+
+_LOOK_EVERY_S: Final = 1.0

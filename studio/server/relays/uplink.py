@@ -1,0 +1,261 @@
+"""An Uplink: one relay that the origin dials, claims its room at, and dials again when it is lost."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol
+
+import msgspec
+
+import studio
+from studio.errors import RelayError, RelayLineError, RelayRefusedError
+from studio.ros.wire.zenoh import (
+    Incoming,
+    ReadingThread,
+    ZError,
+    ask,
+    close,
+    declare_stream,
+    declare_subscription,
+    declare_token,
+    insert,
+    open_zenoh,
+    read_config,
+    router_change,
+    use_few_threads,
+    watch_transports,
+)
+from studio.server.relays.line import Line
+from studio.server.relays.messages import Claim, ClaimAnswer, Signed
+from studio.server.relays.sealing import Handshake
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.wire.zenoh import Config, Declaration, Sample, Session, TransportEvent
+    from studio.server.relays.keys import RelayAddress
+    from studio.server.relays.tickets import RoomIdentity
+
+CLAIM_KEY: Final = "studio-relay/claim"
+LEASE_MS: Final = 5_000
+"""A relay or an origin that is silent for so long is gone: a cut cable tells nobody."""
+SAMPLES_MAX: Final = 4_096
+"""Of a line that are not read yet; when there are more, the oldest are lost, which ends the line."""
+_CLAIM_TIMEOUT_S: Final = 5.0
+_MATCHING_TIMEOUT_S: Final = 5.0
+_RETRY_S: Final = (0.25, 0.5, 1.0, 2.0)
+_log = logging.getLogger(__name__)
+
+
+def line_keys(line: str) -> tuple[str, str, str]:
+    """Return the keys of a line's two streams, to the origin and to the relay, and of its token."""
+    return f"studio-relay/{line}/up", f"studio-relay/{line}/down", f"studio-relay/{line}/alive"
+
+
+class OriginEnd(Protocol):
+    """What speaks on the line, once it is there."""
+
+    def take(self, data: bytes, /) -> None:
+        """Take a message."""
+        ...
+
+    def missed(self) -> None:
+        """Messages are missing."""
+        ...
+
+    def close(self) -> None:
+        """The line has ended."""
+        ...
+
+    def people(self) -> int:
+        """Return how many pages are open at the relay."""
+        ...
+
+
+State = Literal["connecting", "there", "lost", "refused"]
+
+
+class Claimed(NamedTuple):
+    """An open line."""
+
+    session: Session
+    line: Line
+    address: str
+    token: Declaration
+    """It shows the relay that we are there, for as long as it is kept."""
+    close: Callable[[], None]
+
+
+class Uplink:
+    """Runs on the event loop; whatever waits for the network does so in threads.
+
+    Args:
+        relay: Where it is, and its key.
+        identity: Of the room.
+        session: Of this run of the studio.
+        make_end: Makes what speaks on a line, once there is one.
+        changed: Called when the state is another.
+    """
+
+    def __init__(
+        self,
+        relay: RelayAddress,
+        identity: Callable[[], RoomIdentity],
+        session: str,
+        make_end: Callable[[Line, Uplink], OriginEnd],
+        changed: Callable[[], object],
+    ) -> None:
+        self.relay, self._identity, self._session = relay, identity, session
+        self._make_end, self._changed = make_end, changed
+        self.state: State = "connecting"
+        self.reason = ""
+        self.address = ""
+        """Of the room's page at the relay; kept while the line is lost."""
+        self.line: Line | None = None
+        self.end: OriginEnd | None = None
+        self._ended = asyncio.Event()
+        self._task = asyncio.get_running_loop().create_task(self._run())
+
+    async def close(self) -> None:
+        """End the line, and dial no more."""
+        self._task.cancel()
+        await asyncio.gather(self._task, return_exceptions=True)
+
+    def hang_up(self, reason: str = "", *, refused: bool = False) -> None:
+        """End the line as it is; it is dialled again, unless the relay `refused` us."""
+        if refused:
+            self._set("refused", reason)
+        self._ended.set()
+
+    async def _run(self) -> None:
+        use_few_threads()
+        attempts = 0
+        while self.state != "refused":
+            try:
+                claimed = await asyncio.to_thread(self._dial)
+            except RelayRefusedError as error:
+                self._set("refused", str(error))
+                return
+            except RelayError as error:
+                self._set("lost" if self.address else "connecting", str(error))
+                await asyncio.sleep(_RETRY_S[min(attempts, len(_RETRY_S) - 1)])
+                attempts += 1
+                continue
+            attempts = 0
+            await self._serve(claimed)
+
+    async def _serve(self, claimed: Claimed) -> None:
+        """Speak on the line until it ends."""
+        self._ended.clear()
+        watch = _watch_router(claimed.session, asyncio.get_running_loop(), self._ended.set)
+        try:
+            self.line, self.address = claimed.line, claimed.address
+            self.end = self._make_end(claimed.line, self)
+            claimed.line.begin(self.end)
+            self._set("there", "")
+            await self._ended.wait()
+        finally:
+            if self.end is not None:
+                self.end.close()
+            self.line = self.end = None
+            claimed.line.close()
+            watch.close()
+            await asyncio.to_thread(claimed.close)
+            if self.state != "refused":
+                self._set("lost", "The line to the relay is cut: it is dialled again.")
+
+    def _set(self, state: State, reason: str) -> None:
+        if (state, reason) != (self.state, self.reason):
+            self.state, self.reason = state, reason
+            self._changed()
+
+    def _dial(self) -> Claimed:
+        """Open a session and claim the room, in a thread.
+
+        Raises:
+            RelayRefusedError: The relay does not take this studio.
+            RelayError: Nobody answers.
+        """
+        endpoint = self.relay.endpoint
+        try:
+            session = open_zenoh(_config(self.relay))
+        except ZError as error:
+            raise RelayError(
+                f"No relay answers at {endpoint}: see that `studio relay` runs there, that the port "
+                f"is open, and that the key is its own ({str(error).split(' at /')[0][:160]})."
+            ) from None
+        try:
+            return self._claim(session)
+        except ZError as error:
+            close(session)
+            raise RelayLineError(f"{error}.") from None
+        except BaseException:
+            close(session)
+            raise
+
+    def _claim(self, session: Session) -> Claimed:
+        handshake, identity = Handshake(), self._identity()
+        claim = Claim(
+            studio.__version__, identity.id, identity.public, handshake.public, self._session
+        )
+        body = msgspec.msgpack.encode(claim)
+        signed = msgspec.msgpack.encode(Signed(body, identity.sign(body)))
+        found = ask(session, CLAIM_KEY, signed, _CLAIM_TIMEOUT_S)
+        if found is None:
+            raise RelayError(f"What answers at {self.relay.endpoint} is no relay of a studio.")
+        answer = self._checked(found, body)
+        if answer.reason:
+            raise RelayRefusedError(self.relay.endpoint, answer.reason)
+        keys = handshake.keys(answer.handshake, body, is_origin=True)
+        up, down, alive = line_keys(answer.line)
+        incoming = declare_subscription(session, up, SAMPLES_MAX, reliable=True)
+        publisher = declare_stream(session, down, _MATCHING_TIMEOUT_S)
+        line = Line(self._task.get_loop(), publisher, keys)
+        reading = _reading(incoming, line)
+        token = declare_token(session, alive)
+
+        def end() -> None:
+            reading.close()
+            close(session)
+
+        return Claimed(session, line, answer.address, token, end)
+
+    def _checked(self, found: bytes, body: bytes) -> ClaimAnswer:
+        try:
+            signed = msgspec.msgpack.decode(found, type=Signed)
+            self.relay.verify(body + signed.body, signed.signature)
+            return msgspec.msgpack.decode(signed.body, type=ClaimAnswer)
+        except msgspec.MsgspecError as error:
+            raise RelayLineError(f"its answer cannot be read ({error}).") from None
+
+
+def _reading(incoming: Incoming[Sample], line: Line) -> ReadingThread[Sample]:
+    def feed(samples: list[Sample]) -> None:
+        line.feed([one.payload.to_bytes() for one in samples])
+
+    return ReadingThread("relay-line", incoming, feed)
+
+
+def _watch_router(
+    session: Session, loop: asyncio.AbstractEventLoop, gone: Callable[[], object]
+) -> ReadingThread[TransportEvent]:
+    def take(events: list[TransportEvent]) -> None:
+        for event in events:
+            changed = router_change(event)
+            if changed is not None and not changed[1] and not loop.is_closed():
+                loop.call_soon_threadsafe(gone)
+
+    return ReadingThread("relay-watch", watch_transports(session), take)
+
+
+def _config(relay: RelayAddress) -> Config:
+    config = read_config()
+    insert(config, "mode", '"client"')
+    insert(config, "connect/endpoints", json.dumps([relay.endpoint]))
+    insert(config, "scouting/multicast/enabled", "false")
+    insert(config, "transport/link/tx/lease", str(LEASE_MS))
+    for key, json5 in relay.credentials.of_session().items():
+        insert(config, key, json5)
+    return config
