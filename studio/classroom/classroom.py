@@ -46,6 +46,8 @@ from studio.protocol.classroom import (
 from studio.protocol.classroom import Control as ControlEvent
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import Audience, encode, send
+from studio.protocol.relays import AddRelay, RemoveRelay
+from studio.protocol.relays import Relays as RelaysEvent
 from studio.protocol.roles import Role, original_of
 from studio.settings import DEFAULT_HOST
 
@@ -96,6 +98,63 @@ class Robot(Protocol):
         ...
 
 
+class Relays(Protocol):
+    """The relays that share the class."""
+
+    async def add(self, line: str, /) -> None:
+        """Share the class by one more.
+
+        Raises:
+            StudioError: It is no line of a relay.
+        """
+        ...
+
+    async def remove(self, endpoint: str, /) -> None:
+        """Share the class by it no more.
+
+        Raises:
+            CommandError: It is not in use.
+        """
+        ...
+
+    def addresses(self) -> tuple[str, ...]:
+        """Return where people join at those that are there."""
+        ...
+
+    def guests(self) -> int:
+        """Return how many pages of people outside of the class are open there."""
+        ...
+
+    def event(self) -> RelaysEvent:
+        """Return them, for presenters."""
+        ...
+
+
+class NoRelays:
+    """Relays of a class that is shared by none: nobody dials them."""
+
+    async def add(self, line: str, /) -> None:
+        """Refuse it."""
+        del line
+        raise CommandError("This studio uses no relays: start it with `studio open` or `demo`.")
+
+    async def remove(self, endpoint: str, /) -> None:
+        """Refuse it."""
+        raise CommandError(f"{endpoint} is no relay of this studio.")
+
+    def addresses(self) -> tuple[str, ...]:
+        """Return none."""
+        return ()
+
+    def guests(self) -> int:
+        """Return 0."""
+        return 0
+
+    def event(self) -> RelaysEvent:
+        """Return none."""
+        return RelaysEvent(relays=())
+
+
 class Classroom:
     """Used on the event loop only.
 
@@ -124,6 +183,10 @@ class Classroom:
         """Deletes what others keep of the class."""
         self.end_pages: Callable[[str], object] = lambda person: None
         """Ends all connections of a person."""
+        self.relays: Relays = NoRelays()
+        self.room_seed = kept.room
+        self.relay_lines = list(kept.relays)
+        """Of the relays that a presenter added."""
         self._pages: dict[str, set[Listener]] = {}
         self._everybody = Audience()
         self.following = Following()
@@ -198,17 +261,34 @@ class Classroom:
     # Pages that come and go
 
     def attach(self, listener: Listener) -> None:
-        """Send a new page who it is and who has control, and every change from then on."""
-        person = listener.person
-        self._pages.setdefault(person, set()).add(listener)
+        """Send a new page who it is and who has control, and every change from then on.
+
+        A relay is sent the same, but is nobody: who has a page there arrives by itself.
+        """
         self._everybody.add(listener)
-        self.control.back(person)
         send(listener, self._control_event())
-        send(listener, self._you(person, listener.role))
+        if listener.person:
+            self.arrive(listener)
         self.following.attach(listener)
         send(listener, self.nodes.event())
+
+    def arrive(self, listener: Listener) -> None:
+        """Send a new page who it is, and what concerns its person from then on."""
+        person = listener.person
+        self._pages.setdefault(person, set()).add(listener)
+        self.control.back(person)
+        send(listener, self._you(person, listener.role))
         if listener.role.includes(Role.HELPER):
             send(listener, self._state())
+        if listener.role is Role.PRESENTER:
+            send(listener, self.relays.event())
+        self._changed()
+
+    def relays_changed(self, relays: RelaysEvent) -> None:
+        """Show presenters the relays, and where people join now."""
+        for page in self._leaders():
+            if page.role is Role.PRESENTER:
+                send(page, relays)
         self._changed()
 
     def detach(self, listener: Listener) -> None:
@@ -473,9 +553,14 @@ class Classroom:
             page.post(data, key="class_state")
 
     @property
+    def addresses(self) -> tuple[str, ...]:
+        """Where others join: at relays first, which are reached from anywhere."""
+        return (*self.relays.addresses(), *self.reach.addresses)
+
+    @property
     def link(self) -> str:
         """The first address with the longer code in it; empty: nobody is told of any."""
-        addresses = self.reach.addresses
+        addresses = self.addresses
         return f"{addresses[0]}join?code={self.admission.link}" if addresses else ""
 
     def _state(self) -> ClassState:
@@ -486,20 +571,21 @@ class Classroom:
             has_password=bool(admission.password),
             join_as=admission.join_as,
             code=admission.code,
-            addresses=reach.addresses,
+            addresses=self.addresses,
             link=link,
             qr=qr_svg(link) if link and admission.open else "",
             fingerprint=reach.fingerprint,
-            only_here=reach.only_here,
+            only_here=reach.only_here and not self.relays.addresses(),
             viewers=self._viewers(),
             members=tuple(self._views()),
         )
 
     def _viewers(self) -> int:
         pages = (page for one in self._pages.values() for page in one)
-        return sum(
+        here = sum(
             page.role is Role.GUEST and self.members.find(page.person) is None for page in pages
         )
+        return here + self.relays.guests()
 
     def _views(self) -> list[MemberView]:
         return [
@@ -522,6 +608,8 @@ class Classroom:
             password=admission.password,
             join_as=admission.join_as,
             key=self.members.key.hex(),
+            room=self.room_seed,
+            relays=tuple(self.relay_lines),
             nodes=self.nodes.record,
             ticks=self._own_ticks,
             members=tuple(
@@ -574,6 +662,8 @@ COMMANDS.presenter(EndClass, lambda room, _, __: room.end())
 COMMANDS.presenter(SetClass, lambda room, c, _: room.set(c))
 COMMANDS.presenter(RenewCode, lambda room, _, __: room.renew_code())
 COMMANDS.presenter(SetMemberRole, lambda room, c, _: room.set_role(c))
+COMMANDS.presenter(AddRelay, lambda room, c, _: room.relays.add(c.line))
+COMMANDS.presenter(RemoveRelay, lambda room, c, _: room.relays.remove(c.endpoint))
 COMMANDS.presenter(RemoveMember, lambda room, c, _: room.remove(c.person))
 COMMANDS.presenter(ReadmitMember, lambda room, c, _: room.readmit(c.person))
 COMMANDS.helper(

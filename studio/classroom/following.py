@@ -41,6 +41,8 @@ class Following:
     def __init__(self) -> None:
         self.leading = True
         self._followers: dict[Listener, None] = {}
+        self._shown_elsewhere: set[Listener] = set()
+        """Pages at relays that follow: the relay shows it to them."""
         self._everybody = Audience()
         self._leader: Listener | None = None
         """Whose view was shown last."""
@@ -56,6 +58,7 @@ class Following:
         """Forget a page."""
         self._everybody.remove(listener)
         self._followers.pop(listener, None)
+        self._shown_elsewhere.discard(listener)
         if self._leader is listener:  # who comes now is not taken to where it was
             self._view, self._focus, self._leader = b"", None, None
 
@@ -75,7 +78,10 @@ class Following:
 
     def follow(self, listener: Listener, *, following: bool) -> bool:
         """Show a page what the presenter looks at, or no longer; return whether that is new."""
-        is_new = following != (listener in self._followers)
+        is_new = following != self.is_following(listener)
+        if listener not in self._everybody:
+            (self._shown_elsewhere.add if following else self._shown_elsewhere.discard)(listener)
+            return is_new
         if not following:
             self._followers.pop(listener, None)
             return is_new
@@ -90,7 +96,7 @@ class Following:
 
     def is_following(self, listener: Listener) -> bool:
         """Whether a page follows."""
-        return listener in self._followers
+        return listener in self._followers or listener in self._shown_elsewhere
 
     def show_view(self, leader: Listener, document: str, seen: Seen) -> None:
         """Show camera and pointer to all who follow.

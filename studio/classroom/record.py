@@ -72,6 +72,10 @@ class ClassRecord(_Kept):
     join_as: JoinRole = "student"
     key: str = Field(default_factory=lambda: secrets.token_hex(32), pattern=r"^[0-9a-f]{64}$")
     """Signs the members' cookies, in hex."""
+    room: str = Field(default_factory=lambda: secrets.token_hex(32), pattern=r"^[0-9a-f]{64}$")
+    """Makes the identity by which relays know the room again, in hex."""
+    relays: tuple[str, ...] = ()
+    """Lines of the relays that a presenter added."""
     members: tuple[MemberRecord, ...] = ()
     nodes: NodesRecord = NodesRecord()
     ticks: dict[str, float] = Field(default_factory=dict)

@@ -188,6 +188,11 @@ class Engine:
         self.classroom.attach(listener)
         self.copies.attach(listener)
 
+    def arrive(self, listener: Listener) -> None:
+        """A page was opened at a relay, which sends it what all pages are sent."""
+        self.classroom.arrive(listener)
+        self.copies.attach(listener)
+
     def detach(self, listener: Listener) -> None:
         """A control lane was closed."""
         self._lobby.remove(listener)

@@ -102,10 +102,10 @@ class Tries:
         return max(own.spend(count, now_s), self._in_all.spend(count, now_s))
 
 
-GUESSES: Final = Rate(30.0, 0.5), Rate(300.0, 3.0)
+_GUESSES: Final = Rate(30.0, 0.5), Rate(300.0, 3.0)
 """Wrong codes and passwords of an address, which thirty students may share, and of all together:
 the code of six letters is guessed within a year, then."""
-JOINS: Final = Rate(400.0, 1.0), Rate(1_000.0, 5.0)
+_JOINS: Final = Rate(400.0, 1.0), Rate(1_000.0, 5.0)
 """People who join: those of a school come from one address."""
 
 
@@ -118,7 +118,7 @@ class Joining:
         """Take the class and its surroundings; `words` gives the page's texts in a language."""
         self._classroom, self._cookies, self._front = classroom, cookies, front
         self._words = words
-        self._tries, self._joins = Tries(*GUESSES), Tries(*JOINS)
+        self._tries, self._joins = Tries(*_GUESSES), Tries(*_JOINS)
 
     def router(self) -> APIRouter:
         """Return the one address, with its form and what becomes of it."""

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from studio.server.relays.messages import Down, Up
     from studio.server.relays.sealing import Opener, Sealer
 
-PIECE_BYTES: Final = 256 << 10
-"""Longer messages travel in pieces, so that they need no large buffer on the way."""
 _LATE_S: Final = 0.3
 """While what was sent is confirmed within this time, the line counts as empty."""
 _UNCONFIRMED_MAX: Final = 8 << 20
@@ -53,17 +51,17 @@ class Line:
 
     Args:
         loop: Where messages are taken.
-        publisher: Where they are sent.
+        open_publisher: Opens what they are sent by, in the thread that sends; it may wait.
         keys: Seal what goes, and open what comes.
     """
 
     def __init__(
         self,
         loop: asyncio.AbstractEventLoop,
-        publisher: Outgoing,
+        open_publisher: Callable[[], Outgoing],
         keys: tuple[Sealer, Opener],
     ) -> None:
-        self._loop, self._publisher = loop, publisher
+        self._loop, self._open_publisher = loop, open_publisher
         self._sealer, self._opener = keys
         self._joiner = Joiner()
         self._ends: Ends | None = None
@@ -126,7 +124,7 @@ class Line:
             try:
                 opened = self._opener.open(one)
                 gap |= opened.gap
-                joined = self._joiner.add(opened)
+                joined = self._joiner.take(opened.data, gap=opened.gap)
             except RelayLineError:
                 self.refused += 1
                 continue
@@ -186,9 +184,10 @@ class Line:
 
     def _send_all(self) -> None:
         """Seal and send, in a thread: Zenoh waits while the network takes nothing."""
-        while (data := self._outgoing.get()) is not None:
-            try:
-                for piece in split(data, PIECE_BYTES):
-                    self._publisher.put(self._sealer.seal(piece))
-            except ZError:  # the session has ended, and whoever watches it is told
-                return
+        try:
+            publisher = self._open_publisher()
+            while (data := self._outgoing.get()) is not None:
+                for piece in split(data):
+                    publisher.put(self._sealer.seal(piece))
+        except (ZError, RelayLineError):  # the session has ended, and whoever watches it is told
+            return

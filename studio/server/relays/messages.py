@@ -133,8 +133,6 @@ class AskJoin(msgspec.Struct, frozen=True, tag=True, array_like=True):
     password: str
     ticket: str
     """Of before; empty: none."""
-    address: str
-    """Of the browser, as the relay saw it."""
 
 
 class AskTopic(msgspec.Struct, frozen=True, tag=True, array_like=True):

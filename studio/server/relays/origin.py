@@ -11,7 +11,7 @@ from studio.errors import CommandError, NotJoiningError, TicketError
 from studio.protocol.listeners import send
 from studio.protocol.relays import Relays, RelayView
 from studio.protocol.roles import Role, Visitor
-from studio.server.joining import GUESSES, JOINS, Tries
+from studio.server.joining import Rate, Tries
 from studio.server.relays.keys import parse_relay_line
 from studio.server.relays.messages import RoomState
 from studio.server.relays.origin_end import OriginEnd
@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 
 RELAYS_MAX: Final = 16
 _SEEN_EVERY_S: Final = 1.0
+_GUESSES: Final = Rate(300.0, 3.0), Rate(600.0, 6.0)
+"""Wrong codes of a relay, which holds each address to fewer, and of all relays."""
+_JOINS: Final = Rate(2_000.0, 50.0), Rate(4_000.0, 100.0)
 _VIEWER: Final = "viewer-"
 """Before the id of people who look on and are kept in no list: the class is full."""
 
@@ -56,7 +59,7 @@ class Origin:
         self._allowed = AllowedTopics(tuple(topics))
         self._uplinks: dict[str, Uplink] = {}
         self._issuer: tuple[bytes, TicketIssuer] | None = None
-        self._tries, self._joins = Tries(*GUESSES), Tries(*JOINS)
+        self._tries, self._joins = Tries(*_GUESSES), Tries(*_JOINS)
         self._shown: Relays | None = None
         self._watching: asyncio.Task[None] | None = None
         classroom.relays = self
@@ -219,23 +222,22 @@ class Origin:
         Raises:
             NotJoiningError: They may not join.
         """
-        place = f"{relay} {form.address[:64]}"
-        self._tries.begin(place)
-        self._joins.begin(place)
+        self._tries.begin(relay)
+        self._joins.begin(relay)
         classroom = self._classroom
         try:
             member = await classroom.join(
                 form.name, form.code, form.password, self._cookie_of(form.ticket)
             )
         except NotJoiningError as refusal:
-            self._joins.give_back(place)
+            self._joins.give_back(relay)
             if refusal.why not in {"code", "password"}:
-                self._tries.give_back(place)
+                self._tries.give_back(relay)
             if refusal.why != "full":
                 raise
             person = f"{_VIEWER}{secrets.token_hex(8)}"
             return self.issuer.issue(person, form.name[:40], Role.GUEST.value)
-        self._tries.give_back(place)
+        self._tries.give_back(relay)
         return self.issuer.issue(member.person, member.name, member.role.value)
 
     def _cookie_of(self, ticket: str) -> str:

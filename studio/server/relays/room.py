@@ -1,0 +1,571 @@
+"""A Room at a relay: in the place of the engine behind the server's routes and lanes.
+
+It holds what the origin sent, shows it to pages, and passes on what they ask. While the origin is
+away, pages keep what they have.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import json
+import logging
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, cast
+
+from studio.documents.exports import Download
+from studio.errors import (
+    CommandError,
+    NotJoiningError,
+    OriginAwayError,
+    RelayLineError,
+    StudioError,
+    UnknownDocumentError,
+)
+from studio.protocol.calls import FollowOperations
+from studio.protocol.changes import FollowChanges
+from studio.protocol.classroom import Follow, You
+from studio.protocol.documents import Done, Refused, Watch
+from studio.protocol.listeners import send
+from studio.protocol.relays import RelayState
+from studio.protocol.roles import Role, owner_of
+from studio.server.relays.messages import (
+    CHANGES,
+    OPERATIONS,
+    Arrive,
+    Ask,
+    AskDownload,
+    AskJoin,
+    Blob,
+    Downloaded,
+    EndPerson,
+    Joined,
+    LaneClosed,
+    LaneFrame,
+    LaneSnapshot,
+    Leave,
+    Ping,
+    Pong,
+    RoomState,
+    Say,
+    SceneClosed,
+    SceneFrame,
+    Settled,
+    Taken,
+    TopicState,
+    TopicTick,
+    Viewers,
+    decode_down,
+)
+from studio.server.relays.relayed_class import RelayedClass
+from studio.server.relays.relayed_lanes import RelayedLanes
+from studio.server.relays.relayed_scenes import RelayedScenes
+from studio.server.relays.relayed_topics import RelayedTopics
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
+
+    from studio.documents.exports import MeshNames
+    from studio.protocol import Command
+    from studio.protocol.listeners import Listener
+    from studio.scene import Connection
+    from studio.scene.frame_parts import BlobStore
+    from studio.server.relays.line import Line
+    from studio.server.relays.messages import Down, Up
+
+PATIENCE_S: Final = 3.0
+"""So long after the origin went, what is asked waits for its return; then it is refused at once."""
+_GIVE_UP_S: Final = 90.0
+"""So long an answer is waited for that was asked for before the origin went."""
+_TICK_S: Final = 1.0
+_PENDING_MAX: Final = 10_000
+_YOU: Final = b'{"type":"you"'
+_log = logging.getLogger(__name__)
+
+
+class _Asked:
+    """What was passed on and is not answered yet."""
+
+    def __init__(self, listener: Listener, page: int, request: int, text: bytes) -> None:
+        self.listener, self.page, self.request, self.text = listener, page, request, text
+        self.settled: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+
+
+class RoomDocument:
+    """One document of a room, as the routes use it."""
+
+    def __init__(self, room: Room, name: str) -> None:
+        self._room, self._name = room, name
+        self.scene = self.exports = self.time = self.series = self
+
+    async def serve(
+        self, connection: Connection, allowed: Callable[[str], bool], subprotocol: str | None
+    ) -> None:
+        """Show its 3D view to a page."""
+        await self._room.scenes.serve(self._name, connection, allowed, subprotocol)
+
+    async def urdf(self, meshes: MeshNames) -> Download:
+        """Refuse it: routes give it to presenters only."""
+        return await self._room.download(self._name, "urdf", [("meshes", meshes)])
+
+    async def package(self, *, all_used: bool) -> Download:
+        """Refuse it, as `urdf`."""
+        return await self._room.download(self._name, "package", [("all", str(all_used))])
+
+    async def page(self, *, dark: bool) -> Download:
+        """Return the 3D view as a page of its own."""
+        theme = "dark" if dark else "light"
+        return await self._room.download(self._name, "page", [("theme", theme)])
+
+    async def table(self, lines: Sequence[tuple[str, str]]) -> Iterator[bytes]:
+        """Return all samples of numbers over a recording, as CSV."""
+        return iter((await self._room.download(self._name, "series", lines)).chunks)
+
+
+class OnlyThere:
+    """What the studio itself does, and no relay: uploads, and copies that were handed in."""
+
+    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], beside: str) -> str:
+        """Refuse it."""
+        raise CommandError(_ONLY_THERE)
+
+    def download(self) -> Download:
+        """Refuse it."""
+        raise CommandError(_ONLY_THERE)
+
+
+_ONLY_THERE: Final = "This is done at the studio itself, not by a relay."
+
+
+class Room:
+    """Used on the event loop only.
+
+    Args:
+        name: The room's.
+        blobs: Large parts of 3D views, of all rooms.
+        end_person: Ends all connections of a person.
+    """
+
+    def __init__(
+        self, name: str, blobs: BlobStore, end_person: Callable[[str], object]
+    ) -> None:
+        self.name, self._end_person = name, end_person
+        self._line: Line | None = None
+        self._loop = asyncio.get_running_loop()
+        self.classroom = RelayedClass(name, self._join)
+        self.lanes = RelayedLanes(self._send, self._ticket_for)
+        self.scenes = RelayedScenes(self._send, self._ticket_for, blobs)
+        self.browser_topics = RelayedTopics(self._send)
+        self.uploads = self.copies = OnlyThere()
+        self._pages: dict[Listener, int] = {}
+        """All control lanes, and those that ask by HTTP."""
+        self._arrived: set[int] = set()
+        """Pages that the origin knows one by one."""
+        self._by_number: dict[int, Listener] = {}
+        self._numbers = itertools.count(1)
+        self._asked: dict[int, _Asked] = {}
+        self._joining: dict[int, asyncio.Future[Joined]] = {}
+        self._downloading: dict[int, asyncio.Future[Downloaded]] = {}
+        self._sent_viewers = Viewers(0, 0)
+        self.away_since_s = self._loop.time()
+        self.round_trip_s = 0.0
+        self.address = ""
+        """Of the room's page here."""
+        self._ticking = self._loop.create_task(self._tick())
+
+    # The origin
+
+    @property
+    def is_there(self) -> bool:
+        """Whether the origin is."""
+        return self._line is not None and self.classroom.state is not None
+
+    @property
+    def line(self) -> Line | None:
+        """To the origin, while it is there."""
+        return self._line
+
+    @property
+    def state(self) -> RoomState | None:
+        """What the origin said last of the room."""
+        return self.classroom.state
+
+    def connect(self, line: Line) -> None:
+        """The origin claimed the room; what is missed is asked for once it says what the room is."""
+        self._line = line
+        self._arrived.clear()
+        self._sent_viewers = Viewers(0, 0)
+        self._greeted = False
+        line.begin(self)
+
+    def hang_up(self, reason: str = "") -> None:
+        """End the line; `reason` tells the origin not to come again."""
+        line, self._line = self._line, None
+        if line is None:
+            return
+        if reason:
+            line.send(Taken(reason))
+        self.away_since_s = self._loop.time()
+        line.close()
+        self.browser_topics.reset()
+        self.scenes.reset()
+        self._tell_all()
+
+    async def close(self) -> None:
+        """End it."""
+        self.hang_up()
+        self._ticking.cancel()
+        self.scenes.close()
+        for asked in tuple(self._asked.values()):
+            self._refuse(asked, OriginAwayError())
+
+    def take(self, data: bytes) -> None:
+        """Take a message of the origin; one that is none ends the line."""
+        try:
+            self._carry_out(decode_down(data))
+        except StudioError as error:
+            _log.warning("%s", error)
+            self.hang_up()
+
+    def missed(self) -> None:
+        """End the line: the origin dials again, and sends all anew."""
+        self.hang_up()
+
+    def _carry_out(self, message: Down) -> None:  # noqa: C901, PLR0912 - one line each
+        if not self._greeted and not isinstance(message, RoomState):
+            raise RelayLineError("the studio has not said what room it has.")
+        match message:
+            case LaneFrame():
+                self.lanes.take_frame(message)
+            case SceneFrame():
+                self.scenes.take(message)
+            case TopicTick():
+                self.browser_topics.take_tick(message)
+            case Say():
+                self._say(message)
+            case Settled():
+                self._settle(message)
+            case RoomState():
+                self._renew(message)
+            case LaneSnapshot():
+                self.lanes.take_snapshot(message)
+            case LaneClosed():
+                self.lanes.close(message.lane, message.reason)
+            case Blob():
+                self.scenes.take_blob(message)
+            case SceneClosed():
+                self.scenes.end(message.document)
+            case TopicState():
+                self.browser_topics.take_state(message.text)
+            case Pong():
+                self.round_trip_s = (self._now_ns() - message.sent_ns) / 1e9
+            case EndPerson():
+                self._end_person(message.person)
+            case Joined():
+                _resolve(self._joining, message)
+            case Downloaded():
+                _resolve(self._downloading, message)
+
+    def _send(self, message: Up) -> None:
+        if self._line is not None:
+            self._line.send(message)
+
+    def _renew(self, state: RoomState) -> None:
+        """Take what the room is now; on a new line, ask for all anew that is looked at."""
+        before, self.classroom.state = self.classroom.state, self.classroom.state
+        self.classroom.renew(state)
+        if self._greeted:
+            if before is not None and before.others != state.others:
+                self._tell_all()
+            return
+        self._greeted = True
+        if before is not None and before.session != state.session:
+            for asked in tuple(self._asked.values()):
+                self._refuse(asked, CommandError(_STARTED_ANEW))
+        for listener in tuple(self._pages):
+            if self._is_known(listener):
+                self._arrive(listener)
+        self.lanes.renew()
+        self.scenes.renew()
+        self.browser_topics.renew()
+        for number, asked in self._asked.items():
+            self._arrive(asked.listener)
+            self._send(Ask(asked.page, number, asked.text))
+        self._tell_all()
+
+    # Pages
+
+    def attach(self, listener: Listener) -> None:
+        """Show a new page what every page is shown, and who it is."""
+        page = self._pages[listener] = next(self._numbers)
+        self._by_number[page] = listener
+        send(listener, self._relay_state(listener))
+        self.lanes.studio.add(listener)
+        if member := self.classroom.person(listener.person):
+            has_control = member.controls("")
+            send(
+                listener,
+                You(
+                    person=member.person,
+                    name=member.name,
+                    role=member.role.value,  # type: ignore[arg-type]
+                    has_control=has_control,
+                ),
+            )
+        if self._is_known(listener):
+            self._arrive(listener)
+
+    def detach(self, listener: Listener) -> None:
+        """Forget a page."""
+        self.lanes.forget(listener)
+        page = self._pages.pop(listener, None)
+        if page is None:
+            return
+        self._by_number.pop(page, None)
+        for number in [one for one, asked in self._asked.items() if asked.page == page]:
+            del self._asked[number]
+        if page in self._arrived:
+            self._arrived.discard(page)
+            self._send(Leave(page))
+
+    def _is_known(self, listener: Listener) -> bool:
+        """Whether the origin keeps a list of such people: all but those who only look."""
+        return listener.role is not Role.GUEST
+
+    def _arrive(self, listener: Listener) -> int:
+        """Have the origin know a page; answers its number."""
+        page = self._pages.get(listener)
+        if page is None:
+            page = self._pages[listener] = next(self._numbers)
+            self._by_number[page] = listener
+        member = self.classroom.person(listener.person)
+        if page not in self._arrived and member is not None and self._line is not None:
+            self._arrived.add(page)
+            self._send(Arrive(page, member.ticket))
+        return page
+
+    def _relay_state(self, listener: Listener) -> RelayState:
+        state, member = self.classroom.state, self.classroom.person(listener.person)
+        others = state.others if state is not None and member is not None else ()
+        return RelayState(
+            studio="there" if self.is_there else "away",
+            others=tuple(f"{one}join?pass={member.ticket}" for one in others if member),
+        )
+
+    def _tell_all(self) -> None:
+        for listener in tuple(self._pages):
+            send(listener, self._relay_state(listener))
+
+    def _say(self, message: Say) -> None:
+        listener = self._by_number.get(message.page)
+        if listener is None:
+            return
+        frame = message.frame
+        if frame.data.startswith(_YOU):
+            self._note_role(frame.data)
+        listener.post(frame.data, binary=frame.binary, key=frame.key or None)
+
+    def _note_role(self, data: bytes) -> None:
+        with suppress(ValueError):
+            you = You.model_validate_json(data)
+            member = self.classroom.person(you.person)
+            if member is not None and you.role != Role.PRESENTER.value:
+                member.role, member.name = Role(you.role), you.name
+
+    # Commands
+
+    async def execute(self, command: Command, listener: Listener) -> None:
+        """Do what a relay does by itself, and pass on the rest.
+
+        Raises:
+            StudioError: It cannot be done.
+        """
+        if isinstance(command, Watch):
+            self.lanes.leave(listener)
+            await self.lanes.watch(command.document, listener)
+        elif isinstance(command, FollowChanges):
+            await self._follow(CHANGES + command.subject, listener, following=command.following)
+        elif isinstance(command, FollowOperations):
+            name = OPERATIONS + command.operations
+            await self._follow(name, listener, following=command.following)
+        elif isinstance(command, Follow) and not self._is_known(listener):
+            self.lanes.studio.follow(listener, following=command.following)
+        else:
+            if isinstance(command, Follow):
+                self.lanes.studio.follow(listener, following=command.following)
+            await self._pass_on(command, listener)
+            return
+        send(listener, Done(request=command.request))
+
+    async def _follow(self, name: str, listener: Listener, *, following: bool) -> None:
+        self.lanes.leave(listener, kind=name)
+        if following:
+            await self.lanes.watch(name, listener)
+
+    async def _pass_on(self, command: Command, listener: Listener) -> None:
+        """Ask the origin, which answers to the page itself."""
+        self._check_there()
+        if len(self._asked) >= _PENDING_MAX:
+            raise CommandError("Too much is asked for here at once: try again in a moment.")
+        number = next(self._numbers)
+        if not command.id:
+            # Asked again on the next line, if this one ends before the answer; it runs once.
+            command = command.model_copy(update={"id": f"{self._loop.time():.6f}-{number}"})
+        page = self._arrive(listener)
+        text = command.model_dump_json().encode()
+        asked = self._asked[number] = _Asked(listener, page, command.request, text)
+        self._send(Ask(page, number, text))
+        try:
+            await asked.settled
+        finally:
+            self._asked.pop(number, None)
+
+    def _check_there(self) -> None:
+        """Pass if the origin is there, or went only just now.
+
+        Raises:
+            OriginAwayError: It is away.
+        """
+        if not self.is_there and self._loop.time() - self.away_since_s > PATIENCE_S:
+            raise OriginAwayError
+
+    def _settle(self, message: Settled) -> None:
+        asked = self._asked.pop(message.number, None)
+        if asked is not None and not asked.settled.done():
+            asked.settled.set_result(None)
+
+    def _refuse(self, asked: _Asked, error: StudioError) -> None:
+        refusal = Refused(request=asked.request, kind=type(error).__name__, reason=str(error))
+        send(asked.listener, refusal)
+        if not asked.settled.done():
+            asked.settled.set_result(None)
+
+    # Joining and downloads
+
+    async def _join(self, name: str, code: str, password: str, ticket: str) -> Joined:
+        if not self.is_there:
+            raise NotJoiningError("away", "The studio is away: try again in a moment.")
+        number = next(self._numbers)
+        form = AskJoin(number, name[:400], code[:64], password[:400], ticket)
+        return await self._answered(self._joining, number, form)
+
+    async def download(
+        self, document: str, what: str, options: Sequence[tuple[str, str]]
+    ) -> Download:
+        """Return a document for other programs, made by the origin.
+
+        Raises:
+            StudioError: It cannot be made, or the origin is away.
+        """
+        self._check_there()
+        number = next(self._numbers)
+        asked = AskDownload(number, self._ticket_for(document), document, what, tuple(options))
+        found = await self._answered(self._downloading, number, asked)
+        if found.kind:
+            raise CommandError(found.reason)
+        return Download(found.name, found.media_type, (found.data,))
+
+    async def _answered(
+        self, waiting: dict[int, asyncio.Future[Any]], number: int, message: Up
+    ) -> Any:  # noqa: ANN401 - of the kind that is waited for
+        future: asyncio.Future[Any] = self._loop.create_future()
+        waiting[number] = future
+        self._send(message)
+        try:
+            return await asyncio.wait_for(future, _ANSWER_S)
+        except TimeoutError:
+            raise OriginAwayError from None
+        finally:
+            waiting.pop(number, None)
+
+    def _ticket_for(self, document: str) -> str:
+        """Return the ticket of somebody here who may see a document; empty where all may."""
+        people = (self.classroom.person(one.person) for one in self._pages)
+        if document and not owner_of(document) and document[:1] != "!":
+            return next((one.ticket for one in people if one), "")
+        return next((one.ticket for one in people if one and one.sees(document)), "")
+
+    # What the server's routes use of an engine
+
+    @property
+    def default_document(self) -> str | None:
+        """Id of the document that `/` leads to."""
+        return (self.classroom.state.default_document or None) if self.classroom.state else None
+
+    @property
+    def documents(self) -> Mapping[str, RoomDocument]:
+        """Every open document by its id."""
+        known = self.classroom.state.documents if self.classroom.state else ()
+        return {one: RoomDocument(self, one) for one in known}
+
+    @property
+    def bags_folder(self) -> Path:
+        """Where nothing is."""
+        return _NOWHERE
+
+    def is_writing(self, folder: Path) -> bool:
+        """Return that no bag is written here."""
+        del folder
+        return False
+
+    def document(self, name: str) -> RoomDocument:
+        """Return one document.
+
+        Raises:
+            UnknownDocumentError: No open document has that id.
+        """
+        self.check(name)
+        return RoomDocument(self, name)
+
+    def check(self, name: str) -> None:
+        """Pass if there may be a document of that id: of a copy only the origin knows.
+
+        Raises:
+            UnknownDocumentError: There is none.
+        """
+        state = self.classroom.state
+        if not owner_of(name) and (state is None or name not in state.documents):
+            raise UnknownDocumentError(name)
+
+    async def ready(self, name: str) -> RoomDocument:
+        """Return one document, as `document`."""
+        return self.document(name)
+
+    # Time
+
+    def _now_ns(self) -> int:
+        return int(self._loop.time() * 1e9)
+
+    async def _tick(self) -> None:
+        while True:
+            await asyncio.sleep(_TICK_S)
+            self.lanes.close_idle()
+            self.scenes.close_idle()
+            if self.is_there:
+                self._send(Ping(self._now_ns()))
+                self._tell_viewers()
+            elif self._loop.time() - self.away_since_s > _GIVE_UP_S:
+                for asked in tuple(self._asked.values()):
+                    self._refuse(asked, OriginAwayError())
+                self.lanes.give_up(str(OriginAwayError()))
+
+    def _tell_viewers(self) -> None:
+        guests = sum(page not in self._arrived for page in self._pages.values())
+        viewers = Viewers(len(self._pages), guests)
+        if viewers != self._sent_viewers:
+            self._sent_viewers = viewers
+            self._send(viewers)
+
+
+_ANSWER_S: Final = 30.0
+_NOWHERE: Final = Path("/nonexistent")
+_STARTED_ANEW: Final = (
+    "The studio was started anew before it answered: see whether this was done, and do it again if not."
+)
+
+
+def _resolve(waiting: dict[int, asyncio.Future[Any]], message: Joined | Downloaded) -> None:
+    future = waiting.get(message.number)
+    if future is not None and not future.done():
+        future.set_result(message)
