@@ -20,6 +20,7 @@ import {
 } from "../model/class.js";
 import { startNodes, stopNodes, studentNodes } from "../model/student-nodes.js";
 import { dialog, notify } from "../model/view.js";
+import { Relays } from "./class-relays.js";
 
 /** What is typed in a terminal. */
 const SHARED = "studio open --share";
@@ -58,6 +59,7 @@ function Open({ state, onClose }) {
   return html`<${JoinBlock} state=${state} />
     ${state.only_here && html`<${OnlyHere} />`}
     <${JoinSettings} state=${state} />
+    <${Relays} />
     <footer><button type="button" class="button danger" onClick=${askToEnd}>${t("class.end")}…</button>
       <button type="button" class="button" onClick=${pauseClass}>${t("class.pause")}</button><span class="push"></span>
       <button type="button" class="button primary" data-first onClick=${showPeople}><${Icon} name="users" />${t("class.people", { count: hereCount.value })}</button></footer>`;

@@ -7,6 +7,7 @@ import { later } from "../lib/loading.js";
 import { Icon, IconButton, MenuButton } from "../lib/ui.js";
 import { connection, documentId, role, turnedAway } from "../model/connection.js";
 import { documentState, gone } from "../model/document.js";
+import { movesOn, studioAway } from "../model/relays.js";
 import { goTo, openPath } from "../model/requests.js";
 import { activePanel, dialog, fullView, size } from "../model/view.js";
 import { ControlBar } from "./control.js";
@@ -40,6 +41,7 @@ export function Shell({ onDock }) {
     <${ControlBar} />
     <${CopyBar} />
     <${LostBar} />
+    <${AwayBar} />
     <${GoneBar} />
     <${RestoredBar} />
     <${LeftWorkBar} />
@@ -71,26 +73,39 @@ function SkipLink() {
   return html`<a class="skip" href="#dock" onClick=${skip}>${t("skip")}</a>`;
 }
 
-/** Says that the studio went away; a blink of the connection is not worth a word. */
-function LostBar() {
-  const said = useSignal(false);
-  const lost = connection.value === "lost";
+/** @param {boolean} holds @returns {boolean} it has for a while: a blink is not worth a word */
+function useLasting(holds) {
+  const lasts = useSignal(false);
   useEffect(() => {
-    if (!lost) {
-      said.value = false;
+    if (!holds) {
+      lasts.value = false;
       return undefined;
     }
     const later = setTimeout(() => {
-      said.value = true;
+      lasts.value = true;
     }, SAY_AFTER_MS);
     return () => clearTimeout(later);
-  }, [lost]);
-  if (!said.value) return null;
+  }, [holds]);
+  return lasts.value;
+}
+
+/** Says that the studio went away. */
+function LostBar() {
+  if (!useLasting(connection.value === "lost")) return null;
   if (turnedAway.value) {
     return html`<div class="bar lost" role="alert"><${Icon} name="lock" /><span><strong>${t("turned_away")}</strong> ${t("turned_away.hint")}</span></div>`;
   }
+  const [what, hint] = movesOn.value
+    ? [t("relays.gone"), t("relays.gone.hint")]
+    : [t("lost"), t("lost.hint")];
   return html`<div class="bar lost" role="alert"><span class="spinner"></span>
-    <span><strong>${t("lost")}</strong> ${t("lost.hint")}</span></div>`;
+    <span><strong>${what}</strong> ${hint}</span></div>`;
+}
+
+/** Says that our relay is there, but not the studio behind it. */
+function AwayBar() {
+  if (!useLasting(studioAway.value)) return null;
+  return html`<div class="bar away" role="status"><${Icon} name="info" /><span><strong>${t("relays.away")}</strong> ${t("relays.away.hint")}</span></div>`;
 }
 
 function GoneBar() {

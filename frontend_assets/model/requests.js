@@ -114,14 +114,17 @@ export function reload() {
 
 let going = false;
 
-/** @returns {boolean} the page is on its way to another document of the studio */
+/** @returns {boolean} the page is on its way to another document of the studio, or to another relay */
 export const isGoing = () => going;
 
-/** @param {string} id */
-export function goTo(id) {
+/** @param {string} other address, where all goes on as it is here */
+export function leaveTo(other) {
   going = true;
-  location.assign(documentAddress(id));
+  location.assign(other);
 }
+
+/** @param {string} id */
+export const goTo = (id) => leaveTo(documentAddress(id));
 
 export async function closeDocument() {
   if (!unsaved.value) return closeNow(false);

@@ -31,6 +31,15 @@ export interface AddInterfaces {
   texts: Record<string, string>;
 }
 
+/** Share the class by a relay, too. */
+export interface AddRelay {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "add_relay";
+  line: string;
+}
+
 /** Add a message, service, action, node or launch file to a package. */
 export interface AddToPackage {
   request?: number;
@@ -3381,6 +3390,29 @@ export interface Refused {
   reason: string;
 }
 
+/** To a page that a relay serves: whether the studio is there, and where else one can go on. */
+export interface RelayState {
+  type: "relay_state";
+  studio: "there" | "away";
+  others: string[];
+}
+
+/** One relay as the presenter sees it. */
+export interface RelayView {
+  endpoint: string;
+  state: "connecting" | "there" | "lost" | "refused";
+  reason: string;
+  address: string;
+  people: number;
+  lag_ms: number;
+}
+
+/** The relays of this studio; only to presenters. */
+export interface Relays {
+  type: "relays";
+  relays: RelayView[];
+}
+
 /** Read all files of the document from disk again; unsaved edits are given up. */
 export interface Reload {
   request?: number;
@@ -3414,6 +3446,15 @@ export interface RemoveMember {
   id?: string;
   type: "remove_member";
   person: string;
+}
+
+/** Share the class by this relay no more: its people go to another. */
+export interface RemoveRelay {
+  request?: number;
+  document?: string;
+  id?: string;
+  type: "remove_relay";
+  endpoint: string;
 }
 
 /** Remove a tool; one Interact tool stays. */
@@ -4929,6 +4970,7 @@ export interface ZeroJoints {
 export type Command =
   | AddDisplay
   | AddInterfaces
+  | AddRelay
   | AddToPackage
   | AddTool
   | AnimateJoints
@@ -5081,6 +5123,7 @@ export type Command =
   | Reload
   | RemoveDisplay
   | RemoveMember
+  | RemoveRelay
   | RemoveTool
   | Rename
   | RenamePose
@@ -5242,6 +5285,8 @@ export type Event =
   | RecordingState
   | ReferencesAnswer
   | Refused
+  | RelayState
+  | Relays
   | RenamingAnswer
   | Restored
   | RobotState

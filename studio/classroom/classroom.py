@@ -14,6 +14,8 @@ from studio.classroom.nodes.nodes import COMMANDS as NODE_COMMANDS
 from studio.classroom.nodes.nodes import StudentNodes
 from studio.classroom.qr_code import qr_svg
 from studio.classroom.record import ClassFile, ClassRecord, MemberRecord
+from studio.classroom.relays import COMMANDS as RELAY_COMMANDS
+from studio.classroom.relays import NoRelays, Relays
 from studio.debounce import Throttle
 from studio.errors import CommandError, DataFolderError, NotJoiningError
 from studio.protocol.classroom import (
@@ -177,6 +179,7 @@ class Classroom:
         self.admission = Admission(kept)
         self.admission.open = kept.open and not self.reach.why_not
         self.robot: Robot | None = None
+        self.relays: Relays = NoRelays()
         self.on_control: Callable[[str], object] | None = None
         """Called with the document that a member has control of now."""
         self.on_end: Callable[[], Awaitable[None]] | None = None
@@ -643,6 +646,7 @@ _FOCUSES: Final = Limits(bytes_max=4_000, per_second=30)
 
 COMMANDS: Final = Commands[Classroom](Scope.STUDIO)
 COMMANDS.include(NODE_COMMANDS, lambda room, _: room.nodes)
+COMMANDS.include(RELAY_COMMANDS, lambda room, _: room.relays)
 COMMANDS.presenter(Lead, lambda room, c, _: room.following.lead(leading=c.leading))
 COMMANDS.presenter(GatherAll, lambda room, _, __: room.following.gather())
 COMMANDS.presenter(

@@ -50,10 +50,19 @@ class Cookies:
         credentials: Proofs of presenters and guests.
         classroom: Knows members.
         front: Where the page is.
+        takes_passes: Whether a member's cookie may come in an address, as a pass of another relay.
     """
 
-    def __init__(self, credentials: Credentials, classroom: KnowsMembers, front: Front) -> None:
+    def __init__(
+        self,
+        credentials: Credentials,
+        classroom: KnowsMembers,
+        front: Front,
+        *,
+        takes_passes: bool = False,
+    ) -> None:
         self._credentials, self._classroom, self._front = credentials, classroom, front
+        self.takes_passes = takes_passes
 
     def visitor(self, headers: Headers, caller: Caller) -> Person | None:
         """Return who comes with these cookies: of several roles, the one that may most.
@@ -77,6 +86,10 @@ class Cookies:
     def is_sent_out(self, headers: Headers, caller: Caller) -> bool:
         """Whether this browser is somebody's who was sent out of the class."""
         return self._classroom.is_sent_out(self.member_cookie(headers, caller))
+
+    def member_of_pass(self, given: str) -> Person | None:
+        """Return who comes with this pass; None: it is none, or none is taken here."""
+        return self._classroom.member_of_cookie(given) if self.takes_passes and given else None
 
     def _visitor(self, given: str | None) -> Visitor | None:
         found = self._credentials.visitor_of_cookie(given) if given else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from http import HTTPStatus
 from typing import TYPE_CHECKING
@@ -17,7 +18,7 @@ from studio.server.http_protocol import connection_of
 from studio.server.origin import is_same_origin
 from studio.server.pages import no_access_page, return_page
 from studio.server.policy import COMMON_HEADERS, NOTHING_POLICY
-from studio.server.ports import CODE
+from studio.server.ports import CODE, FULL_SCREEN
 from studio.server.websocket import socket_of
 
 if TYPE_CHECKING:
@@ -34,6 +35,9 @@ _SAFE_METHODS = frozenset({"GET", "HEAD"})
 _PUBLIC_PREFIXES = ("/a/", "/favicon.ico")
 JOIN_PATH = "/join"
 """The form by which others join; of its own, because who has no role may open it."""
+PASS, NEXT = "pass", "next"
+"""In the query of `JOIN_PATH`: proof of a member, given by another relay; where they go on."""
+_DOCUMENT = re.compile(r"/d/[^/\\?#\x00-\x1f\x7f]+")
 _SLASHES = "/\\"
 _BEARER = "bearer "
 _CROWDED = "This studio has as many viewers as it takes: close a tab, or try again later."
@@ -139,6 +143,8 @@ class Guard:
         visitor: Person | None,
     ) -> Response | None:
         """Take the code of a link into a cookie; who has a place here goes there."""
+        if self._cookies.takes_passes and PASS in dict(query):
+            return self._exchange_pass(dict(query), headers, caller, visitor)
         if visitor is not None and visitor.role is not Role.GUEST:
             return self._go_to("/", headers)
         if not query:
@@ -146,6 +152,27 @@ class Guard:
         response = self._go_to(JOIN_PATH, headers)  # without a token that was sent here, too
         if code := dict(query).get(CODE):
             self._cookies.keep_code(response, caller, code)
+        return response
+
+    def _exchange_pass(
+        self, given: dict[str, str], headers: Headers, caller: Caller, visitor: Person | None
+    ) -> Response:
+        """Take a pass into a cookie; it replaces nobody's place, and lets in nobody sent out.
+
+        Also from elsewhere it redirects at once: a member's cookie comes along, and so no page
+        ever has the pass in its address.
+        """
+        member = self._cookies.member_of_pass(given[PASS])
+        has_place = visitor is not None and visitor.role is not Role.GUEST
+        if not has_place and self._cookies.is_sent_out(headers, caller):
+            member = None
+        if member is None:
+            return _see_other(self._own("/" if has_place else JOIN_PATH))
+        if visitor is not None and has_place and visitor.person != member.person:
+            return _see_other(self._own("/"))
+        response = _see_other(self._own(*_goal(given)))
+        if not has_place:
+            self._cookies.give_member(response, caller, given[PASS])
         return response
 
     def _earned(
@@ -160,12 +187,15 @@ class Guard:
 
     def _go_to(self, path: str, headers: Headers, query: str = "") -> Response:
         """Send on. From another site's link a redirect would not carry the strict cookie yet."""
-        # One leading slash, whatever path was asked for: else it would name another host.
-        own = f"{self._front.base}/{quote(path.lstrip(_SLASHES))}"
-        address = f"{own}?{query}" if query else own
+        address = self._own(path, query)
         if _comes_from_elsewhere(headers):
             return return_page(address)
-        return RedirectResponse(address, 303, headers={"referrer-policy": "no-referrer"})
+        return _see_other(address)
+
+    def _own(self, path: str, query: str = "") -> str:
+        # One leading slash, whatever path was asked for: else it would name another host.
+        own = f"{self._front.base}/{quote(path.lstrip(_SLASHES))}"
+        return f"{own}?{query}" if query else own
 
     def _stranger(self, scope: Scope, headers: Headers, caller: Caller) -> Response:
         """Return the answer for a stranger: a page for a person, a sentence for a program."""
@@ -180,6 +210,17 @@ class Guard:
         if self._joining():
             return self._go_to(JOIN_PATH, headers)
         return no_access_page(spent=False)
+
+
+def _goal(given: dict[str, str]) -> tuple[str, str]:
+    """Return path and query of the document that a pass leads to; else of the first one."""
+    path, (name, _, value) = given.get(NEXT, ""), FULL_SCREEN.partition("=")
+    query = FULL_SCREEN if given.get(name) == value else ""
+    return path if _DOCUMENT.fullmatch(path) else "/", query
+
+
+def _see_other(address: str) -> Response:
+    return RedirectResponse(address, 303, headers={"referrer-policy": "no-referrer"})
 
 
 def _comes_from_elsewhere(headers: Headers) -> bool:

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Final
+import re
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 Headers = list[tuple[bytes, bytes]]
 
@@ -26,6 +30,17 @@ WORKER_POLICY: Final = (
     "base-uri 'none'"
 )
 """For scripts of workers: it, and not the page's policy, limits what they fetch."""
+_ORIGIN: Final = re.compile(r"https?://[A-Za-z0-9.-]+(:[0-9]+)?(?=[/?#]|$)")
+"""Of an address; a policy cannot name one by its IPv6 address."""
+
+
+def probe_policy(neighbours: Iterable[str]) -> str:
+    """Return that of the worker which looks whether relays at these addresses are there.
+
+    The page itself may not reach them. Without any it is `WORKER_POLICY`.
+    """
+    found = {origin[0]: None for one in neighbours if (origin := _ORIGIN.match(one))}
+    return WORKER_POLICY.replace("connect-src 'self'", " ".join(("connect-src 'self'", *found)))
 
 
 def page_policy(nonce: str) -> str:

@@ -1,6 +1,7 @@
 """The routes that a browser uses: the page, its files, the 3D view's page, the websockets."""
 
 import asyncio
+from collections.abc import Callable
 from functools import lru_cache
 from http import HTTPStatus
 from typing import Final
@@ -21,7 +22,7 @@ from studio.server.bulk_lane import BulkAnswer, BulkKeys
 from studio.server.commands import ControlLane
 from studio.server.data_lane import DataLane
 from studio.server.pages import studio_page
-from studio.server.policy import SCENE_POLICY, WORKER_POLICY
+from studio.server.policy import SCENE_POLICY, WORKER_POLICY, probe_policy
 from studio.server.ports import FULL_SCREEN
 from studio.server.surface import OpenDocuments, OpenScene
 from studio.server.websocket import Lane
@@ -59,15 +60,31 @@ async def _end_with_sight(lane: Lane, visitor: Person, copy: str) -> None:
 _FOREVER: Final = "public, max-age=31536000, immutable"
 _ICON: Final = "styles/logo.svg"
 _WORKERS: Final = "workers/"
+_PROBE: Final = "workers/probe.js"
 _SCENE_SCRIPT: Final = "viser/studio3d.js"
 
 
 class Site:
-    """The routes and what they need."""
+    """The routes and what they need.
 
-    def __init__(self, engine: OpenDocuments, assets: Assets, session: str, base: str) -> None:
+    Args:
+        engine: What is open.
+        assets: The files of the page.
+        session: Changes with every start.
+        base: The path below which the studio is reached.
+        neighbours: Addresses at which people can go on when this server is gone.
+    """
+
+    def __init__(
+        self,
+        engine: OpenDocuments,
+        assets: Assets,
+        session: str,
+        base: str,
+        neighbours: Callable[[], tuple[str, ...]] = tuple,
+    ) -> None:
         self._engine, self._assets, self._session = engine, assets, session
-        self._base = base
+        self._base, self._neighbours = base, neighbours
         self._bulk_keys = BulkKeys()
 
     def add_to(self, app: FastAPI) -> None:
@@ -126,8 +143,12 @@ class Site:
         if found is None:
             return Response(status_code=HTTPStatus.NOT_FOUND)
         asset, is_exact = found
-        answer = _send(asset, request, _FOREVER if is_exact else "no-store")
-        if path.startswith(_WORKERS):
+        is_probe = path == _PROBE
+        # A page begins the probe anew when its neighbours change, and needs the policy of then.
+        answer = _send(asset, request, _FOREVER if is_exact and not is_probe else "no-store")
+        if is_probe:
+            answer.headers["content-security-policy"] = probe_policy(self._neighbours())
+        elif path.startswith(_WORKERS):
             answer.headers["content-security-policy"] = WORKER_POLICY
         return answer
 

@@ -52,7 +52,7 @@ STUDENT_COMMANDS = {
 HELPER_COMMANDS = {"get_lesson_table", "give_control", "take_control", "lower_hand", "send_back"}
 PRESENTER_COMMANDS = {
     *("start_class", "pause_class", "end_class", "set_class", "renew_code"),
-    *("start_nodes", "stop_nodes"),
+    *("start_nodes", "stop_nodes", "add_relay", "remove_relay"),
     *("set_member_role", "remove_member", "readmit_member"),
     *("save_lesson", "delete_lesson", "read_lesson"),
     *("lead", "gather_all", "show_view", "show_focus", "show_copy"),

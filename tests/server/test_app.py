@@ -146,7 +146,7 @@ FIELDS: dict[str, object] = {
     **dict.fromkeys(("lesson", "panel"), "x"),
     "subject": "graph",
     "pressed": "up",
-    "person": "x",
+    **dict.fromkeys(("person", "line", "endpoint"), "x"),
     "remark": "x",
     **dict.fromkeys(("leading", "following"), True),
     "role": "student",
