@@ -71,6 +71,10 @@ class Settings:
     """Whether all who reach the port may look, without a token."""
     shared: bool = False
     """Whether a class is begun at the start."""
+    via: tuple[str, ...] = ()
+    """Lines of the relays that share the class, too."""
+    via_topics: tuple[str, ...] = ()
+    """Patterns of the topics that relays may pass on; none: all."""
     base_path: str = ""
     """The path below which the page is reached, as `/studio`."""
     proxies: frozenset[str] = frozenset()

@@ -48,8 +48,6 @@ from studio.protocol.classroom import (
 from studio.protocol.classroom import Control as ControlEvent
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import Audience, encode, send
-from studio.protocol.relays import AddRelay, RemoveRelay
-from studio.protocol.relays import Relays as RelaysEvent
 from studio.protocol.roles import Role, original_of
 from studio.settings import DEFAULT_HOST
 
@@ -100,63 +98,6 @@ class Robot(Protocol):
         ...
 
 
-class Relays(Protocol):
-    """The relays that share the class."""
-
-    async def add(self, line: str, /) -> None:
-        """Share the class by one more.
-
-        Raises:
-            StudioError: It is no line of a relay.
-        """
-        ...
-
-    async def remove(self, endpoint: str, /) -> None:
-        """Share the class by it no more.
-
-        Raises:
-            CommandError: It is not in use.
-        """
-        ...
-
-    def addresses(self) -> tuple[str, ...]:
-        """Return where people join at those that are there."""
-        ...
-
-    def guests(self) -> int:
-        """Return how many pages of people outside of the class are open there."""
-        ...
-
-    def event(self) -> RelaysEvent:
-        """Return them, for presenters."""
-        ...
-
-
-class NoRelays:
-    """Relays of a class that is shared by none: nobody dials them."""
-
-    async def add(self, line: str, /) -> None:
-        """Refuse it."""
-        del line
-        raise CommandError("This studio uses no relays: start it with `studio open` or `demo`.")
-
-    async def remove(self, endpoint: str, /) -> None:
-        """Refuse it."""
-        raise CommandError(f"{endpoint} is no relay of this studio.")
-
-    def addresses(self) -> tuple[str, ...]:
-        """Return none."""
-        return ()
-
-    def guests(self) -> int:
-        """Return 0."""
-        return 0
-
-    def event(self) -> RelaysEvent:
-        """Return none."""
-        return RelaysEvent(relays=())
-
-
 class Classroom:
     """Used on the event loop only.
 
@@ -186,7 +127,6 @@ class Classroom:
         """Deletes what others keep of the class."""
         self.end_pages: Callable[[str], object] = lambda person: None
         """Ends all connections of a person."""
-        self.relays: Relays = NoRelays()
         self.room_seed = kept.room
         self.relay_lines = list(kept.relays)
         """Of the relays that a presenter added."""
@@ -287,11 +227,11 @@ class Classroom:
             send(listener, self.relays.event())
         self._changed()
 
-    def relays_changed(self, relays: RelaysEvent) -> None:
+    def relays_changed(self) -> None:
         """Show presenters the relays, and where people join now."""
         for page in self._leaders():
             if page.role is Role.PRESENTER:
-                send(page, relays)
+                send(page, self.relays.event())
         self._changed()
 
     def detach(self, listener: Listener) -> None:
@@ -323,7 +263,7 @@ class Classroom:
         if self.reach.why_not:
             raise CommandError(self.reach.why_not)
         self.admission.open = True
-        await self._keep()
+        await self.keep()
         self._all_changed()
 
     async def pause(self) -> None:
@@ -332,7 +272,7 @@ class Classroom:
         self.control.give("")
         self._all_changed()
         self._end_all_pages()
-        await self._keep()
+        await self.keep()
 
     async def end(self) -> None:
         """End the class, and delete all that is kept of it."""
@@ -357,13 +297,13 @@ class Classroom:
             admission.join_as = command.join_as
         if command.password is not None:
             await admission.set_password(command.password)
-        await self._keep()
+        await self.keep()
         self._changed()
 
     async def renew_code(self) -> None:
         """Make another code and link."""
         self.admission.renew()
-        await self._keep()
+        await self.keep()
         self._changed()
 
     async def log_out(self) -> None:
@@ -388,7 +328,7 @@ class Classroom:
             if self.control.holder == member.person:
                 self.control.give("")
             await self.nodes.revoke(member.person)
-        await self._keep()
+        await self.keep()
         self._tell(member.person)
 
     async def remove(self, person: str) -> None:
@@ -400,20 +340,20 @@ class Classroom:
             self.control.give("")
         self._changed()
         self.end_pages(person)
-        await self._keep()
+        await self.keep()
         await self.nodes.revoke(person)
 
     async def readmit(self, person: str) -> None:
         """Let a person in again."""
         self.members.get(person).removed = False
-        await self._keep()
+        await self.keep()
         self._changed()
 
     async def rename(self, person: str, name: str) -> None:
         """Change one's own name."""
         member = self.members.get(person)
         member.name = self.members.free_name(name, own=person)
-        await self._keep()
+        await self.keep()
         self._tell(person)
         if self.control.holder == person:
             self._everybody.send(self._control_event())
@@ -620,13 +560,18 @@ class Classroom:
             ),
         )
 
-    async def _keep(self) -> None:
+    async def keep(self) -> None:
+        """Keep what the class is.
+
+        Raises:
+            DataFolderError: The disk refuses it.
+        """
         await self._file.keep(self._record)
 
     async def _keep_quietly(self) -> None:
         """Keep it; a full disk is not the fault of who joins."""
         try:
-            await self._keep()
+            await self.keep()
         except DataFolderError as error:
             _log.warning("%s", error)
 
@@ -666,8 +611,6 @@ COMMANDS.presenter(EndClass, lambda room, _, __: room.end())
 COMMANDS.presenter(SetClass, lambda room, c, _: room.set(c))
 COMMANDS.presenter(RenewCode, lambda room, _, __: room.renew_code())
 COMMANDS.presenter(SetMemberRole, lambda room, c, _: room.set_role(c))
-COMMANDS.presenter(AddRelay, lambda room, c, _: room.relays.add(c.line))
-COMMANDS.presenter(RemoveRelay, lambda room, c, _: room.relays.remove(c.endpoint))
 COMMANDS.presenter(RemoveMember, lambda room, c, _: room.remove(c.person))
 COMMANDS.presenter(ReadmitMember, lambda room, c, _: room.readmit(c.person))
 COMMANDS.helper(

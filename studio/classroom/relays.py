@@ -7,6 +7,7 @@ from typing import Final, Protocol
 from studio.errors import CommandError
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.relays import AddRelay, RemoveRelay
+from studio.protocol.relays import Relays as RelaysEvent
 
 
 class Relays(Protocol):
@@ -28,6 +29,18 @@ class Relays(Protocol):
         """
         ...
 
+    def addresses(self) -> tuple[str, ...]:
+        """Return where people join at those that are there."""
+        ...
+
+    def guests(self) -> int:
+        """Return how many pages are open there of people who are not in the class."""
+        ...
+
+    def event(self) -> RelaysEvent:
+        """Return them, for presenters."""
+        ...
+
 
 class NoRelays:
     """Of a studio that dials none."""
@@ -40,6 +53,18 @@ class NoRelays:
     async def remove(self, endpoint: str, /) -> None:
         """Refuse it."""
         raise CommandError(f"This studio has no relay {endpoint}: it cannot use any.")
+
+    def addresses(self) -> tuple[str, ...]:
+        """Return none."""
+        return ()
+
+    def guests(self) -> int:
+        """Return 0."""
+        return 0
+
+    def event(self) -> RelaysEvent:
+        """Return none."""
+        return RelaysEvent(relays=())
 
 
 COMMANDS: Final = Commands[Relays](Scope.STUDIO)

@@ -78,11 +78,56 @@ def add_server_options(parser: argparse.ArgumentParser) -> None:
     add_read_options(parser)
 
 
+def add_page_options(parser: argparse.ArgumentParser) -> None:
+    """Options of a command that serves browsers the page of another studio."""
+    parser.add_argument("--host", help="address to listen on (default: this machine only)")
+    parser.add_argument(
+        "--port", type=_port, help=f"port to listen on (default: {DEFAULT_PORT} or the next free)"
+    )
+    _add_front_options(parser.add_argument)
+    _add_data_option(parser)
+
+
+def page_settings(options: argparse.Namespace) -> Settings:
+    """Return the settings of a command with `add_page_options`.
+
+    Raises:
+        SettingsError: They do not go together, or the data folder cannot be used.
+    """
+    from studio.server.front import base_path, proxy_addresses
+    from studio.settings import Settings, data_folder
+
+    public_url = _public_url(options.public_url)
+    return Settings(
+        host=options.host or DEFAULT_HOST,
+        port=options.port,
+        base_path=base_path(options.base_path or urlsplit(public_url).path),
+        proxies=proxy_addresses(options.trusted_proxy),
+        public_url=public_url,
+        tls=_tls(options),
+        data_folder=data_folder(options.data_dir),
+    )
+
+
 def _add_sharing_options(add: Callable[..., object]) -> None:
     add(
         "--share",
         action="store_true",
         help="let others on this network join with a code, and print it",
+    )
+    add(
+        "--via",
+        action="append",
+        default=[],
+        metavar="LINE",
+        help="also share by this relay, with the line that `studio relay` prints; may be given again",
+    )
+    add(
+        "--via-topics",
+        action="append",
+        default=[],
+        metavar="PATTERN",
+        help="topics that relays may pass on, as '/tf*' (default: all); may be given again",
     )
     add("--viewer-link", action="store_true", help="print an address for viewers, too")
     add(
@@ -90,6 +135,10 @@ def _add_sharing_options(add: Callable[..., object]) -> None:
         action="store_true",
         help="let all who reach the port look, without a token; the owner's address has it still",
     )
+    _add_front_options(add)
+
+
+def _add_front_options(add: Callable[..., object]) -> None:
     add("--tls-cert", type=Path, metavar="FILE", help="encrypt with this certificate (PEM) and ...")
     add("--tls-key", type=Path, metavar="FILE", help="... its key")
     add(
@@ -117,14 +166,18 @@ def add_read_options(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="also find packages here, read-only; may be given again",
     )
-    parser.add_argument(
-        "--data-dir", type=Path, metavar="DIR", help="where working copies and caches live"
-    )
+    _add_data_option(parser)
     parser.add_argument(
         "--trust",
         action="store_true",
         help="for your own files, on this machine only: $(env) sees every environment variable, "
         "not only those of ROS; expressions and what may be read stay as they are",
+    )
+
+
+def _add_data_option(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--data-dir", type=Path, metavar="DIR", help="where working copies and caches live"
     )
 
 
@@ -154,6 +207,7 @@ def server_settings(options: argparse.Namespace) -> Settings:
     Raises:
         SettingsError: The data folder cannot be used.
         WireSettingsError: `--router` or `--connect` is no endpoint.
+        RelayKeyError: `--via` is no line of a relay.
     """
     from studio.ros.wire.endpoints import parse_endpoint
     from studio.server.credentials import new_token
@@ -163,6 +217,13 @@ def server_settings(options: argparse.Namespace) -> Settings:
     router = () if options.router in {"auto", "off"} else (options.router,)
     for endpoint in (*options.connect, *router):
         parse_endpoint(endpoint)
+    if options.via:
+        from studio.server.relays.keys import parse_relay_line
+
+        for line in options.via:
+            parse_relay_line(line)
+        if not options.share:
+            raise SettingsError("--via shares a class by a relay: give --share, too.")
     public_url = _public_url(options.public_url)
     return Settings(
         host=options.host or (_EVERYWHERE if options.share else DEFAULT_HOST),
@@ -170,6 +231,8 @@ def server_settings(options: argparse.Namespace) -> Settings:
         token=new_token(),
         guests=options.no_token,
         shared=options.share,
+        via=tuple(options.via),
+        via_topics=tuple(options.via_topics),
         base_path=base_path(options.base_path or urlsplit(public_url).path),
         proxies=proxy_addresses(options.trusted_proxy),
         public_url=public_url,

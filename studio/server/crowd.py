@@ -80,6 +80,8 @@ class Crowd:
         self._people: dict[Person, Account] = {}
         self._viewer_connections = 0
         self._viewers = Allowance(10_000, 4_000)
+        self.sent_bytes = 0
+        """Of frames that were written to websockets."""
         self._refused, self._logged_s = 0, -_LOG_EVERY_S
 
     def arrive(self, connection: Connection) -> None:

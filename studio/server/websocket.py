@@ -217,6 +217,7 @@ class StudioSocket(WebSocketsSansIOProtocol):
         """Write one whole frame; nothing happens when the socket is no longer open."""
         if self.conn.state is State.OPEN and not self.transport.is_closing():
             self.transport.write(frame)
+            self._crowd.sent_bytes += len(frame)
 
     def pending_bytes(self) -> int:
         """Bytes written and not yet taken by the system."""

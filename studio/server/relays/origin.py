@@ -7,8 +7,7 @@ import hmac
 import secrets
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import CommandError, NotJoiningError, TicketError
-from studio.protocol.listeners import send
+from studio.errors import CommandError, NotJoiningError, StudioError, TicketError
 from studio.protocol.relays import Relays, RelayView
 from studio.protocol.roles import Role, Visitor
 from studio.server.joining import Rate, Tries
@@ -20,11 +19,11 @@ from studio.server.relays.tickets import RoomIdentity, TicketIssuer, read_ticket
 from studio.server.relays.uplink import Uplink
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from studio.classroom.classroom import Classroom
-    from studio.protocol.listeners import Listener
     from studio.protocol.roles import Person
+    from studio.server.relays.keys import RelayAddress
     from studio.server.relays.line import Line
     from studio.server.relays.messages import AskJoin
     from studio.server.relays.origin_end import SharedStudio
@@ -66,7 +65,29 @@ class Origin:
 
     # Relays
 
+    async def begin(self, lines: Sequence[str], warn: Callable[[str], object]) -> None:
+        """Dial the relays that were named, and those of before; what cannot be is told."""
+        for line in (*lines, *self._classroom.relay_lines):
+            try:
+                if parse_relay_line(line).endpoint not in self._uplinks:
+                    await self.dial(line)
+            except StudioError as error:
+                warn(str(error))
+
     async def add(self, line: str) -> None:
+        """Share the class by one relay more, also after the studio was started anew.
+
+        Raises:
+            RelayKeyError: It is no line of a relay.
+            CommandError: There are as many as can be.
+        """
+        relay = await self.dial(line)
+        kept = self._classroom.relay_lines
+        kept[:] = [one for one in kept if parse_relay_line(one).endpoint != relay.endpoint]
+        kept.append(f"{relay.endpoint}#{relay.key}")
+        await self._classroom.keep()
+
+    async def dial(self, line: str) -> RelayAddress:
         """Share the class by one relay more, from now on.
 
         Raises:
@@ -83,6 +104,7 @@ class Origin:
         if self._watching is None:
             self._watching = asyncio.create_task(self._watch())
         self._changed()
+        return relay
 
     async def remove(self, endpoint: str) -> None:
         """Share the class by this relay no more.
@@ -93,6 +115,9 @@ class Origin:
         if not await self._drop(endpoint):
             raise CommandError(f"{endpoint} is no relay of this studio.")
         self._changed()
+        kept = self._classroom.relay_lines
+        kept[:] = [one for one in kept if parse_relay_line(one).endpoint != endpoint]
+        await self._classroom.keep()
 
     async def close(self) -> None:
         """End all lines."""
@@ -119,10 +144,6 @@ class Origin:
             if isinstance(one.end, OriginEnd):
                 one.end.end_person(person)
 
-    def attach(self, listener: Listener) -> None:
-        """Show a presenter's page the relays."""
-        send(listener, self.event())
-
     async def _drop(self, endpoint: str) -> bool:
         uplink = self._uplinks.pop(endpoint, None)
         if uplink is None:
@@ -142,7 +163,7 @@ class Origin:
 
     def _changed(self) -> None:
         self._shown = self.event()
-        self._classroom.relays_changed(self._shown)
+        self._classroom.relays_changed()
         for one in self._uplinks.values():
             if isinstance(one.end, OriginEnd):
                 one.end.tell_state()

@@ -42,6 +42,8 @@ from studio.server.relays.tickets import verify_room
 from studio.server.relays.uplink import CLAIM_KEY, LEASE_MS, SAMPLES_MAX, line_keys
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from starlette.types import ASGIApp, Receive, Scope, Send
 
     from studio.ros.wire.zenoh import Config, Query, Sample, Session
@@ -73,7 +75,9 @@ class Relay:
         assets: The files of the page.
         hosts: The names by which it is reached.
         port: The port that it listens on.
+        base: The path below which its page is reached.
         proxies: Whose headers tell who asks.
+        on_listening: Called once browsers and studios may come.
     """
 
     def __init__(  # noqa: PLR0913 - by name
@@ -87,9 +91,11 @@ class Relay:
         port: int,
         base: str = "",
         proxies: frozenset[str] = frozenset(),
+        on_listening: Callable[[], object] = lambda: None,
     ) -> None:
         self.endpoint, self.identity, self.address = endpoint, identity, address
         self._assets, self._base = assets, base
+        self._on_listening = on_listening
         self._front_of = lambda path: Front(hosts, port, path, proxies)
         self.rooms: dict[str, Room] = {}
         self._apps: dict[str, tuple[str, ASGIApp]] = {}
@@ -126,7 +132,8 @@ class Relay:
         ]  # type: ignore[list-item]
 
     async def answering(self) -> None:
-        """Nothing more is to be done."""
+        """Tell that studios may dial in."""
+        self._on_listening()
 
     async def end(self) -> None:
         """End all rooms, and let the origins go."""
@@ -256,9 +263,9 @@ class Relay:
         if scope["type"] == "lifespan":
             return
         path: str = scope["path"].removeprefix(self._base)
-        name = path.lstrip("/").partition("/")[0]
+        name, _, rest = path.lstrip("/").partition("/")
         room = self.rooms.get(name)
-        if room is not None and room.state is not None:
+        if room is not None and room.state is not None and rest != "health":
             await self._app_of(room)(scope, receive, send)
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1013})
@@ -286,8 +293,11 @@ class Relay:
 
     def _own(self, scope: Scope, path: str) -> Response:
         """Answer what concerns no room."""
-        if path == "/health":
-            return PlainTextResponse("ok\n", headers={"cache-control": "no-store"})
+        if path.endswith("/health"):
+            name = path.strip("/").partition("/")[0]
+            is_known = path == "/health" or name in self.rooms
+            said = ("ok", HTTPStatus.OK) if is_known else ("?", HTTPStatus.SERVICE_UNAVAILABLE)
+            return PlainTextResponse(f"{said[0]}\n", said[1], {"cache-control": "no-store"})
         if path == "/metrics":
             given = Headers(scope=scope).get("authorization", "")
             if not given.lower().startswith(_BEARER) or not self.identity.proves(

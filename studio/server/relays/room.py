@@ -158,6 +158,9 @@ class Room:
         self.scenes = RelayedScenes(self._send, self._ticket_for, blobs)
         self.browser_topics = RelayedTopics(self._send)
         self.uploads = self.copies = OnlyThere()
+        self._greeted = False
+        self._before_bytes = [0, 0, 0]
+        """Received, sent and refused on lines that have ended."""
         self._pages: dict[Listener, int] = {}
         """All control lanes, and those that ask by HTTP."""
         self._arrived: set[int] = set()
@@ -187,6 +190,36 @@ class Room:
         return self._line
 
     @property
+    def pages(self) -> int:
+        """How many are open."""
+        return len(self._pages)
+
+    @property
+    def people(self) -> int:
+        """How many persons have one open."""
+        return len({one.person for one in self._pages})
+
+    @property
+    def frame_count(self) -> int:
+        """Frames that came, of all lanes."""
+        return self.lanes.frame_count + self.scenes.frame_count
+
+    @property
+    def received_bytes(self) -> int:
+        """Bytes that came from the origin."""
+        return self._before_bytes[0] + (self._line.received_bytes if self._line else 0)
+
+    @property
+    def sent_bytes(self) -> int:
+        """Bytes that went to the origin."""
+        return self._before_bytes[1] + (self._line.sent_bytes if self._line else 0)
+
+    @property
+    def refused(self) -> int:
+        """Messages that were forged, sent again or out of their order."""
+        return self._before_bytes[2] + (self._line.refused if self._line else 0)
+
+    @property
     def state(self) -> RoomState | None:
         """What the origin said last of the room."""
         return self.classroom.state
@@ -207,6 +240,8 @@ class Room:
         if reason:
             line.send(Taken(reason))
         self.away_since_s = self._loop.time()
+        for at, count in enumerate((line.received_bytes, line.sent_bytes, line.refused)):
+            self._before_bytes[at] += count
         line.close()
         self.browser_topics.reset()
         self.scenes.reset()

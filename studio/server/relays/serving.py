@@ -1,0 +1,128 @@
+"""Runs a relay: its key, its addresses, and its server, until a signal ends it."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Final
+from urllib.parse import urlsplit
+
+from studio.description import checks as text_checks
+from studio.errors import DataFolderError, SettingsError
+from studio.files import write_whole
+from studio.packages import lint as package_checks
+from studio.problems import whys
+from studio.robot import checks as robot_checks
+from studio.ros.wire.endpoints import parse_endpoint
+from studio.ros.wire.zenoh import use_few_threads
+from studio.scene import CLIENT_PATH, viser_client
+from studio.server.assets import CHECK_TEXTS, Assets, check_texts
+from studio.server.launch import place_of, remarks
+from studio.server.origin import KnownHosts
+from studio.server.ports import bind, port_of
+from studio.server.relays.keys import RelayIdentity, new_secret
+from studio.server.relays.relay import Relay
+from studio.server.server import Server
+from studio.settings import repository_or_wheel
+from studio.system import raise_descriptor_limit
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from studio.server.launch import Place
+    from studio.settings import Settings
+
+_KEY_FILE: Final = "relay.key"
+_ANYWHERE: Final = frozenset({"0.0.0.0", "::"})
+
+
+def serve_relay(settings: Settings, listen: str, name: str, *, new_key: bool) -> None:
+    """Serve until a signal ends it, and print the line for studios and the address for people.
+
+    Args:
+        settings: What the command line decided of the page.
+        listen: Where studios dial in.
+        name: By which studios and browsers find this machine; empty: its first address.
+        new_key: Whether to make another key.
+
+    Raises:
+        StudioError: It cannot listen.
+    """
+    logging.basicConfig(
+        stream=sys.stderr, level=logging.WARNING, format="%(levelname)s %(message)s"
+    )
+    use_few_threads()
+    raise_descriptor_limit()
+    endpoint = parse_endpoint(listen)
+    if endpoint.protocol != "tls":
+        raise SettingsError(f"--listen takes an encrypted endpoint, as tls/0.0.0.0:7448, not {listen}.")
+    identity = RelayIdentity(relay_secret(settings.data_folder, anew=new_key))
+    with bind(settings.host, settings.port) as listener:
+        place = place_of(settings, port_of(listener))
+        for sentence in remarks(settings, place.port):
+            sys.stderr.write(f"studio: {sentence}\n")
+        address = _address(settings, place, name)
+        names = KnownHosts.of(settings.host, urlsplit(address).hostname or "")
+        client = viser_client()
+        assets = Assets(
+            repository_or_wheel("frontend_assets"),
+            {
+                CLIENT_PATH: lambda: client,
+                CHECK_TEXTS: lambda: check_texts(whys(robot_checks, text_checks, package_checks)),
+            },
+        )
+        relay = Relay(
+            endpoint=listen,
+            identity=identity,
+            address=address,
+            assets=assets,
+            hosts=names,
+            port=place.port,
+            base=settings.base_path,
+            proxies=settings.proxies,
+            on_listening=lambda: _print_lines(endpoint.host, endpoint.port, identity, address),
+        )
+        server = Server(relay, relay, place.tls)
+        relay.crowd = server.server_state.crowd
+        server.run(sockets=[listener])
+
+
+def relay_secret(data_folder: Path, *, anew: bool = False) -> str:
+    """Return what the relay's key is made from, kept in a file that only its owner may read.
+
+    Raises:
+        DataFolderError: It cannot be kept.
+    """
+    path = data_folder / _KEY_FILE
+    try:
+        if not anew and path.exists():
+            return path.read_text("ascii").strip()
+        secret = new_secret()
+        write_whole(path, secret.encode(), mode=0o600)
+    except (OSError, UnicodeDecodeError) as error:
+        raise DataFolderError(str(path), str(error)) from error
+    return secret
+
+
+def _address(settings: Settings, place: Place, name: str) -> str:
+    """Return where browsers come."""
+    if settings.public_url or not name:
+        return place.reach.addresses[0]
+    parts = urlsplit(place.reach.addresses[0])
+    shown = f":{parts.port}" if parts.port else ""
+    return parts._replace(netloc=f"{name}{shown}").geturl()
+
+
+def _print_lines(listen_host: str, port: int, identity: RelayIdentity, address: str) -> None:
+    host = urlsplit(address).hostname or ""
+    if listen_host not in _ANYWHERE:
+        host = listen_host
+    shown = f"[{host}]" if ":" in host else host
+    began = datetime.now(UTC).strftime("%H:%M UTC")
+    sys.stdout.write(
+        f"Relay: tls/{shown}:{port}#{identity.key}\n"
+        f"People join at {address} once a studio is here (started {began}):\n"
+        f"  studio open ROBOT --share --via 'tls/{shown}:{port}#{identity.key}'\n"
+    )
+    sys.stdout.flush()
