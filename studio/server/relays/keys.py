@@ -40,7 +40,7 @@ _STUDIO: Final = "Studio"
 _SEED: Final = "Seed of the studios of a relay"
 _SAYS: Final = b"studio relay says\0"
 """Before what is signed; no certificate begins so."""
-_HOST: Final = re.compile(r"[A-Za-z0-9._:%-]+")
+_HOST: Final = re.compile(r"[a-z0-9._:%-]+")
 
 
 def new_secret() -> str:
@@ -146,9 +146,9 @@ def parse_relay_line(text: str) -> RelayAddress:
         raise RelayKeyError("what is before its # is no endpoint") from None
     if endpoint.protocol != "tls":
         raise RelayKeyError("it does not begin with tls/")
-    if not _HOST.fullmatch(endpoint.host) or "?" in address:
+    host = endpoint.host.encode("idna").decode().lower()
+    if not _HOST.fullmatch(host) or "?" in address:
         raise RelayKeyError("what is before its # is more than tls/, a host and a port")
-    host = endpoint.host.lower()
     _read_key(key)
     return RelayAddress(f"tls/{f'[{host}]' if ':' in host else host}:{endpoint.port}", key)
 

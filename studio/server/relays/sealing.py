@@ -7,7 +7,7 @@ sealed here only the two can read and make, and neither repeat, reorder nor leav
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 from studio.errors import RelayLineError
 
@@ -25,6 +25,8 @@ _NONCE_START: Final = b"\0\0\0\0"
 _INFO: Final = b"studio relay line 1\0"
 _MORE_FOLLOWS: Final = 1
 _IS_FIRST: Final = 2
+
+BytesT = TypeVar("BytesT", bytes, bytearray)
 
 
 class Handshake:
@@ -187,15 +189,22 @@ class Joiner:
             if half is not None:
                 raise RelayLineError("a message began within another.")
             self._skips = False
+            if not more_follows:
+                return _bounded(piece[1:])
             half = bytearray()
         elif self._skips:
             return None
         elif half is None:
             raise RelayLineError("a piece came of a message that did not begin.")
         half += memoryview(piece)[1:]
-        if len(half) > MESSAGE_BYTES_MAX:
-            raise RelayLineError(f"a message has more than {MESSAGE_BYTES_MAX} bytes.")
+        _bounded(half)
         if not more_follows:
             return bytes(half)
         self._half = half
         return None
+
+
+def _bounded(message: BytesT) -> BytesT:
+    if len(message) > MESSAGE_BYTES_MAX:
+        raise RelayLineError(f"a message has more than {MESSAGE_BYTES_MAX} bytes.")
+    return message
