@@ -120,7 +120,8 @@ def _add_sharing_options(add: Callable[..., object]) -> None:
         action="append",
         default=[],
         metavar="LINE",
-        help="also share by this relay, with the line that `studio relay` prints; may be given again",
+        help="also share by this relay, with the line that `studio relay` prints; may be given "
+        "again",
     )
     add(
         "--via-topics",

@@ -154,7 +154,9 @@ def join_page(
 def waiting_page(*, is_room: bool) -> HTMLResponse:
     """Return a relay's page where no room is; of one that may come, it looks again by itself."""
     if not is_room:
-        body = "<p>This is a relay. Open the link that you were given by whoever leads the class.</p>"
+        body = (
+            "<p>This is a relay. Open the link that you were given by whoever leads the class.</p>"
+        )
         return _plain_page("Which class?", body, 404)
     body = "<p>The class is not here at the moment. This page looks for it every few seconds.</p>"
     refresh = '<meta http-equiv="refresh" content="3">\n'

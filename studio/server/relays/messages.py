@@ -168,7 +168,7 @@ class Taken(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
 
 class RoomState(msgspec.Struct, frozen=True, tag=True, array_like=True):
-    """What the relay must know of the room to serve it; first on the stream, then at each change."""
+    """What the relay must know of the room; first on the stream, then at each change."""
 
     session: str
     """Changes when the studio was started anew."""

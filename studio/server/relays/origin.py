@@ -235,7 +235,7 @@ class Origin:
         if person.person.startswith(_VIEWER):
             return True
         member = classroom.members.find(person.person)
-        return member is person and not member.removed
+        return member is not None and member is person and not member.removed
 
     async def join(self, relay: str, form: AskJoin) -> str:
         """Add a person, and return their ticket; one more than the class takes only looks.
@@ -281,5 +281,3 @@ def _view(uplink: Uplink) -> RelayView:
         people=end.people() if end else 0,
         lag_ms=round(line.lag_s * 1000, -2) if line else 0.0,
     )
-
-

@@ -1,4 +1,4 @@
-"""The origin's end of one line: what the relay asks for, each asked again here, and what it gets."""
+"""The origin's end of one line: what the relay asks for, asked again here, and what it gets."""
 
 from __future__ import annotations
 
@@ -64,6 +64,7 @@ from studio.server.relays.messages import (
 )
 from studio.server.relays.origin_lanes import OriginLane, OriginScene, RelayedPage
 from studio.server.relays.origin_topics import TopicsOfRelay
+from studio.server.surface import OpenDocuments
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -72,13 +73,12 @@ if TYPE_CHECKING:
     from studio.protocol.roles import Person
     from studio.server.relays.line import Line
     from studio.server.relays.messages import RoomState, Up
-    from studio.server.surface import OpenDocuments
 
 RUNNING_MAX: Final = 256
 """Commands of one relay that run; what comes meanwhile is refused."""
 LANES_MAX: Final = 200
 PAGES_MAX: Final = 4_000
-"""Pages of one relay that the studio knows one by one: members', and those that asked for something."""
+"""Pages of one relay that are known one by one: members', and those that asked for something."""
 _DOWNLOAD_BYTES_MAX: Final = 64 << 20
 _STATE_EVERY_S: Final = 0.5
 _UNITS_PER_S, _UNITS_AT_ONCE = 3_000.0, 6_000.0
@@ -138,14 +138,14 @@ class OriginEnd:
         allows: Whether a topic is forwarded.
     """
 
-    def __init__(  # noqa: PLR0913 - by name
+    def __init__(
         self,
         engine: SharedStudio,
         room: Room,
         line: Line,
         *,
         relay: str,
-        hang_up: Callable[[str], object],
+        hang_up: Callable[[str], None],
         allows: Callable[[str], bool],
     ) -> None:
         self._engine, self._room, self._line, self._relay = engine, room, line, relay

@@ -47,7 +47,7 @@ class OriginLane:
         before: Callable[[], object],
         sees: Callable[[str], bool],
     ) -> None:
-        self.lane, self.sees = lane, sees
+        self.lane, self._sees = lane, sees
         self.role, self.person = Role.GUEST, _NOBODY
         self._outlet, self._before = outlet, before
         self._number = 0
@@ -57,6 +57,10 @@ class OriginLane:
         """Return that a relay controls nothing."""
         del document
         return False
+
+    def sees(self, document: str) -> bool:
+        """Whether it may show what is in a document."""
+        return self._sees(document)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Send one message, or have it in the snapshot that is being made."""

@@ -96,7 +96,7 @@ class Relay:
         self.endpoint, self.identity, self.address = endpoint, identity, address
         self._assets, self._base = assets, base
         self._on_listening = on_listening
-        self._front_of = lambda path: Front(hosts, port, path, proxies)
+        self._front = hosts, port, proxies
         self.rooms: dict[str, Room] = {}
         self._apps: dict[str, tuple[str, ASGIApp]] = {}
         self._lines: dict[str, tuple[Room, Line]] = {}
@@ -278,7 +278,8 @@ class Relay:
         session = room.state.session
         known = self._apps.get(room.name)
         if known is None or known[0] != session:
-            front = self._front_of(f"{self._base}/{room.name}")
+            hosts, port, proxies = self._front
+            front = Front(hosts, port, f"{self._base}/{room.name}", proxies)
             credentials = Credentials("", secrets.token_bytes(32))
             app = make_app(
                 room,

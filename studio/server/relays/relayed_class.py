@@ -18,7 +18,7 @@ _PEOPLE_MAX: Final = 50_000
 
 
 class RelayedMember:
-    """One person at this relay, as the origin's ticket says; the same object for all their pages."""
+    """One person at this relay, as their ticket says; the same object for all their pages."""
 
     def __init__(self, room: RelayedClass, person: str, name: str, role: Role) -> None:
         self._room = room
@@ -113,7 +113,9 @@ class RelayedClass:
     def is_sent_out(self, given: str) -> bool:
         """Whether this is the ticket of somebody who was sent out."""
         member = self._member(given)
-        return member is not None and self.state is not None and member.person in self.state.sent_out
+        return (
+            member is not None and self.state is not None and member.person in self.state.sent_out
+        )
 
     async def join(self, name: str, code: str, password: str, cookie: str) -> RelayedMember:
         """Add a person, whom the origin lets in.

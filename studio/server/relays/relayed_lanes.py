@@ -110,9 +110,7 @@ class RelayedLanes:
         ticket_for: Gives the ticket of somebody who may see a document.
     """
 
-    def __init__(
-        self, send: Callable[[Up], object], ticket_for: Callable[[str], str]
-    ) -> None:
+    def __init__(self, send: Callable[[Up], object], ticket_for: Callable[[str], str]) -> None:
         self._send, self._ticket_for = send, ticket_for
         self._lanes: dict[str, LaneCopy] = {}
         self.studio = self._open(STUDIO_LANE)
@@ -171,10 +169,10 @@ class RelayedLanes:
         """End lanes that nobody has had open for a while."""
         now_s = asyncio.get_running_loop().time()
         for name, lane in tuple(self._lanes.items()):
-            if lane is not self.studio and not lane.listeners:
-                if lane.is_there.is_set() and now_s - lane.idle_since_s > _IDLE_S:
-                    del self._lanes[name]
-                    self._send(CloseLane(name))
+            is_idle = not lane.listeners and now_s - lane.idle_since_s > _IDLE_S
+            if is_idle and lane is not self.studio and lane.is_there.is_set():
+                del self._lanes[name]
+                self._send(CloseLane(name))
 
     def give_up(self, reason: str) -> None:
         """The origin is away for long: who waits for a lane that never came is told."""

@@ -1,4 +1,4 @@
-"""The 3D views of a room at a relay: opened when somebody looks, with large parts kept by digest."""
+"""The 3D views of a room at a relay, opened when somebody looks; large parts are kept."""
 
 from __future__ import annotations
 

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import asyncio
 import itertools
-import json
 import logging
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import TYPE_CHECKING, Any, Final
 
 from studio.documents.exports import Download
 from studio.errors import (
@@ -62,14 +61,13 @@ from studio.server.relays.relayed_class import RelayedClass
 from studio.server.relays.relayed_lanes import RelayedLanes
 from studio.server.relays.relayed_scenes import RelayedScenes
 from studio.server.relays.relayed_topics import RelayedTopics
+from studio.server.relays.room_documents import OnlyThere, RoomDocument
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
-    from studio.documents.exports import MeshNames
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
-    from studio.scene import Connection
     from studio.scene.frame_parts import BlobStore
     from studio.server.relays.line import Line
     from studio.server.relays.messages import Down, Up
@@ -92,52 +90,6 @@ class _Asked:
         self.settled: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
 
-class RoomDocument:
-    """One document of a room, as the routes use it."""
-
-    def __init__(self, room: Room, name: str) -> None:
-        self._room, self._name = room, name
-        self.scene = self.exports = self.time = self.series = self
-
-    async def serve(
-        self, connection: Connection, allowed: Callable[[str], bool], subprotocol: str | None
-    ) -> None:
-        """Show its 3D view to a page."""
-        await self._room.scenes.serve(self._name, connection, allowed, subprotocol)
-
-    async def urdf(self, meshes: MeshNames) -> Download:
-        """Refuse it: routes give it to presenters only."""
-        return await self._room.download(self._name, "urdf", [("meshes", meshes)])
-
-    async def package(self, *, all_used: bool) -> Download:
-        """Refuse it, as `urdf`."""
-        return await self._room.download(self._name, "package", [("all", str(all_used))])
-
-    async def page(self, *, dark: bool) -> Download:
-        """Return the 3D view as a page of its own."""
-        theme = "dark" if dark else "light"
-        return await self._room.download(self._name, "page", [("theme", theme)])
-
-    async def table(self, lines: Sequence[tuple[str, str]]) -> Iterator[bytes]:
-        """Return all samples of numbers over a recording, as CSV."""
-        return iter((await self._room.download(self._name, "series", lines)).chunks)
-
-
-class OnlyThere:
-    """What the studio itself does, and no relay: uploads, and copies that were handed in."""
-
-    async def take(self, manifest: bytes, chunks: AsyncIterator[bytes], beside: str) -> str:
-        """Refuse it."""
-        raise CommandError(_ONLY_THERE)
-
-    def download(self) -> Download:
-        """Refuse it."""
-        raise CommandError(_ONLY_THERE)
-
-
-_ONLY_THERE: Final = "This is done at the studio itself, not by a relay."
-
-
 class Room:
     """Used on the event loop only.
 
@@ -147,9 +99,7 @@ class Room:
         end_person: Ends all connections of a person.
     """
 
-    def __init__(
-        self, name: str, blobs: BlobStore, end_person: Callable[[str], object]
-    ) -> None:
+    def __init__(self, name: str, blobs: BlobStore, end_person: Callable[[str], object]) -> None:
         self.name, self._end_person = name, end_person
         self._line: Line | None = None
         self._loop = asyncio.get_running_loop()
@@ -225,7 +175,7 @@ class Room:
         return self.classroom.state
 
     def connect(self, line: Line) -> None:
-        """The origin claimed the room; what is missed is asked for once it says what the room is."""
+        """The origin claimed the room; once it says what that is, what was missed is asked for."""
         self._line = line
         self._arrived.clear()
         self._sent_viewers = Viewers(0, 0)
@@ -596,7 +546,8 @@ class Room:
 _ANSWER_S: Final = 30.0
 _NOWHERE: Final = Path("/nonexistent")
 _STARTED_ANEW: Final = (
-    "The studio was started anew before it answered: see whether this was done, and do it again if not."
+    "The studio was started anew before it answered: see whether this was done, and do it again "
+    "if it was not."
 )
 
 

@@ -56,7 +56,9 @@ def serve_relay(settings: Settings, listen: str, name: str, *, new_key: bool) ->
     raise_descriptor_limit()
     endpoint = parse_endpoint(listen)
     if endpoint.protocol != "tls":
-        raise SettingsError(f"--listen takes an encrypted endpoint, as tls/0.0.0.0:7448, not {listen}.")
+        raise SettingsError(
+            f"--listen takes an encrypted endpoint, as tls/0.0.0.0:7448, not {listen}."
+        )
     identity = RelayIdentity(relay_secret(settings.data_folder, anew=new_key))
     with bind(settings.host, settings.port) as listener:
         place = place_of(settings, port_of(listener))

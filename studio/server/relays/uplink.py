@@ -1,4 +1,4 @@
-"""An Uplink: one relay that the origin dials, claims its room at, and dials again when it is lost."""
+"""An Uplink: a relay that the origin dials, claims its room at, and dials again when lost."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ CLAIM_KEY: Final = "studio-relay/claim"
 LEASE_MS: Final = 5_000
 """A relay or an origin that is silent for so long is gone: a cut cable tells nobody."""
 SAMPLES_MAX: Final = 4_096
-"""Of a line that are not read yet; when there are more, the oldest are lost, which ends the line."""
+"""Of a line that are not read yet; of more the oldest are lost, which ends the line."""
 _CLAIM_TIMEOUT_S: Final = 5.0
 _MATCHING_TIMEOUT_S: Final = 5.0
 _RETRY_S: Final = (0.25, 0.5, 1.0, 2.0)
@@ -183,8 +183,8 @@ class Uplink:
             session = open_zenoh(_config(self.relay))
         except ZError as error:
             raise RelayError(
-                f"No relay answers at {endpoint}: see that `studio relay` runs there, that the port "
-                f"is open, and that the key is its own ({str(error).split(' at /')[0][:160]})."
+                f"No relay answers at {endpoint}: see that `studio relay` runs there, that its "
+                f"port is open, and that the key is its own ({_reason(error)})."
             ) from None
         try:
             return self._claim(session)
@@ -229,6 +229,10 @@ class Uplink:
             return msgspec.msgpack.decode(signed.body, type=ClaimAnswer)
         except msgspec.MsgspecError as error:
             raise RelayLineError(f"its answer cannot be read ({error}).") from None
+
+
+def _reason(error: ZError) -> str:
+    return str(error).split(" at /")[0][:160]
 
 
 def _reading(incoming: Incoming[Sample], line: Line) -> ReadingThread[Sample]:
