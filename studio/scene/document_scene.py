@@ -12,10 +12,11 @@ from studio.errors import SceneError
 from studio.scene import node
 from studio.scene.ghost import GhostDrawing
 from studio.scene.graph import GRID, Graph, PoseWriter
-from studio.scene.host import SUBPROTOCOL, forget_removed, make_server
+from studio.scene.host import forget_removed, make_server
 from studio.scene.live_scene import LiveScene
 from studio.scene.pages import standalone_page
 from studio.scene.robot_drawing import RobotDrawing
+from studio.scene.seats import BAD_VERSION, SUBPROTOCOL
 from studio.tf.rotations import turned
 
 if TYPE_CHECKING:
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
 
     from studio.robot.meshes.loaded_mesh import LoadedMesh
     from studio.robot.values import Robot, Vector3
-    from studio.scene.host import Connection
     from studio.scene.node import Quaternion
+    from studio.scene.seats import Connection
 
 Value: TypeAlias = bool | float | str
 
@@ -61,7 +62,6 @@ _RANGES: dict[tuple[str, str], tuple[float, float]] = {
     ("grid", "cell_m"): (0.001, 1000.0),
     ("grid", "extent_m"): (0.0, 100_000.0),
 }
-_BAD_VERSION = 1002
 _STEP_M = 1e-5
 
 
@@ -217,7 +217,7 @@ class DocumentScene:
                 SUBPROTOCOL, e.g. for an old page in a browser's cache.
         """
         if subprotocol != SUBPROTOCOL:
-            connection.close(_BAD_VERSION)
+            connection.close(BAD_VERSION)
             return
         await self._server.serve(connection, allowed)
 

@@ -15,7 +15,7 @@ import itertools
 import logging
 from contextlib import contextmanager, suppress
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import rich
 import viser
@@ -25,16 +25,13 @@ from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from studio.errors import SceneError
-from studio.outlet import Outlet
+from studio.scene.seats import RETRY_S, VISER_VERSION, Seat, Seats, Servings, listen
 from studio.scene.wire import Encoder, message_type
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
-VISER_VERSION = "1.1.1"
-"""The one version whose insides this room knows."""
-SUBPROTOCOL = f"viser-v{VISER_VERSION}"
-"""Websocket subprotocol that viser's page offers; accept with it, or refuse the socket."""
+    from studio.scene.seats import Connection
 
 VIEWER_MESSAGES = frozenset({"ViewerCameraMessage"})
 """Messages that a read-only page sends to viser."""
@@ -42,42 +39,10 @@ NEVER_ALLOWED = frozenset({"ShareUrlRequest", "ShareUrlDisconnect"})
 """Opens a public tunnel on a foreign server: refused whatever the role."""
 CAMERA_PERIOD_S = 0.2
 """Orbiting pages send up to 50 a second, more than anybody needs."""
-_STREAM = "scene"
-_TRY_AGAIN_LATER = 1013
 WINDOW_S = 1 / 60
 """Frames follow each other no faster than this, but for `flush`."""
-_RETRY_S = 1 / 30
-"""Between two attempts to send to a page that fell behind."""
-_FRESH_BYTES = 16 << 10
-"""A page whose socket holds more does not follow: on a slow line a second of frames, or less."""
-_MESSAGE_LIMIT_BYTES = 1 << 20
 _WINDOW_SIZE = 1 << 14  # messages: an atomic batch is never split over two frames
-_INVALID, _TOO_BIG = 1007, 1009
 logger = logging.getLogger(__name__)
-
-
-class Connection(Protocol):
-    """One accepted websocket of viser's page; messages are binary."""
-
-    async def receive(self) -> bytes | None:
-        """Return the next message, or None when the socket is closed."""
-        ...
-
-    def write(self, data: bytes, /) -> None:
-        """Send one message without waiting."""
-        ...
-
-    def pending_bytes(self) -> int:
-        """Bytes written and not yet handed to the system."""
-        ...
-
-    def on_drain(self, resume: Callable[[], object], /) -> None:
-        """Call `resume` on the loop's thread whenever a full buffer has emptied."""
-        ...
-
-    def close(self, code: int, /) -> None:
-        """Close the socket; `receive` then answers None."""
-        ...
 
 
 class CameraGate:
@@ -107,43 +72,6 @@ class CameraGate:
         newest, self._newest = self._newest, None
         if newest is not None:
             self.offer(newest)
-
-
-class Seat:
-    """Hands frames to one page; one that fell behind gets the state of now when it drains.
-
-    `cursor` is the id of the newest message that the page has; what it missed is never queued,
-    but made by `catch_up(seat)` from what still counts when there is room again.
-    """
-
-    def __init__(
-        self, seat_id: int, connection: Connection, catch_up: Callable[[Seat], bytes]
-    ) -> None:
-        self.id = seat_id
-        self.cursor = -1
-        self.replayed = False
-        self.outlet = Outlet(
-            connection,
-            fresh_bytes=_FRESH_BYTES,
-            on_hopeless=lambda: connection.close(_TRY_AGAIN_LATER),
-        )
-        self._catch_up = catch_up
-
-    def follow(self, frame: bytes, newest: int) -> None:
-        """Send a frame that goes from `cursor` to the message `newest`."""
-        if self.outlet.post(frame, _STREAM, late=self._late):
-            self.cursor = max(self.cursor, newest)
-
-    def resync(self) -> None:
-        """Send all that is newer than `cursor`, now or when there is room."""
-        self.outlet.post(self._late, _STREAM)
-
-    async def send(self, data: bytes) -> None:
-        """Send a frame for this page alone (viser's producer of one client writes here)."""
-        self.outlet.post(data)
-
-    def _late(self) -> bytes:
-        return self._catch_up(self)
 
 
 def check_version() -> None:
@@ -204,14 +132,10 @@ class HostedServer(infra.WebsockServer):
     def __init__(self, loop: asyncio.AbstractEventLoop, **arguments: Any) -> None:  # noqa: ANN401
         super().__init__(**arguments)
         self._loop = loop
-        self._seats: dict[int, Seat] = {}
+        self._seats = Seats(self._newest, self._frame_for)
         self._ids = itertools.count()
         self._encoder = Encoder()
-        self._published = -1
-        self._replay: tuple[int, bytes] | None = None
-        self._tasks: set[asyncio.Task[Any]] = set()
-        self._pump: asyncio.Task[None] | None = None
-        self._stopped = False
+        self._servings = Servings(loop)
 
     @override
     def start(self) -> None:
@@ -221,16 +145,15 @@ class HostedServer(infra.WebsockServer):
         self._broadcast_buffer = AsyncMessageBuffer(
             self._loop, persistent_messages=True, max_window_size=_WINDOW_SIZE
         )
-        self._pump = self._loop.create_task(self._send_forever())
+        # viser forgets what all seats have.
+        self._broadcast_buffer.generator_cursors = self._seats.cursors
+        self._servings.start(self._send_forever())
 
     @override
     def stop(self) -> None:
         """End all pages' connections on our side; web closes their sockets."""
-        self._stopped = True
         self._broadcast_buffer.set_done()
-        for task in (self._pump, *self._tasks):
-            if task is not None:
-                task.cancel()
+        self._servings.stop()
 
     @override
     def flush(self) -> None:
@@ -244,16 +167,7 @@ class HostedServer(infra.WebsockServer):
             connection: An accepted websocket.
             allowed: Whether the page may send a message of this type name.
         """
-        serving = self._loop.create_task(self._serve(connection, allowed))
-        self._tasks.add(serving)
-        try:
-            await serving
-        except asyncio.CancelledError:
-            if not self._stopped:
-                raise
-        finally:
-            serving.cancel()
-            self._tasks.discard(serving)
+        await self._servings.run(self._serve(connection, allowed))
 
     async def _serve(self, connection: Connection, allowed: Callable[[str], bool]) -> None:
         client_id = _infra.ClientId(next(self._ids))
@@ -262,7 +176,7 @@ class HostedServer(infra.WebsockServer):
         )
         client = _infra.WebsockClientConnection(client_id, state)
         self._client_state_from_id[client_id] = state
-        seat = Seat(client_id, connection, self._catch_up)
+        seat = Seat(client_id, connection, self._seats.catch_up)
         connection.on_drain(partial(self._go_on, seat))
         private = self._loop.create_task(
             _infra._message_producer(cast("Any", seat), state.message_buffer, client_id)
@@ -273,13 +187,13 @@ class HostedServer(infra.WebsockServer):
             await self._listen(connection, allowed, client)
         finally:
             private.cancel()
-            self._leave(seat)
+            self._seats.leave(seat)
             state.message_buffer.set_done()
             self._client_state_from_id.pop(client_id, None)
             await _call_all(self._client_disconnect_cb, client)
 
     def _join(self, seat: Seat) -> None:
-        self._seats[seat.id] = seat
+        self._seats.join(seat)
         if self._broadcast_buffer.atomic_counter == 0:
             seat.resync()
         self._broadcast_buffer.message_event.set()
@@ -289,11 +203,6 @@ class HostedServer(infra.WebsockServer):
         if self._broadcast_buffer.atomic_counter == 0:
             seat.outlet.resume()
 
-    def _leave(self, seat: Seat) -> None:
-        self._seats.pop(seat.id, None)
-        seat.outlet.close()
-        self._broadcast_buffer.generator_cursors.pop(seat.id, None)
-
     async def _listen(
         self,
         connection: Connection,
@@ -301,24 +210,18 @@ class HostedServer(infra.WebsockServer):
         client: _infra.WebsockClientConnection,
     ) -> None:
         def deliver(message: _messages.Message) -> None:
-            task = self._loop.create_task(self._handle(client, message))
-            self._tasks.add(task)
-            task.add_done_callback(self._tasks.discard)
+            self._servings.start(self._handle(client, message))
+
+        def take(raw: bytes) -> None:
+            message = _understood(raw, allowed)
+            if isinstance(message, _messages.ViewerCameraMessage):
+                cameras.offer(message)
+            elif message is not None:
+                deliver(message)
 
         cameras = CameraGate(self._loop, deliver)
         try:
-            while (raw := await connection.receive()) is not None:
-                if len(raw) > _MESSAGE_LIMIT_BYTES:
-                    connection.close(_TOO_BIG)
-                    return
-                message = _understood(raw, allowed)
-                if isinstance(message, _messages.ViewerCameraMessage):
-                    cameras.offer(message)
-                elif message is not None:
-                    deliver(message)
-        except SceneError as error:
-            logger.info("%s", error)
-            connection.close(_INVALID)
+            await listen(connection, take)
         finally:
             cameras.close()
 
@@ -337,16 +240,16 @@ class HostedServer(infra.WebsockServer):
     async def _send_forever(self) -> None:
         buffer = self._broadcast_buffer
         while True:
-            behind = any(seat.outlet.holds_back for seat in self._seats.values())
+            retry_s = RETRY_S if self._seats.is_behind else None
             with suppress(TimeoutError):
-                await asyncio.wait_for(buffer.message_event.wait(), _RETRY_S if behind else None)
+                await asyncio.wait_for(buffer.message_event.wait(), retry_s)
             buffer.message_event.clear()
             try:
                 sent = self.send_window()
             except Exception:
                 # One drawing that cannot be encoded must not freeze the view for good.
                 logger.exception("A frame for the 3D view could not be made.")
-                self._published, sent = buffer.message_counter - 1, True
+                self._seats.published, sent = self._newest(), True
             if sent:
                 await asyncio.sleep(WINDOW_S)
 
@@ -358,56 +261,27 @@ class HostedServer(infra.WebsockServer):
         buffer = self._broadcast_buffer
         if buffer.atomic_counter > 0:
             return False
-        newest = buffer.message_counter - 1
-        window = self._since(self._published, newest)
+        newest = self._newest()
+        window = self._since(self._seats.published, newest)
         excluded = {message.excluded_self_client for message in window}
         frame = self._encoder.frame(window) if window and self._seats else b""
-        for seat in self._seats.values():
-            self._advance(seat, frame, newest, alone=seat.id in excluded)
-        self._published = newest
+        self._seats.publish(frame, newest, excluded)
         return bool(window)
 
-    def _advance(self, seat: Seat, frame: bytes, newest: int, *, alone: bool) -> None:
-        """Bring one page to `newest`, by the shared frame where it fits."""
-        if seat.cursor == self._published and not alone:
-            if frame:
-                seat.follow(frame, newest)
-            else:
-                seat.cursor = max(seat.cursor, newest)
-        elif seat.outlet.holds_back:
-            seat.outlet.resume()
-        else:
-            seat.resync()
-        self._broadcast_buffer.generator_cursors[seat.id] = seat.cursor
+    def _newest(self) -> int:
+        return self._broadcast_buffer.message_counter - 1
 
-    def _catch_up(self, seat: Seat) -> bytes:
-        """Return all that this page misses and that still counts; the whole state if it is new."""
-        newest = self._broadcast_buffer.message_counter - 1
-        if seat.cursor < 0 and self._replay is not None and self._replay[0] == newest:
-            frame = self._replay[1]
-        else:
-            frame = self._frame_for(seat, newest)
-        seat.cursor, seat.replayed = newest, True
-        return frame
-
-    def _frame_for(self, seat: Seat, newest: int) -> bytes:
+    def _frame_for(self, seat: Seat, newest: int) -> tuple[bytes, bool]:
         missed = self._since(seat.cursor, newest)
         wanted = [m for m in missed if m.excluded_self_client != seat.id]
+        is_shared = len(wanted) == len(missed)
         if not seat.replayed and self._backlog_done_message is not None:
             wanted.append(self._backlog_done_message)
-        if not wanted:
-            return b""
-        frame = self._encoder.frame(wanted)
-        if seat.cursor < 0 and len(wanted) == len(missed) + 1:
-            # A class of thirty that opens the page at once is served from one encoding.
-            self._replay = (newest, frame)
-        return frame
+        return (self._encoder.frame(wanted) if wanted else b""), is_shared
 
     def _since(self, cursor: int, newest: int) -> list[infra.Message]:
         """Messages newer than `cursor` that no later one has replaced, oldest first."""
         buffer = self._broadcast_buffer
-        if self._replay is not None and self._replay[0] != newest:
-            self._replay = None
         with buffer.buffer_lock:
             if newest - cursor > len(buffer.message_from_id):
                 ids = [i for i in buffer.message_from_id if cursor < i <= newest]

@@ -35,28 +35,26 @@ _POSITION, _ORIENTATION = struct.Struct(">B" + 3 * "Bf"), struct.Struct(">B" + 4
 _PADDING = tuple(bytes(count) for count in range(8))
 
 
-class Encoder:
-    """Makes frames; keeps one compressor. Not thread-safe.
-
-    viser's page holds back a frame whose time stamp follows closely on the one before, to show it
-    at the pace at which it was made, up to 100 ms late. Ours have stamps a second apart, whatever
-    the time, so that an edit is shown as soon as it arrives.
-    """
+class Packer:
+    """Makes frames of messages that are MessagePack; keeps one compressor. Not thread-safe."""
 
     def __init__(self) -> None:
-        self._stamp_s = 0.0
         self._zstd = zstandard.ZstdCompressor(level=1)
         self._msgpack = msgspec.msgpack.Encoder()
 
-    def frame(self, messages: Iterable[Message]) -> bytes:
-        """Return one frame, which the page applies as a whole."""
-        arrays = _Arrays()
-        self._stamp_s += 1.0
+    def frame(self, messages: msgspec.Raw, stamp_s: float, arrays: list[memoryview]) -> bytes:
+        """Return one frame, which the page applies as a whole.
+
+        Args:
+            messages: A list of messages as MessagePack, with references to the arrays.
+            stamp_s: When it was made.
+            arrays: Of the messages.
+        """
         inner = self._msgpack.encode(
             {
-                "messages": [_as_dict(message, arrays) for message in messages],
-                "timestampSec": self._stamp_s,
-                "binaryBufferLengths": [array.nbytes for array in arrays.views],
+                "messages": messages,
+                "timestampSec": stamp_s,
+                "binaryBufferLengths": [array.nbytes for array in arrays],
             }
         )
         packed = self._zstd.compress(inner)
@@ -65,8 +63,29 @@ class Encoder:
             len(packed).to_bytes(8, "little"),
             packed,
         ]
-        _append_aligned(parts, arrays.views, 16 + len(packed))
+        _append_aligned(parts, arrays, 16 + len(packed))
         return b"".join(parts)
+
+
+class Encoder:
+    """Makes frames of viser's messages. Not thread-safe.
+
+    viser's page holds back a frame whose time stamp follows closely on the one before, to show it
+    at the pace at which it was made, up to 100 ms late. Ours have stamps a second apart, whatever
+    the time, so that an edit is shown as soon as it arrives.
+    """
+
+    def __init__(self) -> None:
+        self._stamp_s = 0.0
+        self._packer = Packer()
+        self._msgpack = msgspec.msgpack.Encoder()
+
+    def frame(self, messages: Iterable[Message]) -> bytes:
+        """Return one frame, which the page applies as a whole."""
+        arrays = _Arrays()
+        self._stamp_s += 1.0
+        raw = self._msgpack.encode([_as_dict(message, arrays) for message in messages])
+        return self._packer.frame(msgspec.Raw(raw), self._stamp_s, arrays.views)
 
 
 class _Arrays:

@@ -28,7 +28,7 @@ from studio.protocol.subscriptions import NotSubscribed, Subscribe
 from studio.protocol.texts import GetUrdf, Urdf
 from studio.ros.attachment import Attachment
 from studio.ros.node.samples import RawSample
-from studio.scene.host import SUBPROTOCOL
+from studio.scene import SUBPROTOCOL
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable, Iterator, Sequence
