@@ -17,9 +17,14 @@ NEWEST_BYTES: Final = 24 << 20
 
 
 class Backlog:
-    """Messages that wait: the newest of a `newest` channel, of the others as many as fit."""
+    """Messages that wait: the newest of a `newest` channel, of the others as many as fit.
 
-    def __init__(self) -> None:
+    Args:
+        gave_up: Called with what is dropped and counted.
+    """
+
+    def __init__(self, gave_up: Callable[[Chunk], object] = lambda _: None) -> None:
+        self._gave_up = gave_up
         self._newest: OrderedDict[int, Chunk] = OrderedDict()
         self._all: deque[Chunk] = deque()
         self._bytes = self._newest_bytes = 0
@@ -42,6 +47,7 @@ class Backlog:
             given_up = self._all.popleft()
             self._bytes -= given_up.size
             self.dropped += given_up.count
+            self._gave_up(given_up)
 
     def pop(self) -> Chunk:
         """Take one out: the oldest of either kind, in turn, so that neither waits for the other."""
@@ -61,6 +67,17 @@ class Backlog:
         self._newest.clear()
         self._bytes = self._newest_bytes = 0
         return chunks
+
+    def take_of(self, channel: int) -> tuple[Chunk, ...]:
+        """Take out what is of one channel."""
+        found = [one for one in self._all if one.channel == channel]
+        if found:
+            self._all = deque(one for one in self._all if one.channel != channel)
+            self._bytes -= sum(one.size for one in found)
+        if (newest := self._newest.pop(channel, None)) is not None:
+            self._newest_bytes -= newest.size
+            found.append(newest)
+        return tuple(found)
 
     def frame(self, head: Callable[[int], bytes] = no_head) -> bytes:
         """Take all out, as one frame with what `head` makes of its length before it."""

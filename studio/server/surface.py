@@ -98,8 +98,8 @@ class TakesUploads(Protocol):
 class SubscribesTopics(Protocol):
     """Subscribes topics for browsers."""
 
-    def attach(self, lane: DataLaneEnd, /) -> None:
-        """A data lane was opened."""
+    def attach(self, lane: DataLaneEnd, /, most: int = ...) -> None:
+        """A data lane was opened, which may have so many subscriptions at most."""
         ...
 
     def detach(self, lane: DataLaneEnd, /) -> None:

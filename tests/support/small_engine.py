@@ -131,7 +131,7 @@ class SmallTopics:
         self.commands: list[SubscriptionCommand] = []
         self.flooded = 0
 
-    def attach(self, lane: DataLaneEnd, /) -> None:
+    def attach(self, lane: DataLaneEnd, /, most: int = 0) -> None:
         self.hearers.append(lane)
 
     def detach(self, lane: DataLaneEnd, /) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import itertools
 import logging
+import secrets
 import time
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
@@ -32,6 +33,7 @@ _TICK_SLACK_S: Final = 0.004
 """A tick that comes a little early is the one that was meant."""
 SUBSCRIPTIONS_MAX: Final = 200
 """Limit for one browser."""
+_FIRST_CHANNEL_LIMIT: Final = 1 << 31
 _STATES: Final[dict[StateKind, SubscriptionStatus]] = {
     "not_connected": "not_connected",
     "connection_lost": "not_connected",
@@ -136,8 +138,8 @@ class _Channel:
 class _Browser:
     """The channels of one browser by its own numbers, and the states sent of each."""
 
-    def __init__(self, lane: DataLaneEnd) -> None:
-        self._lane = lane
+    def __init__(self, lane: DataLaneEnd, most: int) -> None:
+        self._lane, self.most = lane, most
         self.commands: dict[int, Subscribe] = {}
         self.channels: dict[int, _Channel] = {}
         self.numbers: tuple[int, ...] = ()
@@ -184,13 +186,15 @@ class BrowserTopics:
         self.source_of: Callable[[str], TopicSource | None] = lambda _: None
         self._browsers: dict[DataLaneEnd, _Browser] = {}
         self._channels: dict[_Key, _Channel] = {}
-        self._numbers = itertools.count(1)
+        # A page that a relay serves stays while the studio is started anew: a number of before
+        # would mean another topic to it.
+        self._numbers = itertools.count(1 + secrets.randbelow(_FIRST_CHANNEL_LIMIT))
         self._ticking: asyncio.Task[None] | None = None
         self._is_woken = self._is_sending = self._closed = False
 
-    def attach(self, lane: DataLaneEnd) -> None:
-        """Add a data lane."""
-        self._browsers[lane] = _Browser(lane)
+    def attach(self, lane: DataLaneEnd, most: int = SUBSCRIPTIONS_MAX) -> None:
+        """Add a data lane, which may have so many subscriptions at most."""
+        self._browsers[lane] = _Browser(lane, most)
 
     def detach(self, lane: DataLaneEnd) -> None:
         """Remove a closed lane, and end what it alone subscribed."""
@@ -205,8 +209,8 @@ class BrowserTopics:
         match command:
             case Unsubscribe():
                 browser.remove(command.subscription)
-            case Subscribe() if len(browser.channels) >= SUBSCRIPTIONS_MAX:
-                reason = f"{SUBSCRIPTIONS_MAX} topics are shown by this page: close a panel first."
+            case Subscribe() if len(browser.channels) >= browser.most:
+                reason = f"{browser.most} topics are shown already: close a panel first."
                 lane.send(NotSubscribed(subscription=command.subscription, reason=reason))
             case Subscribe() if command.document and not lane.sees(command.document):
                 reason = "There is no such document."
@@ -233,19 +237,20 @@ class BrowserTopics:
         self._close_unwanted()
 
     def _put(self, lane: DataLaneEnd, browser: _Browser, command: Subscribe) -> None:
-        browser.remove(command.subscription)
         source = (command.document and self.source_of(command.document)) or self._source
         # Of documents that show what runs now all share a channel.
         key = (id(source), *command.model_dump(exclude={"subscription", "document"}).values())
         if channel := self._channels.get(key):
-            # To those who wait for it first: what is kept would come to this one twice.
+            # To those who wait for it first, and to whoever subscribes it once more: what is kept
+            # would come to this one twice.
             self._hand_on((channel,), asyncio.get_running_loop().time())
         else:
             channel = self._open(key, command, source)
+        browser.remove(command.subscription)
         browser.put(command, channel)
         browser.send_states()
         if kept := channel.kept():
-            lane.take(Tick((kept,)))
+            lane.take(Tick((kept,), kept_for=command.subscription))
         if self._ticking is None or self._ticking.done():
             self._ticking = asyncio.create_task(self._tick())
 

@@ -85,10 +85,13 @@ def frame_of(
 
 
 class Tick:
-    """The messages of one tick for all who subscribe to the same channels; written once."""
+    """The messages of one tick for all who subscribe to the same channels; written once.
 
-    def __init__(self, chunks: tuple[Chunk, ...]) -> None:
-        self.chunks = chunks
+    `kept_for` is the subscription whose latched messages these are; -1: they came just now.
+    """
+
+    def __init__(self, chunks: tuple[Chunk, ...], kept_for: int = -1) -> None:
+        self.chunks, self.kept_for = chunks, kept_for
         self._without: dict[frozenset[int], Tick] = {}
         self._frames: dict[Callable[[int], bytes], bytes] = {}
 
