@@ -40,8 +40,9 @@ ROUTES: Final = {
 }
 """Of every route that needs a role. `command` is for any role; each command has its own."""
 
-PUBLIC_ROUTES: Final = frozenset({"/a/{tree}/{path:path}", "/favicon.ico", "/join"})
-"""The files of the page, the same for everyone, and the form by which others join."""
+PUBLIC_ROUTES: Final = frozenset({"/a/{tree}/{path:path}", "/favicon.ico", "/join", "/health"})
+"""The files of the page, the same for everyone, the form by which others join, and, of a relay,
+that it runs."""
 
 VISER: Final = {
     "ViewerCameraMessage": Permission("viser:ViewerCameraMessage", Role.GUEST, Scope.DOCUMENT),

@@ -1,5 +1,6 @@
 """The application: every route of the one port, behind the guard."""
 
+from collections.abc import Callable
 from http import HTTPStatus
 from typing import Any, Final
 
@@ -41,10 +42,12 @@ def make_app(
     credentials: Credentials,
     session: str,
     front: Front,
+    neighbours: Callable[[], tuple[str, ...]] | None = None,
 ) -> ASGIApp:
     """Return the whole application, which is reached at `front`.
 
-    The caller starts and closes the engine.
+    The caller starts and closes the engine. With `neighbours`, addresses of other relays, it is
+    served by a relay, and takes their passes.
     """
     app = FastAPI(
         title="Robot description studio",
@@ -59,8 +62,8 @@ def make_app(
     app.add_exception_handler(StudioError, _answer_error)
     app.add_exception_handler(HTTPException, _answer_http_error)
     classroom = engine.classroom
-    cookies = Cookies(credentials, classroom, front)
-    Site(engine, assets, session, front.base).add_to(app)
+    cookies = Cookies(credentials, classroom, front, takes_passes=neighbours is not None)
+    Site(engine, assets, session, front.base, neighbours).add_to(app)
     app.include_router(Api(engine, session).router())
     app.include_router(Exports(engine).router())
     app.include_router(HandedIn(engine).router())

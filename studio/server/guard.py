@@ -35,6 +35,8 @@ _SAFE_METHODS = frozenset({"GET", "HEAD"})
 _PUBLIC_PREFIXES = ("/a/", "/favicon.ico")
 JOIN_PATH = "/join"
 """The form by which others join; of its own, because who has no role may open it."""
+HEALTH_PATH = "/health"
+"""Of a server that takes passes: there pages of its neighbours see that it runs."""
 PASS, NEXT = "pass", "next"
 """In the query of `JOIN_PATH`: proof of a member, given by another relay; where they go on."""
 _DOCUMENT = re.compile(r"/d/[^/\\?#\x00-\x1f\x7f]+")
@@ -89,12 +91,17 @@ class Guard:
         visitor = bearer or self._cookies.visitor(headers, caller)
         if not _recognise(scope, visitor):
             return PlainTextResponse(_CROWDED, HTTPStatus.SERVICE_UNAVAILABLE), None
-        if scope["type"] == "http" and scope["path"].startswith(_PUBLIC_PREFIXES):
+        if self._is_public(scope):
             return None, visitor
         if not _may_ask_from_there(scope, headers, caller, has_bearer=bearer is not None):
             sentence = "Another page may not do this: only the studio's own page may."
             return _forbidden(sentence), visitor
         return self._admit(scope, headers, caller, visitor), visitor
+
+    def _is_public(self, scope: Scope) -> bool:
+        path: str = scope["path"]
+        is_health = path == HEALTH_PATH and self._cookies.takes_passes
+        return scope["type"] == "http" and (is_health or path.startswith(_PUBLIC_PREFIXES))
 
     def _admit(
         self, scope: Scope, headers: Headers, caller: Caller, visitor: Person | None

@@ -21,6 +21,7 @@ from studio.server.assets import Asset, Assets, Tree, accepted_coding
 from studio.server.bulk_lane import BulkAnswer, BulkKeys
 from studio.server.commands import ControlLane
 from studio.server.data_lane import DataLane
+from studio.server.guard import HEALTH_PATH
 from studio.server.pages import studio_page
 from studio.server.policy import SCENE_POLICY, WORKER_POLICY, probe_policy
 from studio.server.ports import FULL_SCREEN
@@ -72,7 +73,8 @@ class Site:
         assets: The files of the page.
         session: Changes with every start.
         base: The path below which the studio is reached.
-        neighbours: Addresses at which people can go on when this server is gone.
+        neighbours: Addresses at which people can go on when this server, a relay, is gone; None:
+            it is no relay.
     """
 
     def __init__(
@@ -81,7 +83,7 @@ class Site:
         assets: Assets,
         session: str,
         base: str,
-        neighbours: Callable[[], tuple[str, ...]] = tuple,
+        neighbours: Callable[[], tuple[str, ...]] | None = None,
     ) -> None:
         self._engine, self._assets, self._session = engine, assets, session
         self._base, self._neighbours = base, neighbours
@@ -105,6 +107,8 @@ class Site:
                 response_class=Response,
                 response_model=None,
             )
+        if self._neighbours is not None:
+            app.add_api_route(HEALTH_PATH, self.health, include_in_schema=False)
         app.add_api_route(
             "/bulk",
             self.bulk,
@@ -143,14 +147,19 @@ class Site:
         if found is None:
             return Response(status_code=HTTPStatus.NOT_FOUND)
         asset, is_exact = found
-        is_probe = path == _PROBE
+        is_probe = path == _PROBE and self._neighbours is not None
         # A page begins the probe anew when its neighbours change, and needs the policy of then.
         answer = _send(asset, request, _FOREVER if is_exact and not is_probe else "no-store")
-        if is_probe:
+        if self._neighbours is not None and is_probe:
             answer.headers["content-security-policy"] = probe_policy(self._neighbours())
         elif path.startswith(_WORKERS):
             answer.headers["content-security-policy"] = WORKER_POLICY
         return answer
+
+    async def health(self) -> Response:
+        """Return nothing; that an answer came is for the pages of other relays, too."""
+        headers = {"cross-origin-resource-policy": "cross-origin"}
+        return Response(status_code=HTTPStatus.NO_CONTENT, headers=headers)
 
     async def icon(self, request: Request) -> Response:
         """Return the icon, for browsers that ask without a link to it."""

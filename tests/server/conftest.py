@@ -22,6 +22,7 @@ def assets_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "app/main.js": "export const answer = 42;\n" * 50,
         "styles/app.css": "body { margin: 0 }",
         "workers/data.js": "// hears",
+        "workers/probe.js": "// looks",
         "tools/secret.js": "not served",
         ".hidden.js": "not served",
         "notes.py": "not served",

@@ -24,7 +24,7 @@ from tests.support.small_engine import SmallEngine
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Coroutine, Generator, Mapping
+    from collections.abc import Callable, Coroutine, Generator, Mapping
     from pathlib import Path
 
     from websockets.sync.connection import Connection
@@ -149,8 +149,12 @@ def running_web(  # noqa: PLR0913 - each test gives one or two
     proxies: frozenset[str] = frozenset(),
     host: str = "127.0.0.1",
     patience_s: float | None = None,
+    neighbours: Callable[[], tuple[str, ...]] | None = None,
 ) -> Generator[RunningWeb]:
-    """Serve until the block ends; with a patience, browsers are always asked if they are there."""
+    """Serve until the block ends; with a patience, browsers are always asked if they are there.
+
+    With neighbours it is as a relay serves.
+    """
     engine, credentials, life = SmallEngine(), Credentials(token, KEY, guests=guests), _Life()
     listener: socket.socket = bind("127.0.0.1", 0)
     port = port_of(listener)
@@ -160,6 +164,7 @@ def running_web(  # noqa: PLR0913 - each test gives one or two
         credentials,
         "session",
         Front(KnownHosts.of(host), port, base, proxies),
+        neighbours,
     )
     server = Server(app, life)
     engine.classroom.end_pages = server.server_state.crowd.end_person
