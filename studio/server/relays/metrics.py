@@ -81,7 +81,7 @@ def metrics(relay: Measured) -> str:
         name = f"studio_relay_{one.name}"
         lines += [f"# HELP {name} {one.help}", f"# TYPE {name} {one.kind}"]
         lines += [
-            f'{name}{{room="{room.name}"}} {float(one.value(room)):g}'
+            f'{name}{{room="{room.name}"}} {float(one.value(room))}'
             for room in relay.rooms.values()
         ]
     browsers = relay.crowd.sent_bytes if relay.crowd else 0
