@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final, Literal
 from urllib.parse import urlsplit
 
 import studio
-from studio.server.ports import page_address
+from studio.server.ports import bracketed, page_address
 from studio.server.relays.keys import listening_endpoint
 from studio.settings import DEFAULT_HOST, DEFAULT_PORT, LOOPBACK_HOSTS, TlsChoice
 
@@ -90,7 +90,7 @@ def _lacks(kind: str, settings: Settings, listen: str, name: str) -> str:
         host=_EVERYWHERE if is_loopback else settings.host,
         tls=settings.tls or TlsChoice(),
     )
-    public = settings.public_url or f"https://{name}{settings.base_path}/"
+    public = settings.public_url or f"https://{bracketed(name)}{settings.base_path}/"
     proxied = replace(
         settings, public_url=public, proxies=settings.proxies or frozenset({DEFAULT_HOST})
     )
@@ -275,7 +275,7 @@ def _compose(settings: Settings, listen: str, name: str) -> str:
 
 
 def _publish(host: str, port: int) -> str:
-    shown = "" if host in _ANYWHERE else f"[{host}]:" if ":" in host else f"{host}:"
+    shown = "" if host in _ANYWHERE else f"{bracketed(host)}:"
     return f"{shown}{port}:{port}"
 
 
@@ -333,7 +333,7 @@ def _nginx(settings: Settings, listen: str, name: str) -> str:
     told: list[str] = []
     public, host = settings.public_url, settings.host
     if not public.startswith("https://"):
-        there = urlsplit(public).netloc or name or _HOST_THERE
+        there = urlsplit(public).netloc or bracketed(name) or _HOST_THERE
         public = f"https://{there}{settings.base_path}/"
         told.append(f"--public-url is needed: {public} stands for the address that people open.")
     if not settings.proxies:
@@ -355,7 +355,7 @@ def _nginx(settings: Settings, listen: str, name: str) -> str:
         told="".join(f"# {one}\n" for one in told),
         dialled=listening_endpoint(listen).port,
         listen=parts.port or 443,
-        host=parts.hostname,
+        host=bracketed(parts.hostname or _HOST_THERE),
         base=made.base_path,
         pattern=re.escape(made.base_path),
         upstream=page_address(host, _port(settings), tls=settings.tls is not None).rstrip("/"),

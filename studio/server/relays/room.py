@@ -103,6 +103,8 @@ class Room:
         self.name, self._end_person = name, end_person
         self._line: Line | None = None
         self._loop = asyncio.get_running_loop()
+        self._pages: dict[Listener, int] = {}
+        """All control lanes, and those that ask by HTTP."""
         self.classroom = RelayedClass(name, self._join)
         self.lanes = RelayedLanes(self._send, self._ticket_for)
         self.scenes = RelayedScenes(self._send, self._ticket_for, blobs)
@@ -111,8 +113,6 @@ class Room:
         self._greeted = False
         self._before_bytes = [0, 0, 0]
         """Received, sent and refused on lines that have ended."""
-        self._pages: dict[Listener, int] = {}
-        """All control lanes, and those that ask by HTTP."""
         self._arrived: set[int] = set()
         """Pages that the origin knows one by one."""
         self._by_number: dict[int, Listener] = {}

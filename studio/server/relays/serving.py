@@ -19,7 +19,7 @@ from studio.scene import CLIENT_PATH, viser_client
 from studio.server.assets import CHECK_TEXTS, Assets, check_texts
 from studio.server.launch import place_of, remarks
 from studio.server.origin import KnownHosts
-from studio.server.ports import bind, port_of
+from studio.server.ports import bind, bracketed, port_of
 from studio.server.relays.keys import RelayIdentity, listening_endpoint, new_secret
 from studio.server.relays.relay import Relay
 from studio.server.server import Server
@@ -112,16 +112,12 @@ def _address(settings: Settings, place: Place, name: str) -> str:
         return place.reach.addresses[0]
     parts = urlsplit(place.reach.addresses[0])
     port = f":{parts.port}" if parts.port else ""
-    return parts._replace(netloc=f"{_bracketed(name)}{port}").geturl()
-
-
-def _bracketed(host: str) -> str:
-    return f"[{host}]" if ":" in host else host
+    return parts._replace(netloc=f"{bracketed(name)}{port}").geturl()
 
 
 def _print_lines(endpoint: Endpoint, identity: RelayIdentity, address: str, name: str) -> None:
     own = "" if endpoint.host in _ANYWHERE else endpoint.host
-    shown = _bracketed(name or own or urlsplit(address).hostname or "")
+    shown = bracketed(name or own or urlsplit(address).hostname or "")
     line = f"tls/{shown}:{endpoint.port}#{identity.key}"
     began = datetime.now(UTC).strftime("%H:%M UTC")
     sys.stdout.write(
