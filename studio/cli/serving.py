@@ -88,8 +88,10 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
     _add_data_option(parser)
 
 
-def page_settings(options: argparse.Namespace) -> Settings:
+def page_settings(options: argparse.Namespace, *, keeps: bool = True) -> Settings:
     """Return the settings of a command with `add_page_options`.
+
+    If it `keeps` nothing, the data folder is not made, and empty unless it was given.
 
     Raises:
         SettingsError: They do not go together, or the data folder cannot be used.
@@ -97,6 +99,7 @@ def page_settings(options: argparse.Namespace) -> Settings:
     from studio.server.front import base_path, proxy_addresses
     from studio.settings import Settings, data_folder
 
+    given: Path | None = options.data_dir
     public_url = _public_url(options.public_url)
     return Settings(
         host=options.host or DEFAULT_HOST,
@@ -105,7 +108,9 @@ def page_settings(options: argparse.Namespace) -> Settings:
         proxies=proxy_addresses(options.trusted_proxy),
         public_url=public_url,
         tls=_tls(options),
-        data_folder=data_folder(options.data_dir),
+        data_folder=data_folder(given)
+        if keeps
+        else (given.expanduser().resolve() if given else Path()),
     )
 
 

@@ -62,6 +62,11 @@ def port_of(listener: socket.socket) -> int:
     return int(listener.getsockname()[1])
 
 
+def bracketed(host: str) -> str:
+    """Return a host as it stands before a port."""
+    return f"[{host}]" if ":" in host else host
+
+
 def page_address(host: str, port: int, base: str = "", *, tls: bool = False) -> str:
     """Return the address of the page for a browser on this machine."""
     name = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
@@ -106,6 +111,5 @@ def _own_address(family: int, far: str) -> str:
 
 def _address(name: str, port: int, base: str, *, tls: bool) -> str:
     scheme = "https" if tls else "http"
-    host = f"[{name}]" if ":" in name else name
     shown = "" if port == (443 if tls else 80) else f":{port}"
-    return f"{scheme}://{host}{shown}{base}/"
+    return f"{scheme}://{bracketed(name)}{shown}{base}/"

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _SBIN = "/usr/sbin/nginx"
 _HOW_TO = "These tests need nginx: `apt install nginx-light`."
-_CONFIGURATION = """
+_MAIN = """
 daemon off;
 pid {folder}/nginx.pid;
 error_log {folder}/error.log;
@@ -32,27 +32,30 @@ http {{
   fastcgi_temp_path {folder}/fastcgi;
   uwsgi_temp_path {folder}/uwsgi;
   scgi_temp_path {folder}/scgi;
-  map $http_upgrade $connection_upgrade {{ default upgrade; '' ''; }}
-  server {{
-    listen 127.0.0.1:{tls_port} ssl;
-    ssl_certificate {certificate};
-    ssl_certificate_key {key};
-    client_max_body_size 1g;
-    location {path} {{
-      proxy_pass http://127.0.0.1:{port}{kept};
-      proxy_http_version 1.1;
-      proxy_set_header Upgrade $http_upgrade;
-      proxy_set_header Connection $connection_upgrade;
-      proxy_set_header Host $http_host;
-      proxy_set_header X-Forwarded-For $proxy_add_x_forwarded_for;
-      proxy_set_header X-Forwarded-Proto $scheme;
-      proxy_read_timeout 1h;
-    }}
+  include {folder}/site.conf;
+}}
+"""
+_SITE = """
+map $http_upgrade $connection_upgrade {{ default upgrade; '' ''; }}
+server {{
+  listen 127.0.0.1:{tls_port} ssl;
+  ssl_certificate {certificate};
+  ssl_certificate_key {key};
+  client_max_body_size 1g;
+  location {path} {{
+    proxy_pass http://127.0.0.1:{port}{kept};
+    proxy_http_version 1.1;
+    proxy_set_header Upgrade $http_upgrade;
+    proxy_set_header Connection $connection_upgrade;
+    proxy_set_header Host $http_host;
+    proxy_set_header X-Forwarded-For $proxy_add_x_forwarded_for;
+    proxy_set_header X-Forwarded-Proto $scheme;
+    proxy_read_timeout 1h;
   }}
-  server {{
-    listen 127.0.0.1:{plain_port};
-    location / {{ proxy_pass http://127.0.0.1:{port}; proxy_http_version 1.1; }}
-  }}
+}}
+server {{
+  listen 127.0.0.1:{plain_port};
+  location / {{ proxy_pass http://127.0.0.1:{port}; proxy_http_version 1.1; }}
 }}
 """
 """The first server is as the README says; the second is one that the studio was not told of."""
@@ -116,10 +119,8 @@ def running_nginx(
         path: Below which the studio is.
         strips: Whether the studio sees addresses without that path.
     """
-    folder.mkdir()
     made = Nginx(tls_port, free_port(), folder)
-    text = _CONFIGURATION.format(
-        folder=folder,
+    site = _SITE.format(
         tls_port=tls_port,
         plain_port=made.plain_port,
         certificate=certificates.certificate,
@@ -128,13 +129,27 @@ def running_nginx(
         port=port,
         kept="/" if strips else "",
     )
-    (folder / "nginx.conf").write_text(text)
-    process = subprocess.Popen(
-        [ensure_nginx(), "-p", folder, "-c", folder / "nginx.conf"], stderr=subprocess.DEVNULL
-    )
-    try:
-        wait_until("nginx to listen", lambda: _listens(tls_port) and _listens(made.plain_port))
+    with serving_nginx(folder, site, tls_port, made.plain_port):
         yield made
+
+
+@contextmanager
+def serving_nginx(folder: Path, site: str, *ports: int) -> Generator[None]:
+    """Run nginx with what stands within `http`, once it listens at all ports of it."""
+    folder.mkdir()
+    (folder / "nginx.conf").write_text(_MAIN.format(folder=folder))
+    (folder / "site.conf").write_text(site)
+    with (folder / "stderr").open("w") as errors:
+        process = subprocess.Popen(
+            [ensure_nginx(), "-p", folder, "-c", folder / "nginx.conf"], stderr=errors
+        )
+    try:
+        wait_until(
+            "nginx to listen, or to end",
+            lambda: process.poll() is not None or all(map(_listens, ports)),
+        )
+        assert process.poll() is None, (folder / "stderr").read_text()
+        yield
     finally:
         process.terminate()
         process.wait(20)

@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> None:
     Raises:
         StudioError: It cannot listen.
     """
-    settings = page_settings(options)
+    settings = page_settings(options, keeps=not options.printed)
     if options.printed:
         from studio.server.relays.prints import printed
 

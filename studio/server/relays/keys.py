@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import RelayKeyError, RelayLineError, WireSettingsError
+from studio.errors import RelayKeyError, RelayLineError, SettingsError, WireSettingsError
 from studio.ros.wire.credentials import Credentials
 from studio.ros.wire.endpoints import parse_endpoint
 
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
         EllipticCurvePrivateKey,
         EllipticCurvePublicKey,
     )
+
+    from studio.ros.wire.endpoints import Endpoint
 
 KEY_LETTERS: Final = 68
 """Of a key; 51 bytes, so that no bit of the last letter is unused."""
@@ -151,6 +153,21 @@ def parse_relay_line(text: str) -> RelayAddress:
         raise RelayKeyError("what is before its # is more than tls/, a host and a port")
     _read_key(key)
     return RelayAddress(f"tls/{f'[{host}]' if ':' in host else host}:{endpoint.port}", key)
+
+
+def listening_endpoint(text: str) -> Endpoint:
+    """Read where a relay listens.
+
+    Raises:
+        WireSettingsError: It is no endpoint.
+        SettingsError: It is not encrypted.
+    """
+    endpoint = parse_endpoint(text)
+    if endpoint.protocol != "tls":
+        raise SettingsError(
+            f"--listen takes an encrypted endpoint, as tls/0.0.0.0:7448, not {text}."
+        )
+    return endpoint
 
 
 def _key_text(data: bytes) -> str:

@@ -9,19 +9,18 @@ from typing import TYPE_CHECKING, Final
 from urllib.parse import urlsplit
 
 from studio.description import checks as text_checks
-from studio.errors import DataFolderError, SettingsError
+from studio.errors import DataFolderError
 from studio.files import write_whole
 from studio.packages import lint as package_checks
 from studio.problems import whys
 from studio.robot import checks as robot_checks
-from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.zenoh import use_few_threads
 from studio.scene import CLIENT_PATH, viser_client
 from studio.server.assets import CHECK_TEXTS, Assets, check_texts
 from studio.server.launch import place_of, remarks
 from studio.server.origin import KnownHosts
-from studio.server.ports import bind, port_of
-from studio.server.relays.keys import RelayIdentity, new_secret
+from studio.server.ports import bind, bracketed, port_of
+from studio.server.relays.keys import RelayIdentity, listening_endpoint, new_secret
 from studio.server.relays.relay import Relay
 from studio.server.server import Server
 from studio.settings import repository_or_wheel
@@ -30,6 +29,7 @@ from studio.system import raise_descriptor_limit
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from studio.ros.wire.endpoints import Endpoint
     from studio.server.launch import Place
     from studio.settings import Settings
 
@@ -54,12 +54,8 @@ def serve_relay(settings: Settings, listen: str, name: str, *, new_key: bool) ->
     )
     use_few_threads()
     raise_descriptor_limit()
-    endpoint = parse_endpoint(listen)
-    if endpoint.protocol != "tls":
-        raise SettingsError(
-            f"--listen takes an encrypted endpoint, as tls/0.0.0.0:7448, not {listen}."
-        )
-    identity = RelayIdentity(relay_secret(settings.data_folder, anew=new_key))
+    endpoint = listening_endpoint(listen)
+    identity = relay_identity(settings.data_folder, anew=new_key)
     with bind(settings.host, settings.port) as listener:
         place = place_of(settings, port_of(listener))
         for sentence in remarks(settings, place.port):
@@ -83,28 +79,31 @@ def serve_relay(settings: Settings, listen: str, name: str, *, new_key: bool) ->
             port=place.port,
             base=settings.base_path,
             proxies=settings.proxies,
-            on_listening=lambda: _print_lines(endpoint.host, endpoint.port, identity, address),
+            on_listening=lambda: _print_lines(endpoint, identity, address, name),
         )
         server = Server(relay, relay, place.tls)
         relay.crowd = server.server_state.crowd
         server.run(sockets=[listener])
 
 
-def relay_secret(data_folder: Path, *, anew: bool = False) -> str:
-    """Return what the relay's key is made from, kept in a file that only its owner may read.
+def relay_identity(data_folder: Path, *, anew: bool = False) -> RelayIdentity:
+    """Return the relay's identity, whose secret is in a file that only its owner may read.
 
     Raises:
-        DataFolderError: It cannot be kept.
+        DataFolderError: It cannot be kept, or is none.
     """
     path = data_folder / _KEY_FILE
     try:
         if not anew and path.exists():
-            return path.read_text("ascii").strip()
+            return RelayIdentity(path.read_text("ascii").strip())
         secret = new_secret()
         write_whole(path, secret.encode(), mode=0o600)
-    except (OSError, UnicodeDecodeError) as error:
-        raise DataFolderError(str(path), str(error)) from error
-    return secret
+    except ValueError as error:
+        reason = "it holds no key: put it back as it was, or make another with --new-key"
+        raise DataFolderError(str(path), reason) from error
+    except OSError as error:
+        raise DataFolderError(str(path), error.strerror or str(error)) from error
+    return RelayIdentity(secret)
 
 
 def _address(settings: Settings, place: Place, name: str) -> str:
@@ -112,19 +111,18 @@ def _address(settings: Settings, place: Place, name: str) -> str:
     if settings.public_url or not name:
         return place.reach.addresses[0]
     parts = urlsplit(place.reach.addresses[0])
-    shown = f":{parts.port}" if parts.port else ""
-    return parts._replace(netloc=f"{name}{shown}").geturl()
+    port = f":{parts.port}" if parts.port else ""
+    return parts._replace(netloc=f"{bracketed(name)}{port}").geturl()
 
 
-def _print_lines(listen_host: str, port: int, identity: RelayIdentity, address: str) -> None:
-    host = urlsplit(address).hostname or ""
-    if listen_host not in _ANYWHERE:
-        host = listen_host
-    shown = f"[{host}]" if ":" in host else host
+def _print_lines(endpoint: Endpoint, identity: RelayIdentity, address: str, name: str) -> None:
+    own = "" if endpoint.host in _ANYWHERE else endpoint.host
+    shown = bracketed(name or own or urlsplit(address).hostname or "")
+    line = f"tls/{shown}:{endpoint.port}#{identity.key}"
     began = datetime.now(UTC).strftime("%H:%M UTC")
     sys.stdout.write(
-        f"Relay: tls/{shown}:{port}#{identity.key}\n"
+        f"Relay: {line}\n"
         f"People join at {address} once a studio is here (started {began}):\n"
-        f"  studio open ROBOT --share --via 'tls/{shown}:{port}#{identity.key}'\n"
+        f"  studio open ROBOT --share --via '{line}'\n"
     )
     sys.stdout.flush()
