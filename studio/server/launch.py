@@ -334,6 +334,12 @@ class _Visit:
         if self._failure is not None:
             raise self._failure
 
+    def _joined(self, address: str) -> None:
+        """Tell where others join by a relay."""
+        admission = self._classroom.admission
+        _print(f"Relay: {address}  Code: {admission.code}")
+        _print(f"   or: {address}join?code={admission.link}")
+
     def _end_pages(self, person: str) -> None:
         self._server.server_state.crowd.end_person(person)
         if self._origin is not None:
@@ -343,7 +349,7 @@ class _Visit:
         """Start the engine."""
         await self._engine.start()
         self._origin = Origin(
-            self._engine, self._classroom, self._session, self._settings.via_topics
+            self._engine, self._classroom, self._session, self._settings.via_topics, self._joined
         )
 
     async def answering(self) -> None:

@@ -45,6 +45,10 @@ class Origin:
         classroom: Its class.
         session: Of this run of the studio.
         topics: Patterns of the topics that relays may pass on; none: all that a guest sees.
+        joined: Called with the room's address at each relay, once it serves it.
+
+    Attributes:
+        uplinks: By the endpoints of the relays.
     """
 
     def __init__(
@@ -53,10 +57,12 @@ class Origin:
         classroom: Classroom,
         session: str,
         topics: Sequence[str] = (),
+        joined: Callable[[str], object] = lambda _: None,
     ) -> None:
         self._engine, self._classroom, self._session = engine, classroom, session
-        self._allowed = AllowedTopics(tuple(topics))
-        self._uplinks: dict[str, Uplink] = {}
+        self._allowed = AllowedTopics(tuple(topics) or ("*",))
+        self._joined, self._told = joined, set[str]()
+        self.uplinks: dict[str, Uplink] = {}
         self._issuer: tuple[bytes, TicketIssuer] | None = None
         self._tries, self._joins = Tries(*_GUESSES), Tries(*_JOINS)
         self._shown: Relays | None = None
@@ -69,7 +75,7 @@ class Origin:
         """Dial the relays that were named, and those of before; what cannot be is told."""
         for line in (*lines, *self._classroom.relay_lines):
             try:
-                if parse_relay_line(line).endpoint not in self._uplinks:
+                if parse_relay_line(line).endpoint not in self.uplinks:
                     await self.dial(line)
             except StudioError as error:
                 warn(str(error))
@@ -95,10 +101,10 @@ class Origin:
             CommandError: There are as many as can be.
         """
         relay = parse_relay_line(line)
-        if relay.endpoint not in self._uplinks and len(self._uplinks) >= RELAYS_MAX:
+        if relay.endpoint not in self.uplinks and len(self.uplinks) >= RELAYS_MAX:
             raise CommandError(f"{RELAYS_MAX} relays are in use: remove one first.")
         await self._drop(relay.endpoint)
-        self._uplinks[relay.endpoint] = Uplink(
+        self.uplinks[relay.endpoint] = Uplink(
             relay, lambda: self.identity, self._session, self._end_of, self._changed
         )
         if self._watching is None:
@@ -123,29 +129,29 @@ class Origin:
         """End all lines."""
         if self._watching is not None:
             self._watching.cancel()
-        await asyncio.gather(*(self._drop(one) for one in tuple(self._uplinks)))
+        await asyncio.gather(*(self._drop(one) for one in tuple(self.uplinks)))
 
     def addresses(self) -> tuple[str, ...]:
         """Return where people join at relays that are there."""
-        return tuple(one.address for one in self._uplinks.values() if one.state == "there")
+        return tuple(one.address for one in self.uplinks.values() if one.state == "there")
 
     def guests(self) -> int:
         """Return how many pages of people outside of the class are open at relays."""
-        ends = (one.end for one in self._uplinks.values())
+        ends = (one.end for one in self.uplinks.values())
         return sum(end.guests for end in ends if isinstance(end, OriginEnd))
 
     def event(self) -> Relays:
         """Return the relays, for presenters."""
-        return Relays(relays=tuple(map(_view, self._uplinks.values())))
+        return Relays(relays=tuple(map(_view, self.uplinks.values())))
 
     def end_person(self, person: str) -> None:
         """End a person's pages at all relays."""
-        for one in self._uplinks.values():
+        for one in self.uplinks.values():
             if isinstance(one.end, OriginEnd):
                 one.end.end_person(person)
 
     async def _drop(self, endpoint: str) -> bool:
-        uplink = self._uplinks.pop(endpoint, None)
+        uplink = self.uplinks.pop(endpoint, None)
         if uplink is None:
             return False
         await uplink.close()
@@ -163,8 +169,12 @@ class Origin:
 
     def _changed(self) -> None:
         self._shown = self.event()
+        for address in self.addresses():
+            if address not in self._told:
+                self._told.add(address)
+                self._joined(address)
         self._classroom.relays_changed()
-        for one in self._uplinks.values():
+        for one in self.uplinks.values():
             if isinstance(one.end, OriginEnd):
                 one.end.tell_state()
 
@@ -195,7 +205,7 @@ class Origin:
         """Return what a relay must know of the room."""
         classroom, engine = self._classroom, self._engine
         admission, control = classroom.admission, classroom.control
-        others = (one for one in self._uplinks.values() if one.relay.endpoint != relay)
+        others = (one for one in self.uplinks.values() if one.relay.endpoint != relay)
         return RoomState(
             session=self._session,
             tickets=self.issuer.public,
