@@ -63,6 +63,7 @@ from studio.server.relays.relayed_lanes import RelayedLanes
 from studio.server.relays.relayed_scenes import RelayedScenes
 from studio.server.relays.relayed_topics import RelayedTopics
 from studio.server.relays.room_documents import OnlyThere, RoomDocument
+from studio.server.relays.shared_reads import SharedReads, is_shared
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -120,6 +121,7 @@ class Room:
         self._by_number: dict[int, Listener] = {}
         self._numbers = itertools.count(1)
         self._asked: dict[int, _Asked] = {}
+        self._reads = SharedReads(self._pass_on, self.detach, lambda: self.lanes.frame_count)
         self._joining: dict[int, asyncio.Future[Joined]] = {}
         self._downloading: dict[int, asyncio.Future[Downloaded]] = {}
         self._sent_viewers = Viewers(0, 0)
@@ -376,6 +378,9 @@ class Room:
         elif isinstance(command, FollowOperations):
             name = OPERATIONS + command.operations
             await self._follow(name, listener, following=command.following)
+        elif is_shared(command, listener):
+            await self._reads.answer(command, listener)
+            return
         elif isinstance(command, Follow) and not self._is_known(listener):
             self.lanes.studio.follow(listener, following=command.following)
         else:

@@ -1,0 +1,118 @@
+"""Questions that many pages ask at once, as after each change: asked once for all of a relay."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from studio.protocol.calls import GetActions, GetServices
+from studio.protocol.diagnostics import GetDiagnostics
+from studio.protocol.displays import GetDisplayKinds, GetTopics
+from studio.protocol.graph import GetGraph, GetNode
+from studio.protocol.interfaces import GetInterface, ListInterfaces
+from studio.protocol.language import GetOutline
+from studio.protocol.roles import Role, owner_of
+from studio.protocol.texts import GetText, GetUrdf
+from studio.protocol.tools import GetToolKinds
+from studio.protocol.topics import GetTopicEnds, ListTopics
+from studio.protocol.views import GetViewKinds
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
+    from studio.protocol import Command
+    from studio.protocol.listeners import Listener
+
+_KINDS: Final = (
+    *(GetText, GetOutline, GetUrdf, GetGraph, GetNode, GetTopics, ListTopics, GetTopicEnds),
+    *(GetServices, GetActions, GetDiagnostics, GetInterface, ListInterfaces),
+    *(GetDisplayKinds, GetToolKinds, GetViewKinds),
+)
+"""They are answered alike whoever asks."""
+_FRESH_S: Final = 1.0
+_KEPT_MAX: Final = 256
+
+
+def is_shared(command: Command, listener: Listener) -> bool:
+    """Whether the answer to others serves this page as well."""
+    shared = isinstance(command, _KINDS) and not owner_of(command.document)
+    return shared and listener.role in {Role.GUEST, Role.STUDENT}
+
+
+class _Reader:
+    """A Listener that keeps what comes, for all who asked."""
+
+    def __init__(self, first: Listener) -> None:
+        self._first = first
+        self.role, self.person = first.role, first.person
+        self.events: list[dict[str, Any]] = []
+
+    def sees(self, document: str) -> bool:
+        """Whether who asked first may look at a document."""
+        return self._first.sees(document)
+
+    def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
+        """Keep one event."""
+        del key
+        if not binary:
+            self.events.append(json.loads(data))
+
+
+class _Read(NamedTuple):
+    version: int
+    since_s: float
+    events: asyncio.Future[list[dict[str, Any]]]
+
+
+class SharedReads:
+    """Used on the event loop only.
+
+    Args:
+        ask: Asks the origin, and returns once it has answered to the listener.
+        forget: Forgets a listener that asked.
+        version: Counts what the origin has told: no answer is older than what a page was told.
+    """
+
+    def __init__(
+        self,
+        ask: Callable[[Command, Listener], Awaitable[None]],
+        forget: Callable[[Listener], object],
+        version: Callable[[], int],
+    ) -> None:
+        self._ask, self._forget, self._version = ask, forget, version
+        self._reads: dict[str, _Read] = {}
+
+    async def answer(self, command: Command, listener: Listener) -> None:
+        """Answer from what others were answered just now, or ask.
+
+        Raises:
+            StudioError: The origin is away.
+        """
+        key = command.model_dump_json(exclude={"request", "id"})
+        now_s = asyncio.get_running_loop().time()
+        found = self._reads.get(key)
+        if found is None or found.version != self._version() or now_s - found.since_s > _FRESH_S:
+            events = asyncio.ensure_future(self._asked(command, listener))
+            events.add_done_callback(_noticed)
+            self._reads.pop(key, None)
+            found = self._reads[key] = _Read(self._version(), now_s, events)
+            while len(self._reads) > _KEPT_MAX:
+                del self._reads[next(iter(self._reads))]
+        for event in await asyncio.shield(found.events):
+            own = {**event, "request": command.request} if "request" in event else event
+            listener.post(json.dumps(own, separators=(",", ":")).encode())
+
+    async def _asked(self, command: Command, first: Listener) -> list[dict[str, Any]]:
+        reader = _Reader(first)
+        try:
+            await self._ask(command, reader)
+        finally:
+            self._forget(reader)
+        return reader.events
+
+
+def _noticed(events: asyncio.Future[list[dict[str, Any]]]) -> None:
+    """Look at a failure, for who asked may have left."""
+    if not events.cancelled():
+        events.exception()
