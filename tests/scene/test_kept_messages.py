@@ -112,12 +112,15 @@ def framed(messages: Iterable[Message]) -> bytes:
 
 
 SMALL = st.integers(0, 2)
-EVENTS = st.one_of(
+DRAWS = st.one_of(
     st.tuples(st.just("make"), st.sampled_from(NAMES), SMALL, SMALL),
     st.tuples(st.just("update"), st.sampled_from(NAMES), st.integers(1, 7), SMALL),
     st.tuples(st.just("move"), st.sampled_from(NAMES), SMALL),
     st.tuples(st.just("remove"), st.sampled_from(NAMES)),
     st.tuples(st.just("widen"), SMALL),
+)
+EVENTS = st.one_of(
+    DRAWS,
     st.sampled_from([("window",), ("cut",), ("page",), ("sweep",)]),
     st.tuples(st.just("read"), SMALL),
 )
@@ -132,7 +135,20 @@ class Story:
         self.pages: list[Page] = [Page(), Page()]
         self._sent = -1
 
-    def tell(self, kind: str, arguments: Sequence[Any]) -> None:
+    def tell_all(self, events: Iterable[tuple[Any, ...]]) -> None:
+        for kind, *arguments in events:
+            self._tell(kind, arguments)
+
+    def check(self) -> None:
+        """Every page, and one that comes now, has what a page of the origin has."""
+        wanted = PageState()
+        wanted.apply(content_of(self.origin.frame_since(-1)))
+        for page in (*self.pages, Page()):
+            page.catch_up(self.kept)
+            assert page.state.nodes == wanted.nodes
+            assert page.state.said == wanted.said
+
+    def _tell(self, kind: str, arguments: Sequence[Any]) -> None:
         match kind:
             case "window":
                 self.take_all()
@@ -171,15 +187,35 @@ def test_a_page_has_the_state_of_the_origin_wherever_it_fell_behind_and_whatever
     events: Sequence[tuple[Any, ...]], fresh: bool
 ):
     story = Story(keeps_creates_fresh=fresh)
-    for kind, *arguments in events:
-        story.tell(kind, arguments)
+    story.tell_all(events)
     story.take_all()
-    wanted = PageState()
-    wanted.apply(content_of(story.origin.frame_since(-1)))
-    for page in (*story.pages, Page()):
-        page.catch_up(story.kept)
-        assert page.state.nodes == wanted.nodes
-        assert page.state.said == wanted.said
+    story.check()
+
+
+SOME_DRAWS = st.lists(DRAWS, min_size=1, max_size=8)
+
+
+@settings(max_examples=1000, deadline=None)
+@given(st.tuples(SOME_DRAWS, SOME_DRAWS, SOME_DRAWS), st.booleans())
+def test_after_a_cut_of_the_line_all_pages_have_the_state_of_the_origin(
+    events: Sequence[Sequence[tuple[Any, ...]]], fresh: bool
+):
+    story = Story(keeps_creates_fresh=fresh)
+    for name in NAMES:
+        story.origin.make(name, 0, 0)
+    before, meanwhile, lost = events
+    story.tell_all(before)
+    story.take_all()
+    story.pages[1].catch_up(story.kept)
+    story.tell_all(meanwhile)
+    story.take_all()
+    story.tell_all(lost)
+    story.cut()
+    story.check()
+    story.cut()
+    story.tell_all(before)
+    story.take_all()
+    story.check()
 
 
 def test_what_is_said_of_a_removed_node_is_not_told_to_those_who_come():
