@@ -240,12 +240,13 @@ class RelayedTopics:
         topic.users[(browser, subscription)] = None
         browser.topics[subscription] = topic
         browser.waiting.add(subscription)
+        if not self._is_up:
+            browser.lane.send(not_connected(subscription, 0))
         if key not in self._topics:
             self._topics[key] = topic
             if self._is_up:
                 self._subscribe(topic)
-        if not self._is_up:
-            browser.lane.send(not_connected(subscription, 0))
+            return
         topic.send_view(browser, subscription)
         if topic.view is None or not topic.is_answered:
             return  # the latched messages are on their way

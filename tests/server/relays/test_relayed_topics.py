@@ -36,7 +36,8 @@ VOLATILE = QoSProfile(depth=10)
 
 
 def wish(topic: str, mode: Mode = "every", subscription: int = 1, document: str = "") -> Subscribe:
-    return Subscribe(subscription=subscription, topic=topic, mode=mode, document=document)
+    """A command; of a latched topic each publisher's last message is wanted."""
+    return Subscribe(subscription=subscription, topic=topic, mode=mode, document=document, depth=1)
 
 
 def asked_for(line: Line, topic: str) -> int:
@@ -230,14 +231,17 @@ def test_a_copy_is_shown_to_those_alone_who_see_it_here_and_at_the_studio():
 def test_a_browser_and_all_of_a_relay_have_bounds():
     async def run() -> None:
         async with line_to(MemorySource()) as (_, line):
-            pages = [line.hearer() for _ in range(2)]
+            one, other = line.hearer(), line.hearer()
             for number in range(SUBSCRIPTIONS_MAX + 1):
-                for at, page in enumerate(pages):
-                    line.relayed.carry_out(page, wish(f"/page{at}/topic{number}", "every", number))
-            assert [one.subscription for one in pages[0].refused] == [SUBSCRIPTIONS_MAX]
-            both = 2 * SUBSCRIPTIONS_MAX
-            assert len(pages[0].refused) + len(pages[1].refused) == 2 + max(0, both - TOPICS_MAX)
-            line.relayed.detach(pages[0])
+                line.relayed.carry_out(one, wish(f"/one/topic{number}", "every", number))
+            for number in range(SUBSCRIPTIONS_MAX):
+                line.relayed.carry_out(other, wish(f"/other/topic{number}", "every", number))
+            assert [told.subscription for told in one.refused] == [SUBSCRIPTIONS_MAX]
+            left = TOPICS_MAX - SUBSCRIPTIONS_MAX
+            assert [told.subscription for told in other.refused] == [
+                *range(left, SUBSCRIPTIONS_MAX)
+            ]
+            line.relayed.detach(one)
             later = line.hearer()
             line.relayed.carry_out(later, wish("/later"))
             assert later.state(1)
@@ -280,13 +284,16 @@ def tell(relayed: RelayedTopics, number: int, channel: int) -> None:
     relayed.take_tick(TopicTick(frame_of((), 0), number))
 
 
+def forged(version: int, count: int, lengths: list[int]) -> bytes:
+    """A frame that says this of itself, and of each of its messages."""
+    heads = [MESSAGE_HEAD.pack(70, length, 0, 0, 0) + bytes(4) for length in lengths]
+    return FRAME_HEAD.pack(version, count, 0) + b"".join(heads)
+
+
 FRAMES = st.one_of(
     st.binary(max_size=100),
     st.builds(
-        lambda version, count, heads: (
-            FRAME_HEAD.pack(version, count, 0)
-            + b"".join(MESSAGE_HEAD.pack(70, length, 0, 0, 0) + bytes(4) for length in heads)
-        ),
+        forged,
         st.sampled_from([1, 2]),
         st.sampled_from([0, 1, 2, 2**32 - 1]),
         st.lists(st.sampled_from([0, 4, 5, 2**32 - 1]), max_size=3),
