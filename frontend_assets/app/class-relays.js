@@ -26,9 +26,12 @@ export function Relays() {
   if (!all) return null;
   return html`<section class="class-relays" aria-labelledby="class-relays">
     <h3 id="class-relays">${t("relays")}</h3>
-    <p>${t("relays.what")} <span class="class-relay-line"><code>${COMMAND}</code>
-      <${IconButton} icon="copy" size=${14} label=${t("copy.command")} onClick=${copying(COMMAND)} /></span></p>
-    ${all.length > 0 && html`<ul>${all.map((one) => html`<${Relay} key=${one.endpoint} relay=${one} />`)}</ul>`}
+    ${
+      all.length > 0
+        ? html`<ul>${all.map((one) => html`<${Relay} key=${one.endpoint} relay=${one} />`)}</ul>`
+        : html`<p>${t("relays.what")} <span class="class-relay-line"><code>${COMMAND}</code>
+      <${IconButton} icon="copy" size=${14} label=${t("copy.command")} onClick=${copying(COMMAND)} /></span></p>`
+    }
     <${AddRelay} />
   </section>`;
 }
@@ -43,17 +46,17 @@ function Relay({ relay }) {
   const { endpoint, state, reason, address, people = 0, lag_ms: lag = 0 } = relay;
   const [icon, tone] = MARKS[state];
   const isThere = state === "there";
-  return html`<li><div class="class-relay"><code>${endpoint}</code>
-      <span class=${`class-relay-state ${tone}`}><${Icon} name=${icon} size=${14} />${t(`relays.${state}`)}</span>
+  return html`<li><div><div class="class-relay"><code>${endpoint}</code>
+      <span class=${`class-relay-state ${tone}`} role="status"><${Icon} name=${icon} size=${14} />${t(`relays.${state}`)}</span>
       ${isThere && html`<span class="muted">${t("relays.people", { count: people })}</span>`}
-      ${isThere && lag > BEHIND_MS && html`<span class="class-relay-state amber"><${Icon} name="history" size=${14} />${t("relays.behind", { seconds: Math.round(lag / 1000) })}</span>`}
-      <${IconButton} icon="close" size=${14} class="push" label=${t("relays.remove.of", { endpoint })} onClick=${() => askToRemove(endpoint)} /></div>
+      ${isThere && lag > BEHIND_MS && html`<span class="class-relay-state amber"><${Icon} name="history" size=${14} />${t("relays.behind", { seconds: Math.round(lag / 1000) })}</span>`}</div>
     ${reason && html`<small class=${tone}>${reason}</small>`}
     ${
       address &&
       html`<span class="class-relay-line"><a href=${address} target="_blank" rel="noopener noreferrer">${address}</a>
       <${IconButton} icon="copy" size=${14} label=${t("relays.copy", { endpoint })} onClick=${copying(address)} /></span>`
-    }</li>`;
+    }</div>
+    <${IconButton} icon="close" size=${14} label=${t("relays.remove.of", { endpoint })} onClick=${() => askToRemove(endpoint)} /></li>`;
 }
 
 /** @param {string} endpoint */

@@ -11,12 +11,15 @@ import { address } from "../lib/address.js";
 import { connection, documentId, turnedAway } from "./connection.js";
 import { ask, leaveTo } from "./requests.js";
 import { fullView } from "./view.js";
-import { subscribe } from "./wire.js";
+import { giveUp, silentFor, subscribe } from "./wire.js";
 
 /** Ours is tried several times meanwhile: it may only be started anew. */
 const GONE_AFTER_MS = 2000;
 const AGAIN_MS = 3000;
 const OWN_PATIENCE_MS = 1500;
+/** A relay whose machine sleeps or has no network closes no lane: after such a silence it is asked. */
+const SILENT_MS = 15_000;
+const SILENT_PATIENCE_MS = 5000;
 /** The sentence that we go on elsewhere is to be read. */
 const SAY_MS = 1500;
 
@@ -90,16 +93,17 @@ function findOther() {
   });
 }
 
-/** @returns {Promise<boolean>} our own relay answers: then only the lane is lost, and comes back */
-async function isOwnThere() {
-  const signal = AbortSignal.timeout(OWN_PATIENCE_MS);
+/** @param {number} patience_ms @returns {Promise<boolean>} our own relay answers */
+async function isOwnThere(patience_ms) {
+  const signal = AbortSignal.timeout(patience_ms);
   const answer = await fetch(address("/health"), { cache: "no-store", signal }).catch(() => null);
   return answer?.ok ?? false;
 }
 
 /** @param {() => boolean} isOver */
 async function moveOn(isOver) {
-  const [own, other] = await Promise.all([isOwnThere(), findOther()]);
+  // If ours answers, only the lane is lost, and comes back.
+  const [own, other] = await Promise.all([isOwnThere(OWN_PATIENCE_MS), findOther()]);
   if (isOver() || own || turnedAway.peek() || other === null) return;
   movesOn.value = true;
   await new Promise((read) => setTimeout(read, SAY_MS));
@@ -127,4 +131,14 @@ effect(() => {
     movesOn.value = false;
     clearTimeout(timer);
   };
+});
+
+effect(() => {
+  if (connection.value !== "connected") return undefined;
+  const look = async () => {
+    const isSilent = () => others.length > 0 && silentFor() > SILENT_MS;
+    if (isSilent() && !(await isOwnThere(SILENT_PATIENCE_MS)) && isSilent()) giveUp();
+  };
+  const timer = setInterval(look, SILENT_MS);
+  return () => clearInterval(timer);
 });

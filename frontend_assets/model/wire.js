@@ -50,6 +50,8 @@ const waiting = new Map();
 let socket = null;
 let lastRequest = 0;
 let attempts = 0;
+/** When the newest message came, as `performance.now()`. */
+let heard_ms = 0;
 /** @type {() => void} */
 let whenOpen = () => {};
 
@@ -130,6 +132,18 @@ const isTooLong = (text) =>
   text.length * BYTES_PER_LETTER_MAX > COMMAND_LIMIT_BYTES &&
   new TextEncoder().encode(text).length > COMMAND_LIMIT_BYTES;
 
+/** @returns {number} ms since anything came on the lane */
+export const silentFor = () => performance.now() - heard_ms;
+
+/** Who is gone without a word closes no socket: take the lane for lost. */
+export function giveUp() {
+  const given = socket;
+  if (!given || connection.value !== "connected") return;
+  given.onmessage = null;
+  lose();
+  given.close();
+}
+
 /** @type {ReturnType<typeof setTimeout> | undefined} */
 let retryTimer;
 
@@ -152,7 +166,7 @@ function open() {
   };
   opened.onclose = () => {
     clearTimeout(impatient);
-    lose();
+    if (socket === opened) lose();
   };
 }
 
@@ -175,6 +189,7 @@ function lose() {
 
 /** @param {string | ArrayBuffer} data */
 function take(data) {
+  heard_ms = performance.now();
   if (typeof data !== "string") {
     const frame = readJointFrame(data);
     if (frame) takeJointFrame(frame);

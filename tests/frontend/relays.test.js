@@ -65,7 +65,9 @@ const { healthOf, movesOn, studioAway, wayTo } = await import(
 const { connect } = await import("../../frontend_assets/model/wire.js");
 const { fullView } = await import("../../frontend_assets/model/view.js");
 
-mock.timers.enable({ apis: ["setTimeout"] });
+mock.timers.enable({ apis: ["setTimeout", "setInterval"] });
+let now_ms = 0;
+mock.method(performance, "now", () => now_ms);
 connect(() => {});
 
 const socket = () => /** @type {FakeSocket} */ (FakeSocket.opened.at(-1));
@@ -80,11 +82,20 @@ const tell = (studio, others) => say({ type: "relay_state", studio, others });
 async function offline(ms) {
   for (let passed = 0; passed < ms; passed += 50) {
     mock.timers.tick(50);
+    now_ms += 50;
     const before = socket();
     if (connection.value === "lost" && before.readyState === 1) {
       before.readyState = 3;
       before.onclose();
     }
+    for (let turn = 0; turn < 20; turn += 1) await null;
+  }
+}
+/** Nothing comes, and no socket closes. @param {number} ms */
+async function quiet(ms) {
+  for (let passed = 0; passed < ms; passed += 1000) {
+    mock.timers.tick(1000);
+    now_ms += 1000;
     for (let turn = 0; turn < 20; turn += 1) await null;
   }
 }
@@ -177,6 +188,24 @@ test("nobody leaves a relay that answers, nor one that turned them away", async 
   turnedAway.value = true;
   await offline(6000);
   assert.deepEqual(gone, []);
+});
+
+test("a relay that is gone without a word is found gone after a silence", async () => {
+  await quiet(20_000);
+  const given = socket();
+  await quiet(20_000);
+  assert.notEqual(socket(), given);
+  assert.equal(connection.value, "lost");
+  await offline(4000);
+  assert.equal(gone.length, 1);
+  given.onclose();
+  assert.equal(gone.length, 1, "its socket, which closes late, counts no more");
+});
+
+test("a relay that only has nothing to say keeps its people", async () => {
+  ownIsThere = true;
+  await quiet(60_000);
+  assert.equal(connection.value, "connected");
 });
 
 test("with no other relay nothing is probed", async () => {
