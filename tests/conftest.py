@@ -30,6 +30,14 @@ def pytest_configure(config: pytest.Config) -> None:
     settings.load_profile("without sweeps" if left_out else "studio")
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection(session: pytest.Session) -> None:
+    """A parallel run compiles each file of tests once."""
+    from tests.support.compiling import import_own_part
+
+    import_own_part(session.config)
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Long files begin first, and browsers are spread over a parallel run."""
     from tests.support.order import in_order

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.support.compiling import part_of
 from tests.support.order import LONGEST, in_order, spread
 
 if TYPE_CHECKING:
@@ -28,6 +29,13 @@ def test_every_test_is_there_once_and_each_file_is_whole(request: pytest.Fixture
 
 def test_long_files_are_those_that_are_there():
     assert [path for path in LONGEST if not (REPOSITORY / path).is_file()] == []
+
+
+def test_each_file_is_compiled_by_one_process(request: pytest.FixtureRequest):
+    parts = [name for worker in range(3) for name in part_of(worker, 3)]
+    assert len(parts) == len(set(parts))
+    collected = {one.path.relative_to(REPOSITORY) for one in request.session.items}
+    assert {".".join(path.with_suffix("").parts) for path in collected} <= set(parts)
 
 
 @given(names, names)

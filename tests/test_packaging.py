@@ -24,6 +24,8 @@ from tests.support.patience import ended_within
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from studio.server.modules import Modules
+
 REPOSITORY = Path(__file__).resolve().parents[1]
 INSIDE = {
     "studio": "studio",
@@ -106,6 +108,27 @@ def test_the_wheel_holds_nothing_else(names: list[str]):
             assert ".dist-info/" in name, name
         else:
             assert source.is_file(), f"{name} comes from nowhere"
+
+
+def test_the_wheel_serves_the_page_of_this_checkout(wheel: Path, names: list[str]):
+    """Its modules are without comments already, so what is made of them is the same."""
+    from studio.server import modules
+
+    inside = "studio/_frontend_assets/"
+    own = [name for name in names if re.match(f"{inside}(?!vendor/).*\\.js$", name)]
+    with ZipFile(wheel) as archive:
+        held = {name.removeprefix(inside): archive.read(name) for name in own}
+    written = {name: (REPOSITORY / "frontend_assets" / name).read_bytes() for name in held}
+    assert sum(map(len, held.values())) < 0.8 * sum(map(len, written.values()))
+    in_wheel, here = modules.Modules(held), modules.Modules(written)
+    for name in held:
+        assert _served(in_wheel, name) == _served(here, name), name
+
+
+def _served(modules: Modules, name: str) -> list[str] | None:
+    """The lines of what is sent under this name, without the blanks that a comment leaves."""
+    text = modules.text(name)
+    return None if text is None else [line.strip() for line in text.splitlines() if line.strip()]
 
 
 @pytest.mark.sweep

@@ -193,7 +193,7 @@ function iconsModule() {
   return `export const ICONS = ${JSON.stringify(Object.fromEntries(shapes))};`;
 }
 
-/** @param {string} contents @param {"js" | "css"} [loader] @returns {Promise<string>} one minified file */
+/** @param {string} contents @param {"js" | "ts" | "css"} [loader] @returns {Promise<string>} one minified file */
 async function bundle(contents, loader = "js") {
   const made = await build({
     stdin: { contents, resolveDir: TOOLS, loader },
@@ -236,7 +236,7 @@ const FILES = {
     from: ["dockview", "dockview-core"],
   },
   "codemirror.js": {
-    make: () => bundle(CODEMIRROR.map((name) => `export * from "${name}";`).join("\n")),
+    make: async () => bundle(await readFile(join(VENDOR, "codemirror.d.ts"), "utf8"), "ts"),
     from: [...CODEMIRROR, ...CODEMIRROR_INNER],
   },
   "dockview.css": {

@@ -6,8 +6,8 @@ that several need are in a file of their own, but a worker and the 3D view have 
 of a module in another one's file serves a line that re-exports it.
 
 A module becomes a function in that file, so its names stay its own; comments and indentation are
-left out. Modules that are not written like the page's (circles, `export *`) are served as written,
-with all that they import.
+left out, and a wheel holds modules without them. Modules that are not written like the page's
+(circles, `export *`) are served as written, with all that they import.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _FILLED: Final = re.compile(r"\$\{(\w+)\}")
 _EXPORT: Final = re.compile(
     r"^export (?=(?:async )?(?:function\*?|class|const) (\w+))", re.MULTILINE
 )
-_UNKNOWN: Final = re.compile(r"^(?:import\b(?!\()|export\b)", re.MULTILINE)
+_UNKNOWN: Final = re.compile(r"^(?:import\b(?!\()|export\b)(?!:)", re.MULTILINE)
 _AWAITS: Final = re.compile(r"^(?:const [^=\n]+ = )?await ", re.MULTILINE)
 _OWN_ADDRESS: Final = "import.meta.url"
 

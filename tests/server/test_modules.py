@@ -144,6 +144,10 @@ def test_what_is_written_otherwise_is_served_as_written_with_what_it_imports(oth
     assert (modules.text("app/deep.js") is None) == ("deep.js" in other)
 
 
+def test_a_key_may_be_called_as_a_word_of_modules():
+    assert joined({"a.js": "const a = {\nexport: 1,\n};\n"}).text("a.js")
+
+
 @pytest.mark.parametrize(
     ("written", "left"),
     [
