@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from studio.classroom.members import Member
     from studio.protocol.classroom import MemberView
     from studio.protocol.listeners import Listener
+    from studio.protocol.roles import Person
 
 _SOON_S: Final = 0.05
 _PAUSE_S: Final = 0.25
@@ -183,6 +184,10 @@ class Classroom:
         await self._keep_quietly()
         self._changed()
         return member
+
+    def cookie_of(self, person: Person) -> str:
+        """Return the value of the cookie by which a browser is this member again."""
+        return self.members.cookie_of(self.members.get(person.person))
 
     def _add(self, name: str) -> Member:
         if len(self.members) >= MEMBERS_MAX:

@@ -29,8 +29,8 @@ class KeptMessages:
         """Number of the message that came last."""
         self._messages: dict[int, Message] = {}  # by number, ascending
         self._number_of: dict[str, int] = {}
-        self._about: dict[Entity, set[int]] = {}
-        """What was said of each thing, without what made or removed it."""
+        self._about: dict[Entity, set[str]] = {}
+        """Keys of what was said of each thing, beside what made or removed it."""
         self._removals: dict[int, None] = {}
 
     def __len__(self) -> int:
@@ -45,20 +45,32 @@ class KeptMessages:
         """Keep one more, as the newest."""
         self.newest += 1
         slot = message.slot
-        is_removal = slot.phase == "remove"
-        if slot.entity is not None:
-            if is_removal or (slot.phase == "create" and slot.entity[0] == _SCENE):
-                self._forget_updates(slot.entity)
-            elif slot.phase in ("update_dict", "update_simple"):
-                made = self._made(slot.entity)
-                if made is not None and made.slot.phase == "remove":
-                    return  # who comes later would draw a node that others do not have
-                if made is not None and slot.phase == "update_dict":
-                    _update(made, message)
         old = self._number_of.get(slot.key)
-        if old is not None:
+        if old is not None and slot.phase == "update_simple":  # most messages are
+            del self._messages[old]
+            self._messages[self.newest] = message
+            self._number_of[slot.key] = self.newest
+            return
+        if slot.entity is not None and not self._make_way(slot.entity, message):
+            return
+        if old is not None and slot.key in self._number_of:
             self._drop(old)
         self._keep(self.newest, message)
+
+    def _make_way(self, entity: Entity, message: Message) -> bool:
+        """Let the others about a thing agree with a new one; False: it does not count."""
+        phase = message.slot.phase
+        if phase == "remove" or (phase == "create" and entity[0] == _SCENE):
+            for old in self.about(entity):
+                if old.slot.phase is not None:
+                    self._drop(self.number_of(old))
+        elif phase in ("update_dict", "update_simple"):
+            made = self._made(entity)
+            if made is not None and made.slot.phase == "remove":
+                return False  # who comes later would draw a node that others do not have
+            if made is not None and phase == "update_dict":
+                _update(made, message)
+        return True
 
     def since(self, number: int) -> list[Message]:
         """Return what still counts of what is newer than that, oldest first; all for -1."""
@@ -77,8 +89,8 @@ class KeptMessages:
         while self._removals and (first := next(iter(self._removals))) <= number:
             entity = self._messages[first].slot.entity
             assert entity is not None
-            for about in tuple(self._about.get(entity, ())):
-                self._drop(about)
+            for message in self.about(entity):
+                self._drop(self.number_of(message))
             self._drop(first)
 
     def renew(self, messages: Iterable[Message]) -> None:
@@ -116,7 +128,8 @@ class KeptMessages:
 
     def about(self, entity: Entity) -> list[Message]:
         """Return what was said of a node beside what made it, oldest first."""
-        return [self._messages[number] for number in sorted(self._about.get(entity, ()))]
+        numbers = sorted(self._number_of[key] for key in self._about.get(entity, ()))
+        return [self._messages[number] for number in numbers]
 
     def numbered(self) -> dict[int, Message]:
         """Return all of them by their numbers, oldest first."""
@@ -129,16 +142,14 @@ class KeptMessages:
         if slot.phase == "remove":
             self._removals[number] = None
         elif slot.phase != "create" and slot.entity is not None:
-            self._about.setdefault(slot.entity, set()).add(number)
+            self._about.setdefault(slot.entity, set()).add(slot.key)
 
     def _drop(self, number: int) -> None:
-        message = self._messages.pop(number)
+        slot = self._messages.pop(number).slot
         self._removals.pop(number, None)
-        slot = message.slot
-        if self._number_of.get(slot.key) == number:
-            del self._number_of[slot.key]
+        del self._number_of[slot.key]
         if slot.entity is not None and (about := self._about.get(slot.entity)) is not None:
-            about.discard(number)
+            about.discard(slot.key)
             if not about:
                 del self._about[slot.entity]
 
@@ -146,11 +157,6 @@ class KeptMessages:
         """Return what made or removed it."""
         number = self._number_of.get(f"{entity[0]}:{entity[1]}:create-or-remove")
         return None if number is None else self._messages[number]
-
-    def _forget_updates(self, entity: Entity) -> None:
-        for number in tuple(self._about.get(entity, ())):
-            if self._messages[number].slot.phase is not None:
-                self._drop(number)
 
 
 class _Renewal:

@@ -49,6 +49,10 @@ class RelayedScene:
         self._ids = itertools.count()
         self._retry: asyncio.TimerHandle | None = None
 
+    def __len__(self) -> int:
+        """How many messages it keeps for those who come."""
+        return len(self._kept)
+
     def take(self, frame: bytes, *, is_first: bool) -> None:
         """Bring the pages to where the origin is.
 

@@ -42,6 +42,7 @@ class DataLane:
 
     def __init__(self, lane: Lane, keys: BulkKeys, visitor: Person) -> None:
         self._lane, self._keys = lane, keys
+        self.person = visitor.person
         self.sees = visitor.sees
         """Whether its person may look at a document."""
         self._backlog = Backlog()

@@ -20,8 +20,7 @@ from studio.server.pages import Form, join_page, no_access_page
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from studio.classroom.admission import Admission
-    from studio.classroom.members import Member, Members
+    from studio.protocol.roles import Person
     from studio.server.cookies import Cookies
     from studio.server.front import Caller, Front
 
@@ -30,25 +29,42 @@ _BODY_LIMIT_BYTES: Final = 4 << 10
 _ADDRESSES_MAX: Final = 4_096
 
 
+class Admits(Protocol):
+    """What one has to know to join."""
+
+    @property
+    def open(self) -> bool:
+        """Whether anybody may."""
+        ...
+
+    @property
+    def password(self) -> str:
+        """Not empty where one is asked for."""
+        ...
+
+    def knows_link(self, given: str, /) -> bool:
+        """Whether this is the code of the link, which nobody guesses."""
+        ...
+
+
 class Joins(Protocol):
     """The class."""
 
     @property
-    def admission(self) -> Admission:
+    def admission(self) -> Admits:
         """What one has to know."""
         ...
 
-    @property
-    def members(self) -> Members:
-        """Those who have joined."""
-        ...
-
-    async def join(self, name: str, code: str, password: str, cookie: str, /) -> Member:
+    async def join(self, name: str, code: str, password: str, cookie: str, /) -> Person:
         """Add a person.
 
         Raises:
             NotJoiningError: They may not join.
         """
+        ...
+
+    def cookie_of(self, person: Person, /) -> str:
+        """Return the value of the cookie by which a browser is this person again."""
         ...
 
 
@@ -157,12 +173,12 @@ class Joining:
             )
             return self._page(request, form)
         response = RedirectResponse(f"{self._front.base}/", HTTPStatus.SEE_OTHER)
-        self._cookies.give_member(response, caller, self._classroom.members.cookie_of(member))
+        self._cookies.give_member(response, caller, self._classroom.cookie_of(member))
         return response
 
     async def _joined(
         self, request: Request, caller: Caller, given: dict[str, str], code: str
-    ) -> Member:
+    ) -> Person:
         admission = self._classroom.admission
         # Nobody guesses the link: who has it joins though others spend all tries.
         is_guess = bool(admission.password) or not admission.knows_link(code)

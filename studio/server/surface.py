@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from studio.server.cookies import KnowsMembers
+from studio.server.joining import Joins
+
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable, Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from studio.classroom.classroom import Classroom
     from studio.documents.exports import Download, MeshNames
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
@@ -123,6 +125,14 @@ class HandedCopies(Protocol):
         ...
 
 
+class SharedClass(KnowsMembers, Joins, Protocol):
+    """The class."""
+
+    async def log_out(self) -> None:
+        """Make all members' cookies invalid."""
+        ...
+
+
 class OpenDocuments(Protocol):
     """The engine."""
 
@@ -132,7 +142,7 @@ class OpenDocuments(Protocol):
         ...
 
     @property
-    def classroom(self) -> Classroom:
+    def classroom(self) -> SharedClass:
         """The class that shares it."""
         ...
 

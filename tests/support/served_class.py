@@ -17,6 +17,7 @@ from websockets.frames import Frame, Opcode
 from studio.classroom.classroom import Classroom, Reach
 from studio.documents.engine import Engine
 from studio.protocol.roles import Role
+from studio.scene import CLIENT_PATH, viser_client
 from studio.server.app import make_app
 from studio.server.assets import Assets
 from studio.server.credentials import Credentials
@@ -144,12 +145,17 @@ class ServedClass:
         finally:
             made.close()
 
+    @property
+    def url(self) -> str:
+        """The presenter's address."""
+        return f"{self.origin}/?token={self._credentials.token}"
+
     @contextmanager
     def presenter(self) -> Generator[Classmate]:
         """The presenter's browser."""
         made = Classmate(self.origin)
         try:
-            made.client.get(f"/?token={self._credentials.token}")
+            made.client.get(self.url)
             yield made
         finally:
             made.close()
@@ -163,8 +169,13 @@ class ServedClass:
 
 
 @contextmanager
-def served_class(folder: Path) -> Generator[ServedClass]:
-    """Serve a class until the block ends; it keeps what it has in `folder`."""
+def served_class(
+    folder: Path, neighbours: Callable[[], tuple[str, ...]] | None = None
+) -> Generator[ServedClass]:
+    """Serve a class until the block ends; it keeps what it has in `folder`.
+
+    With neighbours it is as a relay serves.
+    """
     data = folder / "data"
     data.mkdir(parents=True)
     listener = bind("127.0.0.1", 0)
@@ -174,8 +185,12 @@ def served_class(folder: Path) -> Generator[ServedClass]:
     credentials = Credentials(secrets.token_hex(8), secrets.token_bytes(32))
     served = ServedClass(engine, credentials, port, folder)
     front = Front(KnownHosts.of("127.0.0.1"), port)
-    assets = Assets(Path(__file__).resolve().parents[2] / "frontend_assets")
-    served.server = Server(make_app(engine, assets, credentials, "session", front), served)
+    client = viser_client()
+    assets = Assets(
+        Path(__file__).resolve().parents[2] / "frontend_assets", {CLIENT_PATH: lambda: client}
+    )
+    app = make_app(engine, assets, credentials, "session", front, neighbours)
+    served.server = Server(app, served)
     classroom.end_pages = served.server.server_state.crowd.end_person
     thread = threading.Thread(target=served.server.run, kwargs={"sockets": [listener]})
     thread.start()

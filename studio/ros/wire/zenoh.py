@@ -374,7 +374,7 @@ def declare_stream(session: Session, key: str, timeout_s: float) -> Outgoing:
     end_s = time.monotonic() + timeout_s
     while not cast("Any", found).matching_status.matching:
         if time.monotonic() > end_s:
-            found.undeclare()
+            cast("Declaration", found).undeclare()
             raise ZError(f"nobody subscribes {key}")
         time.sleep(_MATCHING_PAUSE_S)
     return cast("Outgoing", found)

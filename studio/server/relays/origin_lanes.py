@@ -127,9 +127,9 @@ class OriginScene:
         self._is_first = True
         self._ended = asyncio.Event()
         self._resume: Callable[[], object] = lambda: None
-        self._unasked: deque[dict[bytes, bytes]] = deque()
+        self._unasked: deque[dict[bytes, memoryview]] = deque()
         """What the digests of each frame stand for, until the relay has said which it has not."""
-        self._blobs: deque[tuple[bytes, bytes]] = deque()
+        self._blobs: deque[tuple[bytes, memoryview]] = deque()
         """What it wants, and was not sent yet."""
         line.on_drain(self._go_on)
 
@@ -184,7 +184,7 @@ class OriginScene:
         """Send as many as the line takes: what is urgent goes between them."""
         while self._blobs and not self._line.pending_bytes():
             digest, data = self._blobs.popleft()
-            self._line.send(Blob(digest, data))
+            self._line.send(Blob(digest, bytes(data)))
 
     async def _watch(self) -> None:
         """End it once nobody at the relay may look at the copy any more."""

@@ -7,7 +7,7 @@ import json
 import logging
 import secrets
 from http import HTTPStatus
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 from starlette.datastructures import Headers
@@ -103,7 +103,7 @@ class Relay:
         self._blobs = BlobStore(_BLOBS_BYTES)
         self.crowd: Crowd | None = None
         self._session: Session | None = None
-        self._threads: list[ReadingThread[object]] = []
+        self._threads: tuple[ReadingThread[Any], ...] = ()
 
     # Its life
 
@@ -125,11 +125,11 @@ class Relay:
         down = declare_subscription(session, line_keys("*")[1], SAMPLES_MAX, reliable=True)
         claims = declare_queryable(session, CLAIM_KEY, _CLAIMS_WAITING)
         alive = watch_tokens(session, line_keys("*")[2])
-        self._threads = [
+        self._threads = (
             ReadingThread("relay-down", down, self._feed),
             ReadingThread("relay-claims", claims, self._claims),
             ReadingThread("relay-alive", alive, self._origins),
-        ]  # type: ignore[list-item]
+        )
 
     async def answering(self) -> None:
         """Tell that studios may dial in."""

@@ -12,6 +12,7 @@ from studio.server.relays.tickets import read_ticket
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
+    from studio.protocol.roles import Person
     from studio.server.relays.messages import Joined, RoomState
 
 _PEOPLE_MAX: Final = 50_000
@@ -99,7 +100,6 @@ class RelayedClass:
         self._name, self._ask_join = room, ask_join
         self.state: RoomState | None = None
         self.control, self.admission = RelayedControl(self), RelayedAdmission(self)
-        self.members = self
         self._people: OrderedDict[str, RelayedMember] = OrderedDict()
         self._by_ticket: dict[str, RelayedMember] = {}
 
@@ -131,9 +131,10 @@ class RelayedClass:
             raise NotJoiningError("closed", "The studio's ticket is not valid here: try again.")
         return member
 
-    def cookie_of(self, member: RelayedMember) -> str:
+    def cookie_of(self, person: Person) -> str:
         """Return the ticket by which a browser is this person again."""
-        return member.ticket
+        known = self._people.get(person.person)
+        return known.ticket if known else ""
 
     def person(self, person: str) -> RelayedMember | None:
         """Return a person who came here."""

@@ -29,6 +29,7 @@ from studio.protocol.documents import Done, Refused, Watch
 from studio.protocol.listeners import send
 from studio.protocol.relays import RelayState
 from studio.protocol.roles import Role, owner_of
+from studio.server.data_lane import DataLane
 from studio.server.relays.messages import (
     CHANGES,
     OPERATIONS,
@@ -66,6 +67,7 @@ from studio.server.relays.room_documents import OnlyThere, RoomDocument
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
     from studio.scene.frame_parts import BlobStore
@@ -108,7 +110,7 @@ class Room:
         self.classroom = RelayedClass(name, self._join)
         self.lanes = RelayedLanes(self._send, self._ticket_for)
         self.scenes = RelayedScenes(self._send, self._ticket_for, blobs)
-        self.browser_topics = RelayedTopics(self._send)
+        self.browser_topics = RelayedTopics(self._send, self._ticket_of)
         self.uploads = self.copies = OnlyThere()
         self._greeted = False
         self._before_bytes = [0, 0, 0]
@@ -463,6 +465,11 @@ class Room:
             raise OriginAwayError from None
         finally:
             waiting.pop(number, None)
+
+    def _ticket_of(self, lane: DataLaneEnd) -> str:
+        """Return the ticket of a data lane's person."""
+        member = self.classroom.person(lane.person) if isinstance(lane, DataLane) else None
+        return member.ticket if member else ""
 
     def _ticket_for(self, document: str) -> str:
         """Return the ticket of somebody here who may see a document; empty where all may."""
