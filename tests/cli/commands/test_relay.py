@@ -90,6 +90,19 @@ def test_its_line_names_it_as_it_was_told(tmp_path: Path):
     with running_relay([*words, "--name", "relay.example.org"], tmp_path) as relay:
         assert relay.address == "https://robots.example.org/"
         assert relay.line.startswith(f"tls/relay.example.org:{port}#")
+        assert "studio: " not in relay.process.printed
+
+
+@network
+@pytest.mark.parametrize(
+    ("host", "told"),
+    [("127.0.0.1", "Only this machine finds the page"), ("0.0.0.0", "The page is not encrypted")],
+)
+def test_what_people_would_stumble_over_is_told(host: str, told: str, tmp_path: Path):
+    words = ["--listen", f"tls/127.0.0.1:{free_port()}", "--port", "0", "--host", host]
+    with running_relay(words, tmp_path) as relay:
+        assert relay.process.printed.count("studio: ") == 1
+        assert f"studio: {told}" in relay.process.printed
 
 
 @network
