@@ -38,9 +38,10 @@ class RunningDemo:
         keyboard: int = subprocess.DEVNULL,
         *,
         warm: bool = True,
+        imported: tuple[str, ...] = NODE,
     ) -> None:
         self.process = start_python(
-            words, environment, stdin=keyboard, imported=NODE if warm else ()
+            words, environment, stdin=keyboard, imported=imported if warm else ()
         )
         self.lines: list[str] = []
         self._reader = threading.Thread(target=self._read)

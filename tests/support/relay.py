@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from tests.support.demos import RunningDemo
+from tests.support.warm_python import STUDIO
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Sequence
@@ -36,7 +37,7 @@ class RunningRelay:
 def running_relay(words: Sequence[str], data_folder: Path) -> Generator[RunningRelay]:
     """Run a relay with these options until the block ends."""
     line = [sys.executable, "-m", "studio", "relay", *words, "--data-dir", str(data_folder)]
-    process = RunningDemo(line, dict(os.environ))
+    process = RunningDemo(line, dict(os.environ), imported=STUDIO)
     try:
         yield RunningRelay(process)
     finally:

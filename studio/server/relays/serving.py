@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import sys
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Final
 from urllib.parse import urlsplit
@@ -18,12 +19,12 @@ from studio.ros.wire.zenoh import use_few_threads
 from studio.scene import CLIENT_PATH, viser_client
 from studio.server.assets import CHECK_TEXTS, Assets, check_texts
 from studio.server.launch import place_of, remarks
-from studio.server.origin import KnownHosts
+from studio.server.origin import KnownHosts, is_loopback
 from studio.server.ports import bind, bracketed, port_of
 from studio.server.relays.keys import RelayIdentity, listening_endpoint, new_secret
 from studio.server.relays.relay import Relay
 from studio.server.server import Server
-from studio.settings import repository_or_wheel
+from studio.settings import DEFAULT_HOST, repository_or_wheel
 from studio.system import raise_descriptor_limit
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def serve_relay(settings: Settings, listen: str, name: str, *, new_key: bool) ->
     identity = relay_identity(settings.data_folder, anew=new_key)
     with bind(settings.host, settings.port) as listener:
         place = place_of(settings, port_of(listener))
-        for sentence in remarks(settings, place.port):
+        for sentence in _remarks(settings, place.port):
             sys.stderr.write(f"studio: {sentence}\n")
         address = _address(settings, place, name)
         names = KnownHosts.of(settings.host, urlsplit(address).hostname or "")
@@ -84,6 +85,23 @@ def serve_relay(settings: Settings, listen: str, name: str, *, new_key: bool) ->
         server = Server(relay, relay, place.tls)
         relay.crowd = server.server_state.crowd
         server.run(sockets=[listener])
+
+
+def _remarks(settings: Settings, port: int) -> list[str]:
+    """Return sentences about what is unusual: nobody has a token here, or saves files."""
+    found = remarks(replace(settings, host=DEFAULT_HOST), port)
+    is_here = is_loopback(settings.host)
+    if is_here and not settings.public_url:
+        found.append(
+            "Only this machine finds the page: others need --host 0.0.0.0, or a proxy, as "
+            "`studio relay --print nginx` has it."
+        )
+    if not (is_here or settings.tls or settings.proxies):
+        found.append(
+            "The page is not encrypted: whoever is on the way reads what people see and type. Use "
+            "--tls self, --tls-cert, or a proxy, as `studio relay --print nginx` has it."
+        )
+    return found
 
 
 def relay_identity(data_folder: Path, *, anew: bool = False) -> RelayIdentity:

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     from studio.settings import Settings
 
-OPTIONS = (
+OPTIONS: tuple[list[str], ...] = (
     [],
     ["--host", "0.0.0.0", "--name", "relay.example.org", "--tls", "self"],
     ["--public-url", "https://robots.example.org/class/", "--trusted-proxy", "127.0.0.1"],
