@@ -26,6 +26,10 @@ class RelayedMember:
         self.person, self.name, self.role = person, name, role
         self.ticket = ""
 
+    def is_of(self, room: RelayedClass) -> bool:
+        """Whether they came by a ticket of this room; another room may know them by the same id."""
+        return self._room is room
+
     def controls(self, document: str) -> bool:
         """Whether they have control, as far as the relay was told: the origin asks again."""
         state = self._room.state
