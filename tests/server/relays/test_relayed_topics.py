@@ -367,8 +367,10 @@ class Twins:
                 topics.detach(hearer)
                 topics.attach(hearer)
         else:
+            asked = wish(TOPICS[step.topic], step.mode, step.subscription)
             command = (
-                wish(TOPICS[step.topic], step.mode, step.subscription)
+                # Of one depth: for a greater one a source has latched messages told anew.
+                asked.model_copy(update={"depth": 1})
                 if step.what == "subscribe"
                 else Unsubscribe(subscription=step.subscription)
             )
