@@ -47,7 +47,7 @@ def test_a_message_replaces_what_viser_says_that_it_replaces(name: str):
     message: Any = an_instance(CLASSES[name])
     fields = {
         "type": name,
-        **{f.name: getattr(message, f.name) for f in dataclasses.fields(cast("Any", message))},
+        **{f.name: getattr(message, f.name) for f in dataclasses.fields(message)},
     }
     for _ in range(2):
         (read,) = opened(packed(fields)).messages
