@@ -100,6 +100,16 @@ def test_a_joint_of_six_degrees_moves_the_whole_robot():
     assert_allclose(motion.roots, [[1, 0, 0, 0, 1, 0, 0], [1, 0, 0, 0, 3, 0, 0]])
 
 
+@pytest.mark.parametrize("size", [1e-300, 1e300])
+def test_a_turn_of_the_whole_robot_may_be_of_numbers_of_any_size(size: float):
+    turn = {"transforms": [{"rotation": {"w": size, "x": size}}]}
+    base = {"joint_names": ["virtual"], "points": [turn]}
+    message = decoded(PLAN, trajectory=[{"multi_dof_joint_trajectory": base}])
+    roots = chain_of(message, "DisplayTrajectory").roots
+    assert roots is not None
+    assert_allclose(roots[0, :4], [0.5**0.5, 0.5**0.5, 0, 0])
+
+
 def test_a_robot_that_only_moves_as_a_whole_keeps_its_joints_and_skips_points_without_a_pose():
     turn = {"transforms": [{"rotation": {"w": 1.0}}], "time_from_start": {"sec": 1}}
     base = {"joint_names": ["virtual"], "points": [turn, {"time_from_start": {"sec": 2}}, turn]}
