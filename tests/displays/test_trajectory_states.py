@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 
 from studio.displays.trajectory_states import Motion, States, chain_of, motion_of, thinned
 from studio.errors import DisplayMessageError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from tests.support.display_messages import TYPES, encoded
 from tests.support.posed import Posed, seen_arm
 
@@ -16,7 +16,7 @@ PLAN = "moveit_msgs/msg/DisplayTrajectory"
 
 
 def decoded(type_name: str, **fields: object) -> object:
-    return Codec(TYPES.message(type_name)).decode(encoded(type_name, fields))
+    return codec_of(TYPES.message(type_name)).decode(encoded(type_name, fields))
 
 
 def points(*rows: tuple[float, Sequence[float]]) -> list[dict[str, object]]:
