@@ -307,8 +307,8 @@ class CommandRates:
                 del self._left[one]
 
 
-REMEMBERED_MAX: Final = 1_000
-"""Outcomes, of all persons together; the oldest are forgotten first."""
+REMEMBERED_MAX: Final = 2_000
+"""Outcomes, of all persons together; of who has most of them the oldest are forgotten first."""
 
 
 class AtMostOnce:
@@ -319,7 +319,9 @@ class AtMostOnce:
     """
 
     def __init__(self) -> None:
-        self._outcomes: OrderedDict[tuple[str, str], asyncio.Task[Answer]] = OrderedDict()
+        self._outcomes: dict[str, OrderedDict[str, asyncio.Task[Answer]]] = {}
+        """By person, so that nobody has others' forgotten by sending many."""
+        self._count = 0
 
     async def run(
         self,
@@ -334,13 +336,31 @@ class AtMostOnce:
         """
         if not command.id:
             return await carry_out(command, asker)
-        key = asker.person, command.id
-        if key not in self._outcomes:
-            self._outcomes[key] = asyncio.ensure_future(carry_out(command, asker))
-            while len(self._outcomes) > REMEMBERED_MAX:
-                self._outcomes.popitem(last=False)
+        own = self._outcomes.get(asker.person)
+        outcome = None if own is None else own.get(command.id)
+        if outcome is None:
+            outcome = asyncio.ensure_future(carry_out(command, asker))
+            outcome.add_done_callback(_noticed)
+            self._remember(asker.person, command.id, outcome)
         # Who asked may leave: what runs is finished all the same.
-        answer = await asyncio.shield(self._outcomes[key])
+        answer = await asyncio.shield(outcome)
         if answer is not None and "request" in type(answer).model_fields:
             return answer.model_copy(update={"request": command.request})
         return answer
+
+    def _remember(self, person: str, id_: str, outcome: asyncio.Task[Answer]) -> None:
+        self._outcomes.setdefault(person, OrderedDict())[id_] = outcome
+        self._count += 1
+        if self._count <= REMEMBERED_MAX:
+            return
+        most = max(self._outcomes, key=lambda one: len(self._outcomes[one]))
+        self._outcomes[most].popitem(last=False)
+        self._count -= 1
+        if not self._outcomes[most]:
+            del self._outcomes[most]
+
+
+def _noticed(outcome: asyncio.Task[Answer]) -> None:
+    """Look at a failure, for who asked may have left."""
+    if not outcome.cancelled():
+        outcome.exception()
