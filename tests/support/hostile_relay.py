@@ -1,4 +1,4 @@
-"""A relay that does what it likes: at a real port, with a real key, and nothing of a relay's rules."""
+"""A relay that does what it likes: at a real port, with a real key, and without a relay's rules."""
 
 from __future__ import annotations
 
