@@ -313,7 +313,9 @@ class Room:
             return
         self._by_number.pop(page, None)
         for number in [one for one, asked in self._asked.items() if asked.page == page]:
-            del self._asked[number]
+            asked = self._asked.pop(number)
+            if not asked.settled.done():
+                asked.settled.set_result(None)
         if page in self._arrived:
             self._arrived.discard(page)
             self._send(Leave(page))
