@@ -28,11 +28,11 @@ class CutLine:
         self._flow()
         threading.Thread(target=self._accept, daemon=True).start()
 
-    def cut(self, *, back_only: bool = False) -> None:
-        """Pass on nothing more, or nothing more of what comes back from the port."""
-        self._back.clear()
-        if not back_only:
-            self._there.clear()
+    def cut(self, *, back_flows: bool = False) -> None:
+        """Pass on nothing more; or nothing to the port, while what it says still comes back."""
+        self._there.clear()
+        if not back_flows:
+            self._back.clear()
 
     def go_on(self, *, resets: bool = False) -> None:
         """Pass on again, what waited first; or reset what is open.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import threading
 import time
 from contextlib import contextmanager, suppress
@@ -19,6 +20,11 @@ if TYPE_CHECKING:
     from tests.support.classmates import Classmate
 
 PATIENCE_S: Final = 60.0
+
+
+def measured(text: str) -> None:
+    """Print a figure, which `pytest -s` shows."""
+    sys.stdout.write(f"{text}\n")
 
 
 class WatchedPage:
@@ -125,7 +131,7 @@ class Mover:
     """The presenter, who changes a number of the rover and moves a joint, again and again."""
 
     def __init__(self, page: WatchedPage, site: str) -> None:
-        self._page, self.site = page, site
+        self.page, self.site = page, site
         self.joint = next(iter(page.newest("joints")["positions"]))
         self.count = 0
         self.slowest_s = 0.0
@@ -145,13 +151,37 @@ class Mover:
         """Change both, and wait until it is done."""
         self.count += 1
         began_s = time.monotonic()
-        page = self._page
+        page = self.page
         edit = {"site": self.site, "text": self.text, "gesture": "drag"}
         moved = page.ask("set_joints", document="rover", positions={self.joint: self.position})
         edited = page.ask("edit_site", document="rover", **edit)
         for one in (moved, edited):
             assert page.answer(one)["type"] == "done"
         self.slowest_s = max(self.slowest_s, time.monotonic() - began_s)
+
+    def edit(self, text: str) -> None:
+        """Change the number by a step of its own."""
+        self.do("edit_site", document="rover", site=self.site, text=text)
+
+    def give_control(self, page: WatchedPage) -> None:
+        """Give a student control, and wait until their page knows it."""
+        person = page.newest("you")["person"]
+        wait_until(
+            lambda: self._answered("give_control", person=person, document="rover") == "done",
+            "control",
+        )
+        wait_until(lambda: page.newest("you")["has_control"], "the student's control")
+
+    def take_control(self) -> None:
+        """Take it back; what came before has all been done then."""
+        self.do("take_control", document="rover")
+
+    def do(self, kind: str, **fields: Any) -> None:  # noqa: ANN401
+        """Have a command done."""
+        assert self._answered(kind, **fields) == "done"
+
+    def _answered(self, kind: str, **fields: Any) -> str:  # noqa: ANN401
+        return str(self.page.answer(self.page.ask(kind, **fields))["type"])
 
     def is_shown(self, page: WatchedPage) -> bool:
         """Whether a page shows the last move."""
