@@ -86,11 +86,6 @@ def knows_another(page: WatchedPage) -> bool:
     return len(page.newest("relay_state")["others"]) == 1
 
 
-def steps(page: WatchedPage) -> int:
-    """How many steps can be undone."""
-    return len(page.newest("history")["undo"])
-
-
 def test_who_was_at_a_relay_that_dies_goes_on_at_another_as_the_same_person(
     room: RelayedClass, relays: list[RelayProcess]
 ):
@@ -151,7 +146,7 @@ def test_what_was_asked_of_a_relay_that_died_is_done_once_when_it_is_asked_of_an
             mover.edit(text)
         assert page.answer(page.ask("open_copy", document="rover"))["type"] == "done"
         mover.give_control(page)
-        before = steps(mover.page)
+        before = mover.steps
         asked = [
             *(("undo", {"document": "rover", "id": f"undo {number}"}) for number in range(4)),
             ("raise_hand", {"id": "hand"}),
@@ -163,22 +158,10 @@ def test_what_was_asked_of_a_relay_that_died_is_done_once_when_it_is_asked_of_an
             again = [there.ask(kind, **fields) for kind, fields in asked]
             assert {there.answer(one)["type"] for one in again} == {"done"}
             mover.take_control()
-            assert steps(mover.page) == before - 4
+            assert mover.steps == before - 4
             assert there.text(mover.site) == texts[1]
-            assert handed_in(mover.page, person) == 1
-            assert hands_of(mover.page, person) == 1
-
-
-def handed_in(page: WatchedPage, person: str) -> int:
-    """How often a person handed a copy in, as the presenter was told."""
-    copies = [one for event in page.of("copies") for one in event["copies"]]
-    return len({one["handed_s"] for one in copies if one["person"] == person} - {None})
-
-
-def hands_of(page: WatchedPage, person: str) -> int:
-    """How often a person raised a hand, as the presenter was told."""
-    members = [one for event in page.of("class_state") for one in event["members"]]
-    return len({one["hand_s"] for one in members if one["person"] == person} - {None})
+            assert mover.times_told("copies", "copies", person, "handed_s") == 1
+            assert mover.times_told("class_state", "members", person, "hand_s") == 1
 
 
 @pytest.mark.parametrize(

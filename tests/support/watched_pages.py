@@ -159,6 +159,21 @@ class Mover:
             assert page.answer(one)["type"] == "done"
         self.slowest_s = max(self.slowest_s, time.monotonic() - began_s)
 
+    @property
+    def steps(self) -> int:
+        """How many steps can be undone, as far as the presenter was told."""
+        return len(self.page.newest("history")["undo"])
+
+    def times_told(self, event: str, field: str, person: str, moment: str) -> int:
+        """How many moments the presenter is told of a person, once there is one."""
+
+        def moments() -> set[float | None]:
+            told = [one for each in self.page.of(event) for one in each[field]]
+            return {one[moment] for one in told if one["person"] == person} - {None}
+
+        wait_until(moments, f"{moment} of {person}", PATIENCE_S)
+        return len(moments())
+
     def edit(self, text: str) -> None:
         """Change the number by a step of its own."""
         self.do("edit_site", document="rover", site=self.site, text=text)
