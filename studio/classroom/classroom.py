@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Final
 
 from studio.classroom.admission import Admission
-from studio.classroom.control import Control
+from studio.classroom.control import Control, Robot
 from studio.classroom.following import Following, Seen
 from studio.classroom.members import MEMBERS_MAX, Members, now_s
 from studio.classroom.nodes.nodes import COMMANDS as NODE_COMMANDS
 from studio.classroom.nodes.nodes import StudentNodes
 from studio.classroom.qr_code import qr_svg
+from studio.classroom.reach import Reach
 from studio.classroom.record import ClassFile, ClassRecord, MemberRecord
 from studio.classroom.relays import COMMANDS as RELAY_COMMANDS
 from studio.classroom.relays import NoRelays, Relays
@@ -49,14 +49,12 @@ from studio.protocol.classroom import Control as ControlEvent
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import Audience, encode, send
 from studio.protocol.roles import Role, original_of
-from studio.settings import DEFAULT_HOST
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
     from pathlib import Path
 
     from studio.classroom.members import Member
-    from studio.protocol.classroom import MemberView
     from studio.protocol.listeners import Listener
     from studio.protocol.roles import Person
 
@@ -64,39 +62,6 @@ _SOON_S: Final = 0.05
 _PAUSE_S: Final = 0.25
 """Between two lists of the class: hundreds may join at once."""
 _log = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True, slots=True)
-class Reach:
-    """Where others find the studio.
-
-    Attributes:
-        addresses: Of its page, without any token, the best to show first.
-        only_here: No other machine reaches it.
-        fingerprint: SHA-256 of a certificate that the studio made itself.
-        why_not: Why it may not be shared, in a sentence; empty: it may.
-        listen: The address of this machine that it listens at.
-        host: The address by which others find this machine; empty: `listen`.
-    """
-
-    addresses: tuple[str, ...] = ()
-    only_here: bool = True
-    fingerprint: str = ""
-    why_not: str = ""
-    listen: str = DEFAULT_HOST
-    host: str = ""
-
-
-class Robot(Protocol):
-    """What a person in control can have set going."""
-
-    def release(self, may_go_on: Callable[[str], bool], /) -> None:
-        """End what persons steer and publish, but those who have control now."""
-        ...
-
-    async def stop(self) -> None:
-        """Stop all that pages make robots do."""
-        ...
 
 
 class Classroom:
@@ -525,7 +490,10 @@ class Classroom:
             fingerprint=reach.fingerprint,
             only_here=reach.only_here and not self.relays.addresses(),
             viewers=self._viewers(),
-            members=tuple(self._views()),
+            members=tuple(
+                one.view(here=self.is_here(one.person), follows=self._follows(one.person))
+                for one in self.members
+            ),
         )
 
     def _viewers(self) -> int:
@@ -534,12 +502,6 @@ class Classroom:
             page.role is Role.GUEST and self.members.find(page.person) is None for page in pages
         )
         return here + self.relays.guests()
-
-    def _views(self) -> list[MemberView]:
-        return [
-            one.view(here=self.is_here(one.person), follows=self._follows(one.person))
-            for one in self.members
-        ]
 
     def _follows(self, person: str) -> bool:
         return any(map(self.following.is_following, self._pages.get(person, ())))

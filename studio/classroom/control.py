@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 ABSENCE_S: Final = 5.0
 """So long the holder's pages may all be gone: a reload takes less."""
+
+
+class Robot(Protocol):
+    """What a person in control can have set going."""
+
+    def release(self, may_go_on: Callable[[str], bool], /) -> None:
+        """End what persons steer and publish, but those who have control now."""
+        ...
+
+    async def stop(self) -> None:
+        """Stop all that pages make robots do."""
+        ...
 
 
 class Control:

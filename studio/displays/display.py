@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, NamedTuple, Typ
 from studio.displays.drawing import NOTHING, Drawing
 from studio.displays.properties import UPDATE_INTERVAL
 from studio.errors import DisplayMessageError, DisplayPropertyError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.duration import NANOSECONDS
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from studio.displays.posed_robot import PosedRobot
     from studio.displays.properties import Property, Value
     from studio.displays.selection import Fact, Item, Picked
+    from studio.ros.cdr import Codec
     from studio.ros.types.library import TypeLibrary
     from studio.tf.frames import FramesNow
 
@@ -268,7 +269,7 @@ class Display(ABC):
         """
         codec = self._codecs.get(received.type_name)
         if codec is None:
-            codec = Codec(self._types.message(received.type_name))
+            codec = codec_of(self._types.message(received.type_name))
             self._codecs[received.type_name] = codec
         return codec.decode(received.cdr)
 

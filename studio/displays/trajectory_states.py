@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 
+from studio.displays.turning import unit_quaternions
 from studio.errors import DisplayMessageError
 from studio.ros.duration import NANOSECONDS
 
@@ -120,10 +121,9 @@ def _with_roots(motion: Motion, bases: Sequence[Any], kind: str) -> Motion:
     roots = np.array([_root(each) for one in placed for each in one]).reshape(-1, 7)
     if not np.isfinite(roots).all():
         raise DisplayMessageError(kind, "a pose of the robot is NaN or infinite")
-    lengths = np.linalg.norm(roots[:, :4], axis=1, keepdims=True)
-    if (lengths < 1e-6).any():
+    roots[:, :4], no_turn = unit_quaternions(roots[:, :4])
+    if no_turn.any():
         raise DisplayMessageError(kind, "a pose of the robot has a quaternion of length 0")
-    roots[:, :4] /= lengths
     if motion.size == len(roots):
         return motion._replace(frame=frame, roots=roots)
     if motion.size:

@@ -3,6 +3,7 @@
 from studio.scene.document_scene import DISPLAY_DEFAULTS, DocumentScene
 from studio.scene.host import VIEWER_MESSAGES
 from studio.scene.pages import CLIENT_PATH, viser_client, viser_page
+from studio.scene.relayed import RelayedScene
 from studio.scene.seats import SUBPROTOCOL, Connection
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "VIEWER_MESSAGES",
     "Connection",
     "DocumentScene",
+    "RelayedScene",
     "viser_client",
     "viser_page",
 ]

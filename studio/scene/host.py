@@ -4,7 +4,7 @@ viser opens a socket of its own and encodes every window once per client; here i
 replaced by one that has no socket, is fed connections by `serve`, and encodes once for all.
 """
 
-# viser's insides are met here and in wire.py only.
+# viser's insides are met here, in wire.py and in opened_frames.py only.
 # pyright: reportPrivateUsage=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
 
 from __future__ import annotations

@@ -49,7 +49,8 @@ class RelayedScene:
         self._ids = itertools.count()
         self._retry: asyncio.TimerHandle | None = None
 
-    def __len__(self) -> int:
+    @property
+    def message_count(self) -> int:
         """How many messages it keeps for those who come."""
         return len(self._kept)
 

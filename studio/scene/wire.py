@@ -4,7 +4,7 @@ A frame is two little-endian u64 (raw and compressed length), zstd of a msgpack 
 arrays of the messages, each aligned to 8 bytes. Client to server is plain msgpack.
 """
 
-# viser's insides are met here and in host.py only.
+# viser's insides are met here, in host.py and in opened_frames.py only.
 # pyright: reportPrivateUsage=false
 from __future__ import annotations
 

@@ -30,7 +30,8 @@ _SHARES = 3
 """The corpus in this many parts, one for each core that is free."""
 
 
-def robots_of(corpus: Path) -> list[Path]:
+@pytest.fixture(scope="module")
+def robots(corpus: Path) -> list[Path]:
     """Every entry file of the corpus that stock expands without arguments, with links in it."""
     policy = policy_for(corpus)
     found: list[Path] = []
@@ -62,8 +63,9 @@ def what_is_wrong(document: Document) -> str:
 
 
 @pytest.mark.parametrize("share", range(_SHARES))
-def test_every_robot_that_stock_expands_is_drawn(share: int, corpus: Path, tmp_path: Path):
-    robots = robots_of(corpus)
+def test_every_robot_that_stock_expands_is_drawn(
+    share: int, robots: list[Path], corpus: Path, tmp_path: Path
+):
     assert len(robots) > ROBOTS_AT_LEAST
 
     async def run() -> dict[str, str]:

@@ -14,7 +14,7 @@ from studio.displays.catalogue import DISPLAYS, display_of_kind, displays_of_typ
 from studio.displays.display import Display, Received
 from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import DisplayError, StudioError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.types.classes import MessageValue, definition_of
 from studio.ros.types.convert import from_dict
 from tests.support.display_messages import NOW_NS, STAMP, TYPES, encoded
@@ -169,7 +169,7 @@ def test_whatever_comes_is_drawn_with_finite_numbers_or_told(
     made = display(TYPES, settings_of | switches)
     for topic in display.TOPICS:
         name = data.draw(st.sampled_from(topic.types))
-        codec = Codec(TYPES.message(name))
+        codec = codec_of(TYPES.message(name))
         raw = bytearray(codec.encode(data.draw(values_of(TYPES.message(name)))))
         for _ in range(data.draw(st.integers(0, 3))):
             at = 4 + 8 * data.draw(st.integers(0, max(0, (len(raw) - 12) // 8)))

@@ -4,7 +4,7 @@ from studio.displays.display import Received, StillDisplay, TopicRole
 from studio.displays.drawing import Placed, Text
 from studio.displays.properties import Property
 from studio.errors import CdrError, DisplayPropertyError, UnknownTypeError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.types.library import TypeLibrary
 
 TYPES = TypeLibrary("jazzy")
@@ -37,7 +37,7 @@ def test_values_given_at_first_are_checked_and_others_are_as_rviz_has_them():
 def test_a_message_is_read_by_the_type_that_it_names():
     words = Words(TYPES)
     kind = TYPES.message("std_msgs/msg/String")
-    cdr = bytes(Codec(kind).encode(kind(data="hi")))
+    cdr = bytes(codec_of(kind).encode(kind(data="hi")))
     assert words.decode(Received("std_msgs/msg/String", cdr, 0)).data == "hi"
     with pytest.raises(CdrError):
         words.decode(Received("std_msgs/msg/String", b"\x00\x01\x00\x00\xff", 0))

@@ -9,7 +9,7 @@ import pytest
 from studio.displays.drawing import Arrows, Lines
 from studio.displays.effort import RINGS_MAX, EffortDisplay
 from studio.errors import DisplayMessageError, DisplayPropertyError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from tests.support.display_messages import STAMP_NS, TYPES, received
 from tests.support.drawn import assert_drawable, said
 
@@ -41,7 +41,7 @@ def display_of(
 
 def describe(display: EffortDisplay, urdf: str) -> None:
     kind = TYPES.message(TEXT)
-    raw = bytes(Codec(kind).encode(kind(data=urdf)))
+    raw = bytes(codec_of(kind).encode(kind(data=urdf)))
     display.take(received(STATES, {})._replace(type_name=TEXT, cdr=raw), "description")
 
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from studio.displays.image_encodings import read_image, step_for
 from studio.errors import DisplayMessageError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from tests.support.display_messages import TYPES, received
 
 IMAGE = "sensor_msgs/msg/Image"
@@ -20,7 +20,7 @@ def image(encoding: str, pixels: NDArray[Any], padding: int = 0, **fields: Any) 
     rows = [row.tobytes() + b"\xaa" * padding for row in pixels]
     size = {"height": len(rows), "width": pixels.shape[1], "step": len(rows[0]) if rows else 0}
     whole = {"encoding": encoding, "data": b"".join(rows), **size, **fields}
-    return Codec(TYPES.message(IMAGE)).decode(received(IMAGE, whole).cdr)
+    return codec_of(TYPES.message(IMAGE)).decode(received(IMAGE, whole).cdr)
 
 
 @pytest.mark.parametrize("padding", [0, 3])

@@ -10,7 +10,7 @@ from PIL import Image
 
 from studio.displays.image_encodings import read_compressed
 from studio.errors import DisplayMessageError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from tests.support.display_messages import TYPES, received
 
 COMPRESSED = "sensor_msgs/msg/CompressedImage"
@@ -26,7 +26,7 @@ def picture(pixels: Any, name: str) -> bytes:  # noqa: ANN401
 
 def message(data: bytes, said: str) -> Any:  # noqa: ANN401
     whole = received(COMPRESSED, {"format": said, "data": data})
-    return Codec(TYPES.message(COMPRESSED)).decode(whole.cdr)
+    return codec_of(TYPES.message(COMPRESSED)).decode(whole.cdr)
 
 
 @pytest.mark.parametrize(

@@ -9,12 +9,12 @@ from numpy.testing import assert_array_equal
 
 from studio.displays.point_cloud2 import RAW_POINTS_MAX, CloudFields
 from studio.errors import DisplayMessageError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from tests.support.clouds import CLOUD, FLOATS, RGB, Layout, cloud, laid_clouds
 from tests.support.display_messages import TYPES
 
 POINT = [[(1.0, 2.0, 3.0)]]
-CODEC = Codec(TYPES.message(CLOUD))
+CODEC = codec_of(TYPES.message(CLOUD))
 
 
 def fields_of(layout: Layout, rows: Any, **fields: Any) -> CloudFields:  # noqa: ANN401

@@ -10,7 +10,7 @@ from studio.displays.robot_model import RobotModelDisplay
 from studio.errors import CdrError, DisplayError, DisplayMessageError, DisplayPropertyError
 from studio.robot.urdf_text import robot_from_urdf
 from studio.robot.values import Link, Origin, Robot, Sphere, Visual
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.tf.buffer import TransformBuffer
 from tests.support.display_messages import TYPES
 from tests.support.transforms import Told, columns
@@ -22,7 +22,7 @@ BOTH_ORDERS = pytest.mark.parametrize("little", [True, False], ids=["little", "b
 
 def described(text: str, *, little: bool = True) -> Received:
     kind = TYPES.message(STRING)
-    return Received(STRING, bytes(Codec(kind).encode(kind(data=text), little_endian=little)), 0)
+    return Received(STRING, bytes(codec_of(kind).encode(kind(data=text), little_endian=little)), 0)
 
 
 ROVER = robot_from_urdf(

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 
 from studio.displays.trajectory_states import Motion, States, chain_of, motion_of, thinned
 from studio.errors import DisplayMessageError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from tests.support.display_messages import TYPES, encoded
 from tests.support.posed import Posed, seen_arm
 
@@ -16,7 +16,7 @@ PLAN = "moveit_msgs/msg/DisplayTrajectory"
 
 
 def decoded(type_name: str, **fields: object) -> object:
-    return Codec(TYPES.message(type_name)).decode(encoded(type_name, fields))
+    return codec_of(TYPES.message(type_name)).decode(encoded(type_name, fields))
 
 
 def points(*rows: tuple[float, Sequence[float]]) -> list[dict[str, object]]:
@@ -98,6 +98,16 @@ def test_a_joint_of_six_degrees_moves_the_whole_robot():
     assert_allclose(motion.times_s, [1, 3])
     assert motion.roots is not None
     assert_allclose(motion.roots, [[1, 0, 0, 0, 1, 0, 0], [1, 0, 0, 0, 3, 0, 0]])
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e300])
+def test_a_turn_of_the_whole_robot_may_be_of_numbers_of_any_size(size: float):
+    turn = {"transforms": [{"rotation": {"w": size, "x": size}}]}
+    base = {"joint_names": ["virtual"], "points": [turn]}
+    message = decoded(PLAN, trajectory=[{"multi_dof_joint_trajectory": base}])
+    roots = chain_of(message, "DisplayTrajectory").roots
+    assert roots is not None
+    assert_allclose(roots[0, :4], [0.5**0.5, 0.5**0.5, 0, 0])
 
 
 def test_a_robot_that_only_moves_as_a_whole_keeps_its_joints_and_skips_points_without_a_pose():

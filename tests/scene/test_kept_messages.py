@@ -169,12 +169,17 @@ class Story:
             self.kept.add(message)
         self._in_step()
 
-    def cut(self) -> None:
+    def cut(self, origin: Origin | None = None) -> list[str]:
+        """Cut the line, perhaps for that of another origin; return the kinds of what is sent."""
         before, was_in_step = self.kept.newest, self._sent == self.origin.newest
+        if origin is not None:
+            self.origin, was_in_step = origin, False
         self.kept.renew(opened(self.origin.frame_since(-1)).messages)
         if was_in_step:
             assert self.kept.since(before) == []
+        sent = [message.kind.removesuffix("Message") for message in self.kept.since(before)]
         self._in_step()
+        return sent
 
     def _in_step(self) -> None:
         self._sent = self.origin.newest
@@ -215,6 +220,78 @@ def test_after_a_cut_of_the_line_all_pages_have_the_state_of_the_origin(
     story.cut()
     story.tell_all(before)
     story.take_all()
+    story.check()
+
+
+def two_origins_with_a_frame() -> tuple[Story, Origin]:
+    """A story whose pages have the frame, and another origin that has the same."""
+    story, other = Story(keeps_creates_fresh=True), Origin(keeps_creates_fresh=True)
+    for origin in (story.origin, other):
+        origin.make("/d", 0, 0)
+    story.take_all()
+    story.pages[1].catch_up(story.kept)
+    return story, other
+
+
+def test_of_two_updates_that_set_the_same_the_later_one_is_sent_again_with_the_earlier_one():
+    story, other = two_origins_with_a_frame()
+    for origin, value in ((story.origin, 0), (other, 2)):
+        origin.update("/d", 0b11, value)
+        origin.update("/d", 0b01, 1)
+    story.take_all()
+    assert story.cut(other) == ["SceneNodeUpdate", "SceneNodeUpdate"]
+    story.check()
+
+
+def test_updates_that_came_in_another_order_are_sent_as_far_as_they_differ():
+    story, other = two_origins_with_a_frame()
+    for origin, masks in ((story.origin, (0b01, 0b11)), (other, (0b11, 0b01))):
+        for mask in masks:
+            origin.update("/d", mask, mask)
+    story.take_all()
+    assert story.cut(other) == ["SceneNodeUpdate"]
+    story.check()
+
+
+def test_a_page_that_fell_behind_is_told_of_an_update_that_the_new_state_has_in_its_node():
+    story, other = Story(keeps_creates_fresh=True), Origin(keeps_creates_fresh=True)
+    story.origin.make("/d", 0, 0)
+    story.take_all()
+    story.pages[1].catch_up(story.kept)
+    story.origin.update("/d", 0b01, 2)
+    story.take_all()
+    other.make("/d", 0, 2)
+    other.move("/d", 0)
+    other.buffer.push(_messages.SetSceneNodeVisibilityMessage("/d", False))
+    assert story.cut(other) == []
+    story.check()
+
+
+def test_a_node_of_which_something_is_not_said_any_more_is_made_anew():
+    story, other = two_origins_with_a_frame()
+    story.origin.buffer.push(_messages.SetSceneNodeClickBindingsMessage("/d", ()))
+    story.take_all()
+    sent = story.cut(other)
+    assert sent == ["Frame", "SetPosition", "SetOrientation", "SetSceneNodeVisibility"]
+
+
+def test_a_node_is_made_anew_with_all_that_is_said_of_it():
+    story, other = two_origins_with_a_frame()
+    other.make("/d", 1, 0)
+    sent = story.cut(other)
+    assert sent == ["PointCloud", "SetPosition", "SetOrientation", "SetSceneNodeVisibility"]
+    story.check()
+
+
+def test_a_node_that_stays_below_one_that_is_gone_is_made_anew():
+    story, other = two_origins_with_a_frame()
+    for origin in (story.origin, other):
+        origin.make("/a", 0, 0)
+        origin.make("/a/b", 0, 0)
+    story.take_all()
+    other.buffer.remove_from_buffer(lambda message: getattr(message, "name", "") == "/a")
+    sent = story.cut(other)
+    assert sent[:2] == ["RemoveSceneNode", "Frame"]
     story.check()
 
 

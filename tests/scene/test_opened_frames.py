@@ -4,14 +4,19 @@
 from __future__ import annotations
 
 import dataclasses
+from contextlib import suppress
 from typing import Any, cast
 
 import msgspec
 import numpy as np
 import pytest
+import zstandard
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from viser import _messages
 
 from studio.errors import SceneError
+from studio.scene.kept_messages import KeptMessages
 from studio.scene.node import PointCloudProps
 from studio.scene.opened_frames import HeldFrames, closed, opened, removal_of
 from studio.scene.wire import Encoder, Packer
@@ -24,11 +29,8 @@ NEVER_THE_SAME = ("RunJavascriptMessage", "GetRenderRequestMessage")
 
 def an_instance(message_class: type[_messages.Message]) -> _messages.Message:
     """A message of that class with something in each field."""
-    values: dict[str, Any] = {
-        field.name: f"its {field.name}"
-        for field in dataclasses.fields(cast("Any", message_class))
-        if field.init
-    }
+    fields = dataclasses.fields(cast("Any", message_class))
+    values: dict[str, Any] = {field.name: f"its {field.name}" for field in fields if field.init}
     if "updates" in values:
         values["updates"] = {"b": 1, "a": [2]}
     return message_class(**values)
@@ -47,7 +49,7 @@ def cloud(count: int) -> _messages.PointCloudMessage:
 
 @pytest.mark.parametrize("name", sorted(set(CLASSES) - {"ReplayDoneMessage"}))
 def test_a_message_replaces_what_viser_says_that_it_replaces(name: str):
-    message = an_instance(CLASSES[name])
+    message: Any = an_instance(CLASSES[name])
     fields = {
         "type": name,
         **{f.name: getattr(message, f.name) for f in dataclasses.fields(message)},
@@ -94,6 +96,29 @@ def test_a_frame_of_which_little_is_kept_is_let_go():
     held.hold(len(frame) * 3, read.arrays)
     assert points.view.obj is not frame
     assert content_of(closed([made], 1.0, Packer())) == content_of(frame)
+
+
+@settings(max_examples=500, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 500), st.integers(0, 255)), min_size=1, max_size=5))
+def test_damaged_messages_are_read_or_refused_and_nothing_else(changes: list[tuple[int, int]]):
+    frame = Encoder().frame([cloud(2), _messages.SceneNodeUpdateMessage("/a", {"scale": 2.0})])
+    packed_size = int.from_bytes(frame[8:16], "little")
+    inner = bytearray(zstandard.decompress(frame[16 : 16 + packed_size]))
+    arrays = frame[-27:]  # two points, and a colour
+    assert len(opened(_repacked(bytes(inner), arrays)).messages) == 2
+    for at, value in changes:
+        inner[at % len(inner)] = value
+    kept = KeptMessages()
+    with suppress(SceneError):
+        for message in opened(_repacked(bytes(inner), arrays)).messages:
+            kept.add(message)
+    closed(kept.since(-1), 1.0, Packer())
+
+
+def _repacked(inner: bytes, arrays: bytes) -> bytes:
+    packed_again = zstandard.compress(inner)
+    head = len(inner).to_bytes(8, "little") + len(packed_again).to_bytes(8, "little")
+    return head + packed_again + bytes(-len(packed_again) % 8) + arrays
 
 
 @pytest.mark.parametrize(

@@ -53,3 +53,22 @@ def test_what_is_taken_one_by_one_comes_from_either_kind_in_turn_the_oldest_firs
     backlog.add([chunk(1, bytes(KEPT_BYTES - 100), keeps_all=True)])
     backlog.add([chunk(1, b"x", keeps_all=True)])
     assert backlog.dropped == 0, "what was taken out is owed no more"
+
+
+def test_what_waits_of_one_channel_can_be_taken_before_the_others():
+    backlog = Backlog()
+    for text in (b"a", b"b"):
+        backlog.add([chunk(1, text, keeps_all=True), chunk(2, text, keeps_all=False)])
+        backlog.add([chunk(3, text, keeps_all=True)])
+    assert [one.channel for one in backlog.take_of(1)] == [1, 1]
+    assert [one.channel for one in backlog.take_of(2)] == [2]
+    assert not backlog.take_of(1)
+    assert payloads(backlog.frame()) == [b"a", b"b"]
+
+
+def test_what_is_given_up_is_told_with_its_channel():
+    given_up: list[int] = []
+    backlog = Backlog(lambda one: given_up.append(one.channel))
+    for channel in (1, 2, 3):
+        backlog.add([chunk(channel, bytes(KEPT_BYTES // 2), keeps_all=True)])
+    assert given_up == [1, 2]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from studio.displays.display import Received
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.types.convert import from_dict
 from studio.ros.types.library import TypeLibrary
 
@@ -17,7 +17,6 @@ NOW_NS = 1_700_000_000_000_000_000
 STAMP = {"sec": 12, "nanosec": 500}
 STAMP_NS = 12_000_000_500
 HEADER: dict[str, Any] = {"frame_id": "map", "stamp": STAMP}
-_CODECS: dict[str, Codec] = {}
 
 
 def received(type_name: str, fields: Mapping[str, Any], *, little: bool = True) -> Received:
@@ -30,8 +29,7 @@ def received(type_name: str, fields: Mapping[str, Any], *, little: bool = True) 
 def encoded(type_name: str, fields: Mapping[str, Any], *, little: bool = True) -> bytes:
     """The bytes of a message of these fields."""
     kind = TYPES.message(type_name)
-    codec = _CODECS.setdefault(type_name, Codec(kind))
-    return bytes(codec.encode(from_dict(kind, fields), little_endian=little))
+    return bytes(codec_of(kind).encode(from_dict(kind, fields), little_endian=little))
 
 
 def point(x: float, y: float, z: float) -> dict[str, float]:

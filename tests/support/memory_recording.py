@@ -11,7 +11,7 @@ import numpy as np
 
 from studio.bags.recording import Recorded, RecordedTopic
 from studio.ros.attachment import Attachment
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message, shared_types
 from studio.ros.node.samples import RawSample
 
@@ -61,7 +61,7 @@ class MemoryRecording:
     def say(self, name: str, at_ns: int, /, **fields: Any) -> None:  # noqa: ANN401
         """Record a message of these fields."""
         kind = message(self.type_of(name))
-        self.add(name, at_ns, bytes(Codec(kind).encode(kind(**fields))))
+        self.add(name, at_ns, bytes(codec_of(kind).encode(kind(**fields))))
 
     def type_of(self, name: str) -> str:
         """Return the type of a topic."""

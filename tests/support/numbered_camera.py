@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 import studio.ros.client as rclpy
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from tests.support.demos import running
 
@@ -91,7 +91,7 @@ def _blank(width: int, height: int) -> bytearray:
     step = 3 * width
     image = _IMAGE(width=width, height=height, encoding="rgb8", step=step)
     image.data = np.zeros(height * step, dtype=np.uint8)
-    return bytearray(Codec(_IMAGE).encode(image))
+    return bytearray(codec_of(_IMAGE).encode(image))
 
 
 if __name__ == "__main__":

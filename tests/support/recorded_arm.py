@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.bags.recording import RecordedTopic
 from studio.bags.writer import BagWriter, Storing
 from studio.ros.attachment import Attachment
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.node.samples import RawSample
 from studio.ros.qos import DurabilityPolicy, QoSProfile
 from studio.ros.types.convert import from_dict
@@ -111,14 +112,22 @@ def write_arm_bag(folder: Path, *, with_robot: bool = True, storing: Storing | N
             qos = LATCHED if latched else QoSProfile(depth=10)
             topic = RecordedTopic(name, kind, TYPES.hash_of(kind), (qos,))
             numbers[name] = writer.add_topic(topic)
-        for name, at_s, fields in told(with_robot=with_robot):
-            at_ns = BEGIN_NS + round(at_s * 1e9)
-            payload = encoded(KINDS[name], fields) if "header" in fields else _plain(name, fields)
-            sample = RawSample(payload, Attachment(0, at_ns, bytes(16)), at_ns)
+        for name, sample in _samples(with_robot=with_robot):
             writer.write(numbers[name], sample)
     return folder
 
 
+@cache  # two seconds of work, which dozens of tests begin with
+def _samples(*, with_robot: bool) -> list[tuple[str, RawSample]]:
+    """Every message as it is written, with its topic."""
+    samples: list[tuple[str, RawSample]] = []
+    for name, at_s, fields in told(with_robot=with_robot):
+        at_ns = BEGIN_NS + round(at_s * 1e9)
+        payload = encoded(KINDS[name], fields) if "header" in fields else _plain(name, fields)
+        samples.append((name, RawSample(payload, Attachment(0, at_ns, bytes(16)), at_ns)))
+    return samples
+
+
 def _plain(name: str, fields: dict[str, Any]) -> bytes:
     kind = TYPES.message(KINDS[name])
-    return bytes(Codec(kind).encode(from_dict(kind, fields)))
+    return bytes(codec_of(kind).encode(from_dict(kind, fields)))

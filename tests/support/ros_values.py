@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from studio.ros.types.classes import (
 from studio.ros.types.definitions import INTEGERS, Field, FieldType, Shape
 
 
+@cache  # made anew for each example, it would take longer than all that is done with the value
 def values_of(kind: type[MessageValue]) -> st.SearchStrategy[MessageValue]:
     """Draw values of a message class, lists short and texts of any letters."""
     fields = {

@@ -10,7 +10,7 @@ from typing_extensions import override
 
 from studio.live.connection.link import WireLink
 from studio.live.topics.zenoh_source import ZenohSource
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from studio.settings import WireChoice
 from tests.support.demos import node_at
@@ -28,12 +28,12 @@ STRING, BOOL = "std_msgs/msg/String", "std_msgs/msg/Bool"
 
 def text_payload(text: str) -> bytes:
     """A `std_msgs/msg/String` as CDR."""
-    return bytes(Codec(message(STRING)).encode(message(STRING)(data=text)))
+    return bytes(codec_of(message(STRING)).encode(message(STRING)(data=text)))
 
 
 def text_of(payload: bytes) -> str:
     """What is in it."""
-    return Codec(message(STRING)).decode(payload).data
+    return codec_of(message(STRING)).decode(payload).data
 
 
 class Speaker(ABC):

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.columns.transforms import TransformCodec
 from studio.ros.types.convert import from_dict
 from studio.ros.types.library import TypeLibrary
@@ -27,7 +27,8 @@ def test_what_comes_from_the_wire_is_taken_as_it_is_read(little: bool):
     buffer, codec = TransformBuffer(), TransformCodec()
     for sec in (1, 2):
         rows = [transform("/map", "base", sec, sec * 1.0), transform("base", "arm", sec, 0.0)]
-        raw = Codec(MESSAGE).encode(from_dict(MESSAGE, {"transforms": rows}), little_endian=little)
+        told = from_dict(MESSAGE, {"transforms": rows})
+        raw = codec_of(MESSAGE).encode(told, little_endian=little)
         assert buffer.put(codec.decode(raw), publisher="driver") == ()
     wxyz, xyz, stamp_ns = buffer.fixed_from("map", "base", 1_500_000_005)
     assert wxyz == pytest.approx((0.8, 0.0, 0.0, 0.6))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import CdrError
 from studio.live.topics.request import Request
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.duration import NANOSECONDS
 from studio.ros.messages import shared_types
 
@@ -35,7 +35,7 @@ class ClockWatch:
 
     def __init__(self, jumped: Callable[[int, int], None]) -> None:
         self._jumped = jumped
-        self._codec = Codec(shared_types().message(_TYPE))
+        self._codec = codec_of(shared_types().message(_TYPE))
         self._last_ns: dict[bytes, int] = {}
         self.now_ns: int | None = None
         """The time that came last; None: none came yet. Written by the thread of `take`."""

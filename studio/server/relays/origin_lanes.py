@@ -129,6 +129,8 @@ class OriginScene:
         self._resume: Callable[[], object] = lambda: None
         self._unasked: deque[dict[bytes, memoryview]] = deque()
         """What the digests of each frame stand for, until the relay has said which it has not."""
+        self._sent = set[bytes]()
+        """Digests that were named, whose bytes the relay has or has asked for."""
         self._blobs: deque[tuple[bytes, memoryview]] = deque()
         """What it wants, and was not sent yet."""
         line.on_drain(self._go_on)
@@ -151,9 +153,15 @@ class OriginScene:
     def write(self, data: bytes, /) -> None:
         """Send one frame."""
         parts, is_digest, blobs = split_frame(data)
+        first, self._is_first = self._is_first, False
         if blobs:
             self._unasked.append(blobs)
-        first, self._is_first = self._is_first, False
+        if not first:  # what is new goes along: to be asked for it would take time each time
+            for digest in blobs.keys() - self._sent:
+                self._line.send(Blob(digest, bytes(blobs[digest])))
+        self._sent |= blobs.keys()
+        if len(self._sent) > _DIGESTS_MAX:
+            self._sent = set(blobs)
         self._line.send(SceneFrame(self._document, first, tuple(parts), tuple(is_digest)))
 
     def wanted(self, digests: tuple[bytes, ...]) -> None:
@@ -194,3 +202,4 @@ class OriginScene:
 
 
 _LOOK_EVERY_S: Final = 1.0
+_DIGESTS_MAX: Final = 10_000

@@ -263,9 +263,9 @@ class Relay:
         if scope["type"] == "lifespan":
             return
         path: str = scope["path"].removeprefix(self._base)
-        name, _, rest = path.lstrip("/").partition("/")
+        name = path.lstrip("/").partition("/")[0]
         room = self.rooms.get(name)
-        if room is not None and room.state is not None and rest != "health":
+        if room is not None and room.state is not None:
             await self._app_of(room)(scope, receive, send)
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1013})

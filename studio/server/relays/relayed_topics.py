@@ -276,7 +276,7 @@ class RelayedTopics:
             self._remove(topic)
 
     def _refuse(self, topic: SharedTopic, reason: str) -> None:
-        for browser, subscription in topic.users:
+        for browser, subscription in tuple(topic.users):
             del browser.topics[subscription]
             browser.waiting.discard(subscription)
             browser.lane.send(NotSubscribed(subscription=subscription, reason=reason))

@@ -11,7 +11,7 @@ from studio.course.rover.surroundings import Surroundings
 from studio.displays.display import Received
 from studio.displays.markers.display import MarkerArrayDisplay
 from studio.nodes.robot_state_publisher import LATCHED
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at
 from tests.support.display_messages import NOW_NS, TYPES
@@ -29,7 +29,7 @@ def drawn(node: Node) -> Drawing:
     told = heard(node, MARKERS, "/markers", LATCHED)
     wait_until("the markers", lambda: bool(told))
     display = MarkerArrayDisplay(TYPES)
-    cdr = bytes(Codec(message(MARKERS)).encode(told[0]))
+    cdr = bytes(codec_of(message(MARKERS)).encode(told[0]))
     display.take(Received(MARKERS, cdr, NOW_NS))
     return display.draw(NOW_NS)
 

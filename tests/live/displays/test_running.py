@@ -123,10 +123,10 @@ def test_a_flood_is_taken_in_parts(source: MemorySource):
 
 
 def received_array() -> bytes:
-    from studio.ros.cdr import Codec
+    from studio.ros.cdr import codec_of
 
     kind = TYPES.message("visualization_msgs/msg/MarkerArray")
-    return bytes(Codec(kind).encode(kind()))
+    return bytes(codec_of(kind).encode(kind()))
 
 
 def test_a_display_that_fails_says_so_and_raises_nothing(

@@ -11,7 +11,7 @@ from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels import diagnostics
 from studio.live.panels.diagnostics import PartDiagnostics, Parts
 from studio.protocol.diagnostics import GetDiagnostics
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from studio.settings import WireChoice
 from tests.support.memory_source import MemorySource
@@ -75,13 +75,13 @@ def test_parts_of_another_connection_are_forgotten_once_there_is_a_new_one():
         return [one.name for one in told.diagnostics(GetDiagnostics()).parts]
 
     assert names() == []
-    motor.say(bytes(Codec(ARRAY).encode(said(("motor", 2)))))
+    motor.say(bytes(codec_of(ARRAY).encode(said(("motor", 2)))))
     assert names() == ["motor"]
     source.connect("none")
     assert names() == ["motor"]
     source.connect()
     assert names() == []
-    motor.say(bytes(Codec(ARRAY).encode(said(("arm", 0)))))
+    motor.say(bytes(codec_of(ARRAY).encode(said(("arm", 0)))))
     assert names() == ["arm"]
 
 

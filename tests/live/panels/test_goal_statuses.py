@@ -10,7 +10,7 @@ from studio.errors import RosNameError
 from studio.live.panels import goal_statuses
 from studio.live.panels.goal_statuses import GoalStatusTopics
 from studio.protocol.goals import GetGoalStatuses
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from studio.ros.qos import qos_profile_action_status_default
 from tests.support.memory_source import MemorySource
@@ -30,7 +30,7 @@ def array(*goals: tuple[int, int]) -> bytes:
         return status(goal_info=info(goal_id=made, stamp=time(sec=number)), status=state)
 
     value = message(ARRAY)(status_list=[goal(*one) for one in goals])
-    return bytes(Codec(message(ARRAY)).encode(value))
+    return bytes(codec_of(message(ARRAY)).encode(value))
 
 
 def shown(topics: GoalStatusTopics, name: str = "/dock") -> list[tuple[str, str, bool]]:

@@ -10,7 +10,7 @@ import pytest
 from studio.live.connection.ros_connection import RosConnection
 from studio.live.panels.logs import NodeLogs
 from studio.protocol.logs import GetLog
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from studio.settings import WireChoice
 from tests.support.memory_source import MemorySource
@@ -38,7 +38,7 @@ LOG = "rcl_interfaces/msg/Log"
 def line(node: str, level: int, text: str) -> bytes:
     said = message(LOG)(name=node, level=level, msg=text)
     said.stamp.sec = 100
-    return bytes(Codec(message(LOG)).encode(said))
+    return bytes(codec_of(message(LOG)).encode(said))
 
 
 def test_a_warning_of_a_node_is_waited_for():

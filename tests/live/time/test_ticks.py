@@ -9,7 +9,7 @@ import pytest
 
 from studio.errors import BagError
 from studio.live.time.ticks import TICKS_MAX, RecordingTicks, Tick
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from studio.ros.node.samples import RawSample
 from tests.live.time.test_past import a_past, opened
@@ -75,7 +75,7 @@ def test_what_was_latched_before_it_was_recorded_ticks_when_it_was_sent():
     made = recording()
     log(made, 0, 20, "begins")
     line = message(LOG)(level=40, name="driver", msg="early")
-    payload = bytes(Codec(message(LOG)).encode(line))
+    payload = bytes(codec_of(message(LOG)).encode(line))
     kept = made.last("/rosout", BEGIN, 1)[0]
     late = RawSample(payload, kept.attachment._replace(source_time_ns=BEGIN + S), BEGIN + 60 * S)
     made.put("/rosout", late)
@@ -181,7 +181,7 @@ def test_of_a_past_that_grows_only_what_came_since_is_read_and_what_is_gone_is_d
 
     def say(at_s: int, text: str) -> None:
         line = message(LOG)(level=40, name="driver", msg=text)
-        payload = bytes(Codec(message(LOG)).encode(line))
+        payload = bytes(codec_of(message(LOG)).encode(line))
         lines.put([past_sample(BEGIN + at_s * S, payload, number=at_s + 1)])
 
     ticks = RecordingTicks(past)

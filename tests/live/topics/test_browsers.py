@@ -12,7 +12,7 @@ from studio.live.connection.ros_connection import RosConnection
 from studio.live.topics.browsers import SUBSCRIPTIONS_MAX, BrowserTopics
 from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.subscriptions import Subscribe, Unsubscribe
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message, shared_types
 from studio.settings import WireChoice
 from tests.support.demos import node_at
@@ -31,7 +31,7 @@ STRING, STRANGE = "std_msgs/msg/String", "strange_msgs/msg/Thing"
 
 
 def text_of(came: Came) -> str:
-    return Codec(message(STRING)).decode(came.payload).data
+    return codec_of(message(STRING)).decode(came.payload).data
 
 
 def texts(hearer: KeepingHearer, channel: int | None = None) -> list[str]:

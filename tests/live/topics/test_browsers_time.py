@@ -6,6 +6,7 @@ import asyncio
 
 from studio.live.time.recording_source import RecordingSource
 from studio.live.topics.browsers import BrowserTopics
+from studio.nodes.robot_state_publisher import LATCHED
 from studio.protocol.subscriptions import Subscribe
 from tests.live.time.test_recording_source import BEGIN, words
 from tests.support.hearers import KeepingHearer
@@ -61,6 +62,29 @@ def test_who_may_not_see_a_document_hears_nothing_of_its_time():
         topics.carry_out(hearer, asked)
         assert [one.reason for one in hearer.refused] == ["There is no such document."]
         assert live.opened == []
+        await topics.close()
+
+    asyncio.run(run())
+
+
+def test_who_subscribes_a_topic_once_more_misses_nothing_and_has_what_is_latched_again():
+    async def run() -> None:
+        live = MemorySource()
+        plain = live.offer("/words", STRING)
+        topics, hearer = BrowserTopics(live), KeepingHearer()
+        topics.attach(hearer)
+        asked = Subscribe(subscription=1, topic="/words", mode="every")
+        topics.carry_out(hearer, asked)
+        plain.say(text_payload("first"))
+        await until(lambda: heard(hearer) == ["first"])
+        plain.say(text_payload("on its way"))
+        topics.carry_out(hearer, asked)
+        assert heard(hearer) == ["first", "on its way"]
+        live.offer("/words", STRING, LATCHED).say(text_payload("kept"))
+        await until(lambda: heard(hearer)[-1] == "kept")
+        topics.carry_out(hearer, asked)
+        assert hearer.ticks[-1].kept_for == 1
+        assert {one.kept_for for one in hearer.ticks[:-1]} == {-1}
         await topics.close()
 
     asyncio.run(run())

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 
 from studio.errors import CdrError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.columns.clouds import POINT_CLOUD, read_point_cloud
 from tests.support.display_messages import HEADER, STAMP_NS, TYPES, encoded
 from tests.support.ros_values import values_of
@@ -17,7 +17,7 @@ KIND = TYPES.message(POINT_CLOUD)
 
 @given(message=values_of(KIND), little=st.booleans())
 def test_the_columns_are_what_the_general_reader_reads(message: Any, little: bool):  # noqa: ANN401 - made by Hypothesis
-    codec = Codec(KIND)
+    codec = codec_of(KIND)
     data = bytes(codec.encode(message, little_endian=little))
     read, columns = codec.decode(data), read_point_cloud(data)
     assert columns.frame == read.header.frame_id

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studio.errors import CdrError, MessageValueError
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.columns.markers import MarkerCodec, MarkerColumns, MarkerTexts, Texture
 from studio.ros.types.library import TypeLibrary
 from tests.support.fast_values import assert_same, marker_columns
@@ -21,7 +21,7 @@ MARKER = LIBRARY.message("visualization_msgs/msg/Marker")
 POINT = LIBRARY.message("geometry_msgs/msg/Point")
 COLOR = LIBRARY.message("std_msgs/msg/ColorRGBA")
 UV = LIBRARY.message("visualization_msgs/msg/UVCoordinate")
-CODEC = Codec(MARKERS)
+CODEC = codec_of(MARKERS)
 FAST = MarkerCodec()
 
 
@@ -134,15 +134,15 @@ def test_a_picture_and_a_mesh_that_are_sent_along_arrive_whole():
 @settings(max_examples=60, deadline=None)
 @given(values_of(MARKER), st.booleans())
 def test_a_single_marker_reads_as_the_codec_reads_it(value: Any, little: bool):  # noqa: ANN401
-    written = Codec(MARKER).encode(value, little_endian=little)
-    array = MARKERS(markers=[Codec(MARKER).decode(written)])
+    written = codec_of(MARKER).encode(value, little_endian=little)
+    array = MARKERS(markers=[codec_of(MARKER).decode(written)])
     for codec in (MarkerCodec(), FAST, FAST):
         assert_same(codec.decode_single(written), marker_columns(array))
 
 
 def test_a_single_marker_and_an_array_are_never_taken_for_each_other():
     fast = MarkerCodec()
-    single = bytes(Codec(MARKER).encode(marker(1, text="x")))
+    single = bytes(codec_of(MARKER).encode(marker(1, text="x")))
     assert fast.decode_single(single).ids.tolist() == [1]
     # Its stamp of zero reads as an array of no markers.
     assert fast.decode(single).ids.tolist() == []

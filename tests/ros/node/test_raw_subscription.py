@@ -9,7 +9,7 @@ import pytest
 
 from studio.errors import RosNameError, UnknownTypeError
 from studio.ros.attachment import Attachment
-from studio.ros.cdr import Codec
+from studio.ros.cdr import codec_of
 from studio.ros.messages import message
 from studio.ros.node.raw_subscription import RawSubscription
 from studio.ros.qos import DurabilityPolicy, QoSProfile
@@ -53,7 +53,7 @@ class Kept:
 
     @property
     def texts(self) -> list[str]:
-        codec = Codec(message(STRING))
+        codec = codec_of(message(STRING))
         return [codec.decode(one.payload).data for one in self.samples]
 
 
@@ -131,7 +131,7 @@ def test_where_only_the_newest_is_read_all_are_counted():
         wait_until("all to be counted", lambda: kept.count == 500)
         assert kept.texts[-1] == "499"
         assert len(kept.samples) < 20
-        assert kept.size == sum(len(Codec(message(STRING)).encode(text)) for text in _said(500))
+        assert kept.size == sum(len(codec_of(message(STRING)).encode(text)) for text in _said(500))
         subscription.read(newest_only=False)
         witness.undeclare()
         say(out, "more")
