@@ -314,8 +314,11 @@ class CommandRates:
                 del self._left[one]
 
 
-REMEMBERED_MAX: Final = 1_000
-"""Outcomes, of all persons together; the oldest are forgotten first."""
+REMEMBERED_MAX: Final = 20_000
+"""Outcomes, of all persons together; those of who asked nothing for longest are forgotten first."""
+REMEMBERED_OF_ONE: Final = 200
+"""Outcomes of one person: more than pages of theirs have on the way. However much others ask, what
+was asked before a line was cut runs once when it is asked again."""
 
 
 class AtMostOnce:
@@ -326,7 +329,8 @@ class AtMostOnce:
     """
 
     def __init__(self) -> None:
-        self._outcomes: OrderedDict[tuple[str, str], asyncio.Task[Answer]] = OrderedDict()
+        self._outcomes: OrderedDict[str, OrderedDict[str, asyncio.Task[Answer]]] = OrderedDict()
+        self._count = 0
 
     async def run(
         self,
@@ -341,13 +345,25 @@ class AtMostOnce:
         """
         if not command.id:
             return await carry_out(command, asker)
-        key = asker.person, command.id
-        if key not in self._outcomes:
-            self._outcomes[key] = asyncio.ensure_future(carry_out(command, asker))
-            while len(self._outcomes) > REMEMBERED_MAX:
-                self._outcomes.popitem(last=False)
+        known = self._outcomes.get(asker.person)
+        running = None if known is None else known.get(command.id)
+        if running is None:
+            running = asyncio.ensure_future(carry_out(command, asker))
+            self._remember(asker.person, command.id, running)
         # Who asked may leave: what runs is finished all the same.
-        answer = await asyncio.shield(self._outcomes[key])
+        answer = await asyncio.shield(running)
         if answer is not None and "request" in type(answer).model_fields:
             return answer.model_copy(update={"request": command.request})
         return answer
+
+    def _remember(self, person: str, name: str, running: asyncio.Task[Answer]) -> None:
+        outcomes = self._outcomes.setdefault(person, OrderedDict())
+        self._outcomes.move_to_end(person)
+        outcomes[name] = running
+        self._count += 1
+        if len(outcomes) > REMEMBERED_OF_ONE:
+            outcomes.popitem(last=False)
+            self._count -= 1
+        while self._count > REMEMBERED_MAX:
+            _, forgotten = self._outcomes.popitem(last=False)
+            self._count -= len(forgotten)
