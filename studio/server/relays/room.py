@@ -278,6 +278,9 @@ class Room:
         if before is not None and before.session != state.session:
             for asked in tuple(self._asked.values()):
                 self._refuse(asked, CommandError(_STARTED_ANEW))
+            # As after any restart of a studio, pages come again, and ask anew for what they show.
+            for person in {one.person for one in self._pages}:
+                self._end_person(person)
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
