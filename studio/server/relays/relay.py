@@ -321,7 +321,9 @@ class Relay:
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1013})
         else:
-            await self._own(scope, path)(scope, receive, send)
+            answer = self._own(scope, path)
+            answer.headers["connection"] = "close"  # nobody is known yet who would come again
+            await answer(scope, receive, send)
 
     def _app_of(self, room: Room) -> ASGIApp:
         """Return the application of a room, made anew for each run of its studio."""

@@ -595,7 +595,4 @@ class Room:
 _JOINING_MAX, _DOWNLOADING_MAX = 200, 8
 """So many ask the origin at once."""
 _NOWHERE: Final = Path("/nonexistent")
-_STARTED_ANEW: Final = (
-    "The studio was started anew before it answered: see whether this was done, and do it again "
-    "if it was not."
-)
+_STARTED_ANEW: Final = "The studio was started anew before it answered: see whether this was done."
