@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import itertools
 import logging
+from collections import deque
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -82,6 +83,7 @@ _GIVE_UP_S: Final = 90.0
 """So long an answer is waited for that was asked for before the origin went."""
 _TICK_S: Final = 1.0
 _PENDING_MAX: Final = 10_000
+_REPLACED_MAX: Final = 16
 _YOU: Final = b'{"type":"you"'
 _log = logging.getLogger(__name__)
 
@@ -129,6 +131,9 @@ class Room:
         self._downloading: dict[int, asyncio.Future[Downloaded]] = {}
         self._sent_viewers = Viewers(0, 0)
         self.away_since_s = self._loop.time()
+        self.replaced: deque[str] = deque(maxlen=_REPLACED_MAX)
+        """Sessions of studios that had the room until another claimed it; they have it no more,
+        also if their line was cut when that one came."""
         self.round_trip_s = 0.0
         self.address = ""
         """Of the room's page here."""
