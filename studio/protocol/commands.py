@@ -15,7 +15,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, StrEnum, auto
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
@@ -136,6 +136,8 @@ class CommandEntry(Generic[_Target]):
     on_copies: OnCopies = OnCopies.ALLOWED
     reviews: bool = False
     """Whether a presenter who sends it has seen what the texts are now."""
+    same_for_all: bool = False
+    """Whether all of one role are answered alike, so that a relay asks it once for many."""
 
 
 class Commands(Generic[_Target]):
@@ -167,9 +169,13 @@ class Commands(Generic[_Target]):
         *,
         needs_router: bool = False,
         limits: Limits | None = None,
+        same_for_all: bool = False,
     ) -> None:
         """Add a command that everybody may send who sees the page."""
-        self._add(message, work, Role.GUEST, needs_router=needs_router, limits=limits)
+        permission = Permission(type_of(message), Role.GUEST, self._scope)
+        limits = limits or Limits()
+        entry = CommandEntry(permission, message, work, needs_router, limits)
+        self._put(replace(entry, same_for_all=same_for_all))
 
     def student(
         self,
@@ -273,6 +279,7 @@ def _within(
         entry.limits,
         entry.on_copies,
         entry.reviews,
+        entry.same_for_all,
     )
 
 

@@ -283,6 +283,9 @@ class Room:
         if before is not None and before.session != state.session:
             for asked in tuple(self._asked.values()):
                 self._refuse(asked, CommandError(_STARTED_ANEW))
+            # As after any restart of a studio, pages come again, and ask anew for what they show.
+            for person in {one.person for one in self._pages}:
+                self._end_person(person)
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
@@ -335,7 +338,9 @@ class Room:
         self._by_number.pop(page, None)
         self._standing.forget(listener)
         for number in [one for one, asked in self._asked.items() if asked.page == page]:
-            del self._asked[number]
+            asked = self._asked.pop(number)
+            if not asked.settled.done():
+                asked.settled.set_result(None)
         if page in self._arrived:
             self._arrived.discard(page)
             self._send(Leave(page))
