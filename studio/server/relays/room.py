@@ -26,7 +26,7 @@ from studio.errors import (
 from studio.protocol.calls import FollowOperations
 from studio.protocol.changes import FollowChanges
 from studio.protocol.classroom import Follow, You
-from studio.protocol.documents import Done, Refused, Watch
+from studio.protocol.documents import Done, Watch
 from studio.protocol.listeners import send
 from studio.protocol.relays import RelayState
 from studio.protocol.roles import Role, owner_of
@@ -35,7 +35,6 @@ from studio.server.relays.messages import (
     CHANGES,
     OPERATIONS,
     Arrive,
-    Ask,
     AskDownload,
     AskJoin,
     Blob,
@@ -59,6 +58,7 @@ from studio.server.relays.messages import (
     Viewers,
     decode_down,
 )
+from studio.server.relays.passed_on import PassedOn
 from studio.server.relays.relayed_class import RelayedClass
 from studio.server.relays.relayed_lanes import RelayedLanes
 from studio.server.relays.relayed_scenes import RelayedScenes
@@ -82,18 +82,9 @@ PATIENCE_S: Final = 3.0
 _GIVE_UP_S: Final = 90.0
 """So long an answer is waited for that was asked for before the origin went."""
 _TICK_S: Final = 1.0
-_PENDING_MAX: Final = 10_000
 _REPLACED_MAX: Final = 16
 _YOU: Final = b'{"type":"you"'
 _log = logging.getLogger(__name__)
-
-
-class _Asked:
-    """What was passed on and is not answered yet."""
-
-    def __init__(self, listener: Listener, page: int, request: int, text: bytes) -> None:
-        self.listener, self.page, self.request, self.text = listener, page, request, text
-        self.settled: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
 
 class Room:
@@ -123,7 +114,7 @@ class Room:
         """Pages that the origin knows one by one."""
         self._by_number: dict[int, Listener] = {}
         self._numbers = itertools.count(1)
-        self._asked: dict[int, _Asked] = {}
+        self._passed_on = PassedOn(self._send)
         self._standing = Standing()
         self._renewing: set[asyncio.Task[None]] = set()
         self._reads = SharedReads(self._pass_on, self.detach, lambda: self.lanes.frame_count)
@@ -217,8 +208,7 @@ class Room:
         self.hang_up()
         self._ticking.cancel()
         self.scenes.close()
-        for asked in tuple(self._asked.values()):
-            self._refuse(asked, OriginAwayError())
+        self._passed_on.refuse_all(OriginAwayError())
 
     def take(self, data: bytes) -> None:
         """Take a message of the origin; one that is none ends the line."""
@@ -245,7 +235,7 @@ class Room:
             case Say():
                 self._say(message)
             case Settled():
-                self._settle(message)
+                self._passed_on.settle(message.number)
             case RoomState():
                 self._renew(message)
             case LaneSnapshot():
@@ -267,9 +257,11 @@ class Room:
             case Downloaded():
                 _resolve(self._downloading, message)
 
-    def _send(self, message: Up) -> None:
+    def _send(self, message: Up) -> bool:
+        """Send a message; answers whether there is a line."""
         if self._line is not None:
             self._line.send(message)
+        return self._line is not None
 
     def _renew(self, state: RoomState) -> None:
         """Take what the room is now; on a new line, ask for all anew that is looked at."""
@@ -281,8 +273,7 @@ class Room:
             return
         self._greeted = True
         if before is not None and before.session != state.session:
-            for asked in tuple(self._asked.values()):
-                self._refuse(asked, CommandError(_STARTED_ANEW))
+            self._passed_on.refuse_sent()
             # As after any restart of a studio, pages come again, and ask anew for what they show.
             for person in {one.person for one in self._pages}:
                 self._end_person(person)
@@ -292,9 +283,7 @@ class Room:
         self.lanes.renew()
         self.scenes.renew()
         self.browser_topics.renew()
-        for number, asked in self._asked.items():
-            self._arrive(asked.listener)
-            self._send(Ask(asked.page, number, asked.text))
+        self._passed_on.ask_again(self._arrive)
         for listener in tuple(self._pages):
             task = self._loop.create_task(self._ask_standing(listener))
             self._renewing.add(task)
@@ -337,10 +326,7 @@ class Room:
             return
         self._by_number.pop(page, None)
         self._standing.forget(listener)
-        for number in [one for one, asked in self._asked.items() if asked.page == page]:
-            asked = self._asked.pop(number)
-            if not asked.settled.done():
-                asked.settled.set_result(None)
+        self._passed_on.leave(page)
         if page in self._arrived:
             self._arrived.discard(page)
             self._send(Leave(page))
@@ -426,20 +412,7 @@ class Room:
     async def _pass_on(self, command: Command, listener: Listener) -> None:
         """Ask the origin, which answers to the page itself."""
         self._check_there()
-        if len(self._asked) >= _PENDING_MAX:
-            raise CommandError("Too much is asked for here at once: try again in a moment.")
-        number = next(self._numbers)
-        if not command.id:
-            # Asked again on the next line, if this one ends before the answer; it runs once.
-            command = command.model_copy(update={"id": f"{self._loop.time():.6f}-{number}"})
-        page = self._arrive(listener)
-        text = command.model_dump_json().encode()
-        asked = self._asked[number] = _Asked(listener, page, command.request, text)
-        self._send(Ask(page, number, text))
-        try:
-            await asked.settled
-        finally:
-            self._asked.pop(number, None)
+        await self._passed_on.ask(next(self._numbers), self._arrive(listener), command, listener)
 
     def _check_there(self) -> None:
         """Pass if the origin is there, or went only just now.
@@ -449,17 +422,6 @@ class Room:
         """
         if not self.is_there and self._loop.time() - self.away_since_s > PATIENCE_S:
             raise OriginAwayError
-
-    def _settle(self, message: Settled) -> None:
-        asked = self._asked.pop(message.number, None)
-        if asked is not None and not asked.settled.done():
-            asked.settled.set_result(None)
-
-    def _refuse(self, asked: _Asked, error: StudioError) -> None:
-        refusal = Refused(request=asked.request, kind=type(error).__name__, reason=str(error))
-        send(asked.listener, refusal)
-        if not asked.settled.done():
-            asked.settled.set_result(None)
 
     # Joining and downloads
 
@@ -574,8 +536,7 @@ class Room:
                 self._send(Ping(self._now_ns()))
                 self._tell_viewers()
             elif self._loop.time() - self.away_since_s > _GIVE_UP_S:
-                for asked in tuple(self._asked.values()):
-                    self._refuse(asked, OriginAwayError())
+                self._passed_on.refuse_all(OriginAwayError())
                 self.lanes.give_up(str(OriginAwayError()))
 
     def _tell_viewers(self) -> None:
@@ -588,10 +549,6 @@ class Room:
 
 _ANSWER_S: Final = 30.0
 _NOWHERE: Final = Path("/nonexistent")
-_STARTED_ANEW: Final = (
-    "The studio was started anew before it answered: see whether this was done, and do it again "
-    "if it was not."
-)
 
 
 def _resolve(waiting: dict[int, asyncio.Future[Any]], message: Joined | Downloaded) -> None:
