@@ -64,6 +64,7 @@ from studio.server.relays.relayed_scenes import RelayedScenes
 from studio.server.relays.relayed_topics import RelayedTopics
 from studio.server.relays.room_documents import OnlyThere, RoomDocument
 from studio.server.relays.shared_reads import SharedReads, is_shared
+from studio.server.relays.standing import Standing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -121,6 +122,8 @@ class Room:
         self._by_number: dict[int, Listener] = {}
         self._numbers = itertools.count(1)
         self._asked: dict[int, _Asked] = {}
+        self._standing = Standing()
+        self._renewing: set[asyncio.Task[None]] = set()
         self._reads = SharedReads(self._pass_on, self.detach, lambda: self.lanes.frame_count)
         self._joining: dict[int, asyncio.Future[Joined]] = {}
         self._downloading: dict[int, asyncio.Future[Downloaded]] = {}
@@ -197,6 +200,9 @@ class Room:
         for at, count in enumerate((line.received_bytes, line.sent_bytes, line.refused)):
             self._before_bytes[at] += count
         line.close()
+        for waiting in (*self._joining.values(), *self._downloading.values()):
+            if not waiting.done():
+                waiting.set_exception(OriginAwayError())
         self.browser_topics.reset()
         self.scenes.reset()
         self._tell_all()
@@ -272,6 +278,9 @@ class Room:
         if before is not None and before.session != state.session:
             for asked in tuple(self._asked.values()):
                 self._refuse(asked, CommandError(_STARTED_ANEW))
+            # As after any restart of a studio, pages come again, and ask anew for what they show.
+            for person in {one.person for one in self._pages}:
+                self._end_person(person)
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
@@ -281,7 +290,17 @@ class Room:
         for number, asked in self._asked.items():
             self._arrive(asked.listener)
             self._send(Ask(asked.page, number, asked.text))
+        for listener in tuple(self._pages):
+            task = self._loop.create_task(self._ask_standing(listener))
+            self._renewing.add(task)
+            task.add_done_callback(self._renewing.discard)
         self._tell_all()
+
+    async def _ask_standing(self, listener: Listener) -> None:
+        """Ask again for what lasts, one after the other: a lesson before the panels seen in it."""
+        for command in self._standing.of(listener):
+            with suppress(StudioError):
+                await self._pass_on(command, listener)
 
     # Pages
 
@@ -312,8 +331,11 @@ class Room:
         if page is None:
             return
         self._by_number.pop(page, None)
+        self._standing.forget(listener)
         for number in [one for one, asked in self._asked.items() if asked.page == page]:
-            del self._asked[number]
+            asked = self._asked.pop(number)
+            if not asked.settled.done():
+                asked.settled.set_result(None)
         if page in self._arrived:
             self._arrived.discard(page)
             self._send(Leave(page))
@@ -386,6 +408,7 @@ class Room:
         else:
             if isinstance(command, Follow):
                 self.lanes.studio.follow(listener, following=command.following)
+            self._standing.note(command, listener)
             await self._pass_on(command, listener)
             return
         send(listener, Done(request=command.request))
@@ -440,7 +463,10 @@ class Room:
             raise NotJoiningError("away", "The studio is away: try again in a moment.")
         number = next(self._numbers)
         form = AskJoin(number, name[:400], code[:64], password[:400], ticket)
-        return await self._answered(self._joining, number, form)
+        try:
+            return await self._answered(self._joining, number, form)
+        except OriginAwayError as error:
+            raise NotJoiningError("away", str(error)) from None
 
     async def download(
         self, document: str, what: str, options: Sequence[tuple[str, str]]
