@@ -120,9 +120,7 @@ class RelayProcess:
 
 
 @contextmanager
-def relay_process(
-    folder: Path, *prefix: str, name: str = "127.0.0.1"
-) -> Generator[RelayProcess]:
+def relay_process(folder: Path, *prefix: str, name: str = "127.0.0.1") -> Generator[RelayProcess]:
     """A relay in a process of its own, found by a name."""
     folder.mkdir(parents=True, exist_ok=True)
     made = RelayProcess(folder, *prefix, name=name)
