@@ -10,8 +10,9 @@ import asyncio
 import itertools
 import logging
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from studio.documents.exports import Download
 from studio.errors import (
@@ -25,6 +26,7 @@ from studio.errors import (
 from studio.protocol.calls import FollowOperations
 from studio.protocol.changes import FollowChanges
 from studio.protocol.classroom import Follow, You
+from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Done, Refused, Watch
 from studio.protocol.listeners import send
 from studio.protocol.relays import RelayState
@@ -32,6 +34,7 @@ from studio.protocol.roles import Role, owner_of
 from studio.server.data_lane import DataLane
 from studio.server.relays.messages import (
     CHANGES,
+    NAME_LETTERS_MAX,
     OPERATIONS,
     Arrive,
     Ask,
@@ -58,12 +61,15 @@ from studio.server.relays.messages import (
     Viewers,
     decode_down,
 )
-from studio.server.relays.relayed_class import RelayedClass
+from studio.server.relays.questions import Questions
+from studio.server.relays.relayed_class import RelayedClass, RelayedMember
 from studio.server.relays.relayed_lanes import RelayedLanes
 from studio.server.relays.relayed_scenes import RelayedScenes
 from studio.server.relays.relayed_topics import RelayedTopics
 from studio.server.relays.room_documents import OnlyThere, RoomDocument
 from studio.server.relays.shared_reads import SharedReads, is_shared
+from studio.server.relays.standing import Standing
+from studio.server.relays.tickets import TICKET_LETTERS_MAX
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -71,6 +77,7 @@ if TYPE_CHECKING:
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
+    from studio.protocol.roles import Person
     from studio.scene.frame_parts import BlobStore
     from studio.server.relays.line import Line
     from studio.server.relays.messages import Down, Up
@@ -80,7 +87,10 @@ PATIENCE_S: Final = 3.0
 _GIVE_UP_S: Final = 90.0
 """So long an answer is waited for that was asked for before the origin went."""
 _TICK_S: Final = 1.0
+_GREETING_S: Final = 15.0
+"""So long after it claimed its room an origin has time to say what the room is."""
 _PENDING_MAX: Final = 10_000
+_PENDING_BYTES_MAX: Final = 32 << 20
 _YOU: Final = b'{"type":"you"'
 _log = logging.getLogger(__name__)
 
@@ -99,11 +109,16 @@ class Room:
     Args:
         name: The room's.
         blobs: Large parts of 3D views, of all rooms.
-        end_person: Ends all connections of a person.
+        end_people: Ends all connections of some people.
     """
 
-    def __init__(self, name: str, blobs: BlobStore, end_person: Callable[[str], object]) -> None:
-        self.name, self._end_person = name, end_person
+    def __init__(
+        self,
+        name: str,
+        blobs: BlobStore,
+        end_people: Callable[[Callable[[Person], bool]], object],
+    ) -> None:
+        self.name, self._end_people = name, end_people
         self._line: Line | None = None
         self._loop = asyncio.get_running_loop()
         self._pages: dict[Listener, int] = {}
@@ -113,7 +128,7 @@ class Room:
         self.scenes = RelayedScenes(self._send, self._ticket_for, blobs)
         self.browser_topics = RelayedTopics(self._send, self._ticket_of)
         self.uploads = self.copies = OnlyThere()
-        self._greeted = False
+        self._greeted, self._greet_by_s = False, 0.0
         self._before_bytes = [0, 0, 0]
         """Received, sent and refused on lines that have ended."""
         self._arrived: set[int] = set()
@@ -121,9 +136,12 @@ class Room:
         self._by_number: dict[int, Listener] = {}
         self._numbers = itertools.count(1)
         self._asked: dict[int, _Asked] = {}
+        self._standing = Standing()
+        self._renewing: set[asyncio.Task[None]] = set()
+        self._asked_bytes = 0
         self._reads = SharedReads(self._pass_on, self.detach, lambda: self.lanes.frame_count)
-        self._joining: dict[int, asyncio.Future[Joined]] = {}
-        self._downloading: dict[int, asyncio.Future[Downloaded]] = {}
+        self._joining = Questions[Joined](self._send, _JOINING_MAX)
+        self._downloading = Questions[Downloaded](self._send, _DOWNLOADING_MAX)
         self._sent_viewers = Viewers(0, 0)
         self.away_since_s = self._loop.time()
         self.round_trip_s = 0.0
@@ -183,7 +201,7 @@ class Room:
         self._line = line
         self._arrived.clear()
         self._sent_viewers = Viewers(0, 0)
-        self._greeted = False
+        self._greeted, self._greet_by_s = False, self._loop.time() + _GREETING_S
         line.begin(self)
 
     def hang_up(self, reason: str = "") -> None:
@@ -197,6 +215,8 @@ class Room:
         for at, count in enumerate((line.received_bytes, line.sent_bytes, line.refused)):
             self._before_bytes[at] += count
         line.close()
+        self._joining.give_up()
+        self._downloading.give_up()
         self.browser_topics.reset()
         self.scenes.reset()
         self._tell_all()
@@ -213,7 +233,7 @@ class Room:
         """Take a message of the origin; one that is none ends the line."""
         try:
             self._carry_out(decode_down(data))
-        except StudioError as error:
+        except (StudioError, ValueError) as error:  # or what it says to a page cannot be read
             _log.warning("%s", error)
             self.hang_up()
 
@@ -250,11 +270,15 @@ class Room:
             case Pong():
                 self.round_trip_s = (self._now_ns() - message.sent_ns) / 1e9
             case EndPerson():
-                self._end_person(message.person)
+                self._end_people(partial(self._is_ours, message.person))
             case Joined():
-                _resolve(self._joining, message)
+                self._joining.answer(message)
             case Downloaded():
-                _resolve(self._downloading, message)
+                self._downloading.answer(message)
+
+    def _is_ours(self, person: str, visitor: Person) -> bool:
+        member = visitor if isinstance(visitor, RelayedMember) else None
+        return member is not None and member.person == person and member.is_of(self.classroom)
 
     def _send(self, message: Up) -> None:
         if self._line is not None:
@@ -272,6 +296,9 @@ class Room:
         if before is not None and before.session != state.session:
             for asked in tuple(self._asked.values()):
                 self._refuse(asked, CommandError(_STARTED_ANEW))
+            # As after any restart of a studio, pages come again, and ask anew for what they show.
+            people = {one.person for one in self._pages}
+            self._end_people(lambda one: one.person in people)
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
@@ -281,7 +308,17 @@ class Room:
         for number, asked in self._asked.items():
             self._arrive(asked.listener)
             self._send(Ask(asked.page, number, asked.text))
+        for listener in tuple(self._pages):
+            task = self._loop.create_task(self._ask_standing(listener))
+            self._renewing.add(task)
+            task.add_done_callback(self._renewing.discard)
         self._tell_all()
+
+    async def _ask_standing(self, listener: Listener) -> None:
+        """Ask again for what lasts, one after the other: a lesson before the panels seen in it."""
+        for command in self._standing.of(listener):
+            with suppress(StudioError):
+                await self._pass_on(command, listener)
 
     # Pages
 
@@ -312,8 +349,11 @@ class Room:
         if page is None:
             return
         self._by_number.pop(page, None)
+        self._standing.forget(listener)
         for number in [one for one, asked in self._asked.items() if asked.page == page]:
-            del self._asked[number]
+            asked = self._asked.pop(number)
+            if not asked.settled.done():
+                asked.settled.set_result(None)
         if page in self._arrived:
             self._arrived.discard(page)
             self._send(Leave(page))
@@ -352,15 +392,8 @@ class Room:
             return
         frame = message.frame
         if frame.data.startswith(_YOU):
-            self._note_role(frame.data)
+            self.classroom.note(frame.data)
         listener.post(frame.data, binary=frame.binary, key=frame.key or None)
-
-    def _note_role(self, data: bytes) -> None:
-        with suppress(ValueError):
-            you = You.model_validate_json(data)
-            member = self.classroom.person(you.person)
-            if member is not None and you.role != Role.PRESENTER.value:
-                member.role, member.name = Role(you.role), you.name
 
     # Commands
 
@@ -371,6 +404,7 @@ class Room:
             StudioError: It cannot be done.
         """
         if isinstance(command, Watch):
+            self.check(command.document)
             self.lanes.leave(listener)
             await self.lanes.watch(command.document, listener)
         elif isinstance(command, FollowChanges):
@@ -386,6 +420,7 @@ class Room:
         else:
             if isinstance(command, Follow):
                 self.lanes.studio.follow(listener, following=command.following)
+            self._standing.note(command, listener)
             await self._pass_on(command, listener)
             return
         send(listener, Done(request=command.request))
@@ -398,7 +433,7 @@ class Room:
     async def _pass_on(self, command: Command, listener: Listener) -> None:
         """Ask the origin, which answers to the page itself."""
         self._check_there()
-        if len(self._asked) >= _PENDING_MAX:
+        if len(self._asked) >= _PENDING_MAX or self._asked_bytes > _PENDING_BYTES_MAX:
             raise CommandError("Too much is asked for here at once: try again in a moment.")
         number = next(self._numbers)
         if not command.id:
@@ -406,12 +441,16 @@ class Room:
             command = command.model_copy(update={"id": f"{self._loop.time():.6f}-{number}"})
         page = self._arrive(listener)
         text = command.model_dump_json().encode()
+        if len(text) > COMMAND_LIMIT_BYTES:
+            raise CommandError(f"A command of more than {COMMAND_LIMIT_BYTES} bytes is not read.")
+        self._asked_bytes += len(text)
         asked = self._asked[number] = _Asked(listener, page, command.request, text)
         self._send(Ask(page, number, text))
         try:
             await asked.settled
         finally:
             self._asked.pop(number, None)
+            self._asked_bytes -= len(text)
 
     def _check_there(self) -> None:
         """Pass if the origin is there, or went only just now.
@@ -439,8 +478,14 @@ class Room:
         if not self.is_there:
             raise NotJoiningError("away", "The studio is away: try again in a moment.")
         number = next(self._numbers)
-        form = AskJoin(number, name[:400], code[:64], password[:400], ticket)
-        return await self._answered(self._joining, number, form)
+        before = ticket if len(ticket) <= TICKET_LETTERS_MAX else ""
+        form = AskJoin(number, name[:400], code[:64], password[:400], before)
+        if self._joining.is_full:
+            raise NotJoiningError("tries", "Too many join at once: try again in a moment.")
+        try:
+            return await self._joining.ask(number, form)
+        except OriginAwayError as error:
+            raise NotJoiningError("away", str(error)) from None
 
     async def download(
         self, document: str, what: str, options: Sequence[tuple[str, str]]
@@ -451,25 +496,14 @@ class Room:
             StudioError: It cannot be made, or the origin is away.
         """
         self._check_there()
+        if self._downloading.is_full or len(document) > NAME_LETTERS_MAX:
+            raise CommandError("Too much is asked for here at once: try again in a moment.")
         number = next(self._numbers)
         asked = AskDownload(number, self._ticket_for(document), document, what, tuple(options))
-        found = await self._answered(self._downloading, number, asked)
+        found = await self._downloading.ask(number, asked)
         if found.kind:
             raise CommandError(found.reason)
         return Download(found.name, found.media_type, (found.data,))
-
-    async def _answered(
-        self, waiting: dict[int, asyncio.Future[Any]], number: int, message: Up
-    ) -> Any:  # noqa: ANN401 - of the kind that is waited for
-        future: asyncio.Future[Any] = self._loop.create_future()
-        waiting[number] = future
-        self._send(message)
-        try:
-            return await asyncio.wait_for(future, _ANSWER_S)
-        except TimeoutError:
-            raise OriginAwayError from None
-        finally:
-            waiting.pop(number, None)
 
     def _ticket_of(self, lane: DataLaneEnd) -> str:
         """Return the ticket of a data lane's person."""
@@ -522,7 +556,8 @@ class Room:
             UnknownDocumentError: There is none.
         """
         state = self.classroom.state
-        if not owner_of(name) and (state is None or name not in state.documents):
+        is_known = owner_of(name) or (state is not None and name in state.documents)
+        if not is_known or len(name) > NAME_LETTERS_MAX:
             raise UnknownDocumentError(name)
 
     async def ready(self, name: str) -> RoomDocument:
@@ -539,6 +574,8 @@ class Room:
             await asyncio.sleep(_TICK_S)
             self.lanes.close_idle()
             self.scenes.close_idle()
+            if self._line and not self._greeted and self._loop.time() > self._greet_by_s:
+                self.hang_up()
             if self.is_there:
                 self._send(Ping(self._now_ns()))
                 self._tell_viewers()
@@ -555,15 +592,10 @@ class Room:
             self._send(viewers)
 
 
-_ANSWER_S: Final = 30.0
+_JOINING_MAX, _DOWNLOADING_MAX = 200, 8
+"""So many ask the origin at once."""
 _NOWHERE: Final = Path("/nonexistent")
 _STARTED_ANEW: Final = (
     "The studio was started anew before it answered: see whether this was done, and do it again "
     "if it was not."
 )
-
-
-def _resolve(waiting: dict[int, asyncio.Future[Any]], message: Joined | Downloaded) -> None:
-    future = waiting.get(message.number)
-    if future is not None and not future.done():
-        future.set_result(message)

@@ -6,17 +6,8 @@ import asyncio
 import json
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from studio.protocol.calls import GetActions, GetServices
-from studio.protocol.diagnostics import GetDiagnostics
-from studio.protocol.displays import GetDisplayKinds, GetTopics
-from studio.protocol.graph import GetGraph, GetNode
-from studio.protocol.interfaces import GetInterface, ListInterfaces
-from studio.protocol.language import GetOutline
+from studio.documents.engine import COMMANDS
 from studio.protocol.roles import Role, owner_of
-from studio.protocol.texts import GetText, GetUrdf
-from studio.protocol.tools import GetToolKinds
-from studio.protocol.topics import GetTopicEnds, ListTopics
-from studio.protocol.views import GetViewKinds
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -24,19 +15,13 @@ if TYPE_CHECKING:
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
 
-_KINDS: Final = (
-    *(GetText, GetOutline, GetUrdf, GetGraph, GetNode, GetTopics, ListTopics, GetTopicEnds),
-    *(GetServices, GetActions, GetDiagnostics, GetInterface, ListInterfaces),
-    *(GetDisplayKinds, GetToolKinds, GetViewKinds),
-)
-"""They are answered alike whoever asks."""
 _FRESH_S: Final = 1.0
 _KEPT_MAX: Final = 256
 
 
 def is_shared(command: Command, listener: Listener) -> bool:
     """Whether the answer to others serves this page as well."""
-    shared = isinstance(command, _KINDS) and not owner_of(command.document)
+    shared = COMMANDS[type(command)].same_for_all and not owner_of(command.document)
     return shared and listener.role in {Role.GUEST, Role.STUDENT}
 
 
@@ -89,7 +74,7 @@ class SharedReads:
         Raises:
             StudioError: The origin is away.
         """
-        key = command.model_dump_json(exclude={"request", "id"})
+        key = listener.role + command.model_dump_json(exclude={"request", "id"})
         now_s = asyncio.get_running_loop().time()
         found = self._reads.get(key)
         if found is None or found.version != self._version() or now_s - found.since_s > _FRESH_S:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import json
 import logging
+import re
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol
 
 import msgspec
@@ -28,7 +30,7 @@ from studio.ros.wire.zenoh import (
     watch_transports,
 )
 from studio.server.relays.line import Line
-from studio.server.relays.messages import Claim, ClaimAnswer, Signed
+from studio.server.relays.messages import UP_BYTES_MAX, Claim, ClaimAnswer, Signed
 from studio.server.relays.sealing import Handshake
 
 if TYPE_CHECKING:
@@ -43,15 +45,35 @@ LEASE_MS: Final = 5_000
 """A relay or an origin that is silent for so long is gone: a cut cable tells nobody."""
 SAMPLES_MAX: Final = 4_096
 """Of a line that are not read yet; of more the oldest are lost, which ends the line."""
+PIECES_BYTES_MAX: Final = 128 << 10
+"""Of what either side takes of the other at once; a piece of a message is half as large."""
+_REASON_MAX: Final = 200
+_ADDRESS: Final = re.compile(r"https?://[A-Za-z0-9.:\[\]-]{1,260}/[A-Za-z0-9._~%/-]{0,260}")
+"""Of a page; it is shown to people, and other relays send theirs there."""
 _CLAIM_TIMEOUT_S: Final = 5.0
 _MATCHING_TIMEOUT_S: Final = 5.0
+_LINE: Final = re.compile(r"[0-9a-f]{16}")
 _RETRY_S: Final = (0.25, 0.5, 1.0, 2.0)
+"""From one attempt to the next, unless the first took longer."""
+_OPEN_MS: Final = (3_000, 3_000, 3_000, 6_000)
+"""So long an attempt is given, in turn: one that was begun while the cable was cut may never be
+answered, and a slow line is to be reached as well."""
 _log = logging.getLogger(__name__)
 
 
 def line_keys(line: str) -> tuple[str, str, str]:
-    """Return the keys of a line's two streams, to the origin and to the relay, and of its token."""
-    return f"studio-relay/{line}/up", f"studio-relay/{line}/down", f"studio-relay/{line}/alive"
+    """Return the keys of a line's two streams, to the origin and to the relay, and of its token.
+
+    Others who have the relay's key may read the first: it does not tell them the name of the line,
+    by which they could send something to the second, or end the token.
+    """
+    shown = hashlib.blake2b(line.encode(), digest_size=8).hexdigest()
+    return f"studio-relay/{shown}/up", f"studio-relay/{line}/down", f"studio-relay/{line}/alive"
+
+
+def key_digest(key: str) -> bytes:
+    """Return what names a relay's key to those who have it."""
+    return hashlib.blake2b(key.encode(), digest_size=16, person=b"relay of a claim").digest()
 
 
 class OriginEnd(Protocol):
@@ -132,24 +154,39 @@ class Uplink:
     async def _run(self) -> None:
         use_few_threads()
         attempts = 0
+        loop = asyncio.get_running_loop()
         while self.state != "refused":
+            next_s = loop.time() + _RETRY_S[min(attempts, len(_RETRY_S) - 1)]
             try:
-                claimed = await asyncio.to_thread(self._dial)
+                claimed = await self._dialled(_OPEN_MS[attempts % len(_OPEN_MS)])
             except RelayRefusedError as error:
                 self._set("refused", str(error))
                 return
             except RelayError as error:
                 self._set("lost" if self.address else "connecting", str(error))
-                await asyncio.sleep(_RETRY_S[min(attempts, len(_RETRY_S) - 1)])
+                await asyncio.sleep(next_s - loop.time())
                 attempts += 1
                 continue
             attempts = 0
             await self._serve(claimed)
+            await asyncio.sleep(next_s - loop.time())
+
+    async def _dialled(self, patience_ms: int) -> Claimed:
+        """Dial in a thread; if that is given up meanwhile, what comes of it is ended.
+
+        Raises:
+            RelayError: As `_dial` does.
+        """
+        self._ended.clear()
+        dialling = asyncio.ensure_future(asyncio.to_thread(self._dial, patience_ms))
+        try:
+            return await asyncio.shield(dialling)
+        except asyncio.CancelledError:
+            dialling.add_done_callback(_let_go)
+            raise
 
     async def _serve(self, claimed: Claimed) -> None:
         """Speak on the line until it ends."""
-        self._ended.clear()
-        watch = _watch_router(claimed.session, asyncio.get_running_loop(), self._ended.set)
         try:
             self.line, self.address = claimed.line, claimed.address
             self.end = self._make_end(claimed.line, self)
@@ -161,7 +198,6 @@ class Uplink:
                 self.end.close()
             self.line = self.end = None
             claimed.line.close()
-            watch.close()
             await asyncio.to_thread(claimed.close)
             if self.state != "refused":
                 self._set("lost", "The line to the relay is cut: it is dialled again.")
@@ -171,8 +207,8 @@ class Uplink:
             self.state, self.reason = state, reason
             self._changed()
 
-    def _dial(self) -> Claimed:
-        """Open a session and claim the room, in a thread.
+    def _dial(self, patience_ms: int) -> Claimed:
+        """Open a session, which may take so long, and claim the room, in a thread.
 
         Raises:
             RelayRefusedError: The relay does not take this studio.
@@ -180,25 +216,29 @@ class Uplink:
         """
         endpoint = self.relay.endpoint
         try:
-            session = open_zenoh(_config(self.relay))
+            session = open_zenoh(_config(self.relay, patience_ms))
         except ZError as error:
             raise RelayError(
                 f"No relay answers at {endpoint}: see that `studio relay` runs there, that its "
                 f"port is open, and that the key is its own ({_reason(error)})."
             ) from None
+        watch: ReadingThread[TransportEvent] | None = None
         try:
-            return self._claim(session)
-        except ZError as error:
+            watch = _watch_router(session, self._task.get_loop(), self._ended.set)
+            return self._claim(session, watch)
+        except BaseException as error:
+            if watch is not None:
+                watch.close()
             close(session)
-            raise RelayLineError(f"{error}.") from None
-        except BaseException:
-            close(session)
+            if isinstance(error, ZError):
+                raise RelayLineError(f"{error}.") from None
             raise
 
-    def _claim(self, session: Session) -> Claimed:
+    def _claim(self, session: Session, watch: ReadingThread[TransportEvent]) -> Claimed:
         handshake, identity = Handshake(), self._identity()
         claim = Claim(
-            studio.__version__, identity.id, identity.public, handshake.public, self._session
+            *(studio.__version__, identity.id, identity.public, handshake.public, self._session),
+            key_digest(self.relay.key),
         )
         body = msgspec.msgpack.encode(claim)
         signed = msgspec.msgpack.encode(Signed(body, identity.sign(body)))
@@ -207,16 +247,19 @@ class Uplink:
             raise RelayError(f"What answers at {self.relay.endpoint} is no relay of a studio.")
         answer = self._checked(found, body)
         if answer.reason:
-            raise RelayRefusedError(self.relay.endpoint, answer.reason)
+            raise RelayRefusedError(self.relay.endpoint, answer.reason[:_REASON_MAX])
+        if not (_ADDRESS.fullmatch(answer.address) and _LINE.fullmatch(answer.line)):
+            raise RelayLineError("its answer names no line, or no address of a page.")
         keys = handshake.keys(answer.handshake, body, is_origin=True)
         up, down, alive = line_keys(answer.line)
         incoming = declare_subscription(session, up, SAMPLES_MAX, reliable=True)
         publisher = declare_stream(session, down, _MATCHING_TIMEOUT_S)
-        line = Line(self._task.get_loop(), lambda: publisher, keys)
+        line = Line(self._task.get_loop(), lambda: publisher, keys, UP_BYTES_MAX)
         reading = _reading(incoming, line)
         token = declare_token(session, alive)
 
         def end() -> None:
+            watch.close()
             reading.close()
             close(session)
 
@@ -229,6 +272,13 @@ class Uplink:
             return msgspec.msgpack.decode(signed.body, type=ClaimAnswer)
         except msgspec.MsgspecError as error:
             raise RelayLineError(f"its answer cannot be read ({error}).") from None
+
+
+def _let_go(dialled: asyncio.Future[Claimed]) -> None:
+    if not dialled.cancelled() and dialled.exception() is None:
+        claimed = dialled.result()
+        claimed.line.close()
+        claimed.close()
 
 
 def _reason(error: ZError) -> str:
@@ -254,12 +304,14 @@ def _watch_router(
     return ReadingThread("relay-watch", watch_transports(session), take)
 
 
-def _config(relay: RelayAddress) -> Config:
+def _config(relay: RelayAddress, open_ms: int) -> Config:
     config = read_config()
     insert(config, "mode", '"client"')
     insert(config, "connect/endpoints", json.dumps([relay.endpoint]))
     insert(config, "scouting/multicast/enabled", "false")
     insert(config, "transport/link/tx/lease", str(LEASE_MS))
+    insert(config, "transport/unicast/open_timeout", str(open_ms))
+    insert(config, "transport/link/rx/max_message_size", str(PIECES_BYTES_MAX))
     for key, json5 in relay.credentials.of_session().items():
         insert(config, key, json5)
     return config
