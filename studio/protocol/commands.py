@@ -349,6 +349,7 @@ class AtMostOnce:
         running = None if known is None else known.get(command.id)
         if running is None:
             running = asyncio.ensure_future(carry_out(command, asker))
+            running.add_done_callback(_noticed)
             self._remember(asker.person, command.id, running)
         # Who asked may leave: what runs is finished all the same.
         answer = await asyncio.shield(running)
@@ -367,3 +368,9 @@ class AtMostOnce:
         while self._count > REMEMBERED_MAX:
             _, forgotten = self._outcomes.popitem(last=False)
             self._count -= len(forgotten)
+
+
+def _noticed(outcome: asyncio.Task[Answer]) -> None:
+    """Look at a failure, for who asked may have left."""
+    if not outcome.cancelled():
+        outcome.exception()

@@ -16,6 +16,8 @@ from uvicorn.server import ServerState
 from studio.protocol.roles import Role
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from studio.protocol.roles import Person
 
 STRANGER_S: Final = 10.0
@@ -136,8 +138,12 @@ class Crowd:
 
     def end_person(self, person: str) -> None:
         """End the connections of one person."""
+        self.end(lambda visitor: visitor.person == person)
+
+    def end(self, are_meant: Callable[[Person], bool]) -> None:
+        """End the connections of some people."""
         for connection, visitor in tuple(self._known.items()):
-            if visitor.person == person:
+            if are_meant(visitor):
                 connection.abort()
 
     def end_all(self) -> None:

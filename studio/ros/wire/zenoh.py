@@ -359,8 +359,19 @@ def _congestion(*, blocking: bool) -> zenoh.CongestionControl:
     return zenoh.CongestionControl.BLOCK if blocking else zenoh.CongestionControl.DROP
 
 
-def declare_stream(session: Session, key: str, timeout_s: float) -> Outgoing:
+def declare_stream(
+    session: Session,
+    key: str,
+    timeout_s: float,
+    is_wanted: Callable[[], bool] = lambda: True,
+) -> Outgoing:
     """Declare a publisher of messages that are sent as they are, once somebody subscribes them.
+
+    Args:
+        session: Where to declare.
+        key: The data key.
+        timeout_s: So long is waited for who subscribes it.
+        is_wanted: Whether it is still waited for.
 
     Raises:
         ZError: Nobody did in time.
@@ -373,7 +384,7 @@ def declare_stream(session: Session, key: str, timeout_s: float) -> Outgoing:
     )
     end_s = time.monotonic() + timeout_s
     while not cast("Any", found).matching_status.matching:
-        if time.monotonic() > end_s:
+        if time.monotonic() > end_s or not is_wanted():
             cast("Declaration", found).undeclare()
             raise ZError(f"nobody subscribes {key}")
         time.sleep(_MATCHING_PAUSE_S)

@@ -7,14 +7,27 @@ every page is sent, whatever it shows, those of documents have their ids, and th
 
 from __future__ import annotations
 
-from typing import Final, TypeAlias, cast
+from typing import Annotated, Final, TypeAlias, cast
 
 import msgspec
 
 from studio.errors import RelayLineError
+from studio.server.relays.tickets import TICKET_LETTERS_MAX
 
 STUDIO_LANE: Final = ""
 CHANGES, OPERATIONS = "!changes ", "!operations "
+UP_BYTES_MAX: Final = 4 << 20
+"""Of a message of a relay; the largest is a command."""
+_COUNT_MAX: Final = 100_000
+
+NAME_LETTERS_MAX: Final = 300
+Name: TypeAlias = Annotated[str, msgspec.Meta(max_length=NAME_LETTERS_MAX)]
+"""Of a document, a lane, a person."""
+TicketText: TypeAlias = Annotated[str, msgspec.Meta(max_length=TICKET_LETTERS_MAX)]
+Number: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=1 << 62)]
+Count: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=_COUNT_MAX)]
+Typed: TypeAlias = Annotated[str, msgspec.Meta(max_length=400)]
+"""By a person, into the form to join."""
 
 
 class Claim(msgspec.Struct, frozen=True):
@@ -27,6 +40,8 @@ class Claim(msgspec.Struct, frozen=True):
     """Of the room's identity, whose digest the room's name is."""
     handshake: bytes
     session: str
+    relay: bytes = b""
+    """Digest of the relay's key: another relay that was shown the claim could pass it on."""
 
 
 class ClaimAnswer(msgspec.Struct, frozen=True):
@@ -60,78 +75,78 @@ class Frame(msgspec.Struct, frozen=True, array_like=True):
 class OpenLane(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Send this lane from now on; `ticket` is of somebody who may see it, for a copy."""
 
-    lane: str
-    ticket: str = ""
+    lane: Name
+    ticket: TicketText = ""
 
 
 class CloseLane(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Send this lane no more."""
 
-    lane: str
+    lane: Name
 
 
 class Refresh(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Send the lane's snapshot again: the frames since the last are larger than it."""
 
-    lane: str
+    lane: Name
 
 
 class OpenScene(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Send the 3D view of a document from now on."""
 
-    document: str
-    ticket: str = ""
+    document: Name
+    ticket: TicketText = ""
 
 
 class CloseScene(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Send the 3D view no more."""
 
-    document: str
+    document: Name
 
 
 class WantBlobs(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """The relay has none of these (BLAKE2b digests); a frame of the 3D view waits for them."""
 
-    document: str
+    document: Name
     digests: tuple[bytes, ...]
 
 
 class Arrive(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """A page of a member was opened, or one that asks for something; `page` is its number."""
 
-    page: int
-    ticket: str
+    page: Number
+    ticket: TicketText
 
 
 class Leave(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """A page was closed."""
 
-    page: int
+    page: Number
 
 
 class Viewers(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """So many pages are open in all, and of people who are not in the class."""
 
-    pages: int
-    guests: int
+    pages: Count
+    guests: Count
 
 
 class Ask(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """A command of a page, as JSON; asked for again at the origin, which answers to the page."""
 
-    page: int
-    number: int
+    page: Number
+    number: Number
     text: bytes
 
 
 class AskJoin(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Somebody filled in the form to join."""
 
-    number: int
-    name: str
-    code: str
-    password: str
-    ticket: str
+    number: Number
+    name: Typed
+    code: Typed
+    password: Typed
+    ticket: TicketText
     """Of before; empty: none."""
 
 
@@ -139,23 +154,23 @@ class AskTopic(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """A command of the data lane, as JSON; subscriptions are numbered by the relay."""
 
     text: bytes
-    ticket: str = ""
+    ticket: TicketText = ""
 
 
 class AskDownload(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """A document for other programs."""
 
-    number: int
-    ticket: str
-    document: str
-    what: str
+    number: Number
+    ticket: TicketText
+    document: Name
+    what: Name
     options: tuple[tuple[str, str], ...] = ()
 
 
 class Ping(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Answered at once with a `Pong` of the same number; a clock of the sender's."""
 
-    sent_ns: int
+    sent_ns: Number
 
 
 class Taken(msgspec.Struct, frozen=True, tag=True, array_like=True):

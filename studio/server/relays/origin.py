@@ -237,6 +237,10 @@ class Origin:
             raise TicketError("they are not in the class.")
         return member
 
+    def tickets(self) -> bytes:
+        """Return the public key of those who sign tickets."""
+        return self.issuer.public
+
     def has(self, person: Person) -> bool:
         """Whether a person may still be here."""
         classroom = self._classroom

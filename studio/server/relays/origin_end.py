@@ -76,10 +76,14 @@ if TYPE_CHECKING:
 
 RUNNING_MAX: Final = 256
 """Commands of one relay that run; what comes meanwhile is refused."""
-LANES_MAX: Final = 200
+LANES_MAX: Final = 700
+"""And as many 3D views: each person of a class may look at a copy of their own."""
+_OPENING_MAX: Final = 2 * LANES_MAX
 PAGES_MAX: Final = 4_000
 """Pages of one relay that are known one by one: members', and those that asked for something."""
-_DOWNLOAD_BYTES_MAX: Final = 64 << 20
+_DOWNLOAD_BYTES_MAX: Final = 48 << 20
+_DOWNLOADS_AT_ONCE: Final = 2
+_REST_S_MAX, _SCENE_S = 0.1, 0.01
 _STATE_EVERY_S: Final = 0.5
 _UNITS_PER_S, _UNITS_AT_ONCE = 3_000.0, 6_000.0
 """Messages of a relay: thirty classes type no more."""
@@ -125,6 +129,10 @@ class Room(Protocol):
         """Whether a person may still be here."""
         ...
 
+    def tickets(self) -> bytes:
+        """Return the public key of those who sign tickets."""
+        ...
+
 
 class OriginEnd:
     """Used on the event loop only; whatever comes may be forged, and costs within bounds.
@@ -161,9 +169,15 @@ class OriginEnd:
         line.on_drain(self._topics.resume)
         self._allowance = Allowance(_UNITS_PER_S, _UNITS_AT_ONCE)
         self._running: set[asyncio.Task[None]] = set()
+        """What was asked for and is not answered."""
+        self._serving: set[asyncio.Task[None]] = set()
+        self._opening: dict[tuple[str, str], asyncio.Task[None]] = {}
+        """Lanes and 3D views that are on their way, or views that are shown, by kind and name."""
+        self._turns, self._free_s = asyncio.Lock(), 0.0
+        self._downloads = asyncio.Semaphore(_DOWNLOADS_AT_ONCE)
         self._is_open = True
         self.tell_state()
-        self._ticking = self._start(self._tick())
+        self._ticking = self._start(self._tick(), self._serving)
 
     def take(self, data: bytes) -> None:
         """Carry out a message of the relay; one that is none ends the line."""
@@ -190,21 +204,27 @@ class OriginEnd:
         return self._viewers.guests
 
     def end_person(self, person: str) -> None:
-        """Have the relay end a person's pages."""
+        """Have the relay end a person's pages; whether it does or not, they are nobody's here."""
         self.tell_state()
+        self._forget_pages(lambda page: page.person == person)
         self.outlet.post(encode(EndPerson(person)))
 
     def tell_state(self) -> None:
         """Send what the relay must know of the room, if that is not what it knows."""
         state = self._room.state(self._relay)
-        if state != self._sent:
-            self._sent = state
-            self.outlet.post(encode(state))
+        before = self._sent
+        if state == before:
+            return
+        self._sent = state
+        self.outlet.post(encode(state))
+        if before is not None and before.tickets != state.tickets:
+            self._forget_pages(lambda _: True)  # all were logged out
+            self._review(lambda _: False)
 
     def close(self) -> None:
         """The line has ended: nobody is there by it any more."""
         self._is_open = False
-        for task in tuple(self._running):
+        for task in (*self._running, *self._serving):
             task.cancel()
         for scene in self._scenes.values():
             scene.close()
@@ -214,7 +234,7 @@ class OriginEnd:
         self.outlet.close()
         self._viewers = Viewers(0, 0)
 
-    def _carry_out(self, message: Up) -> None:  # noqa: C901, PLR0912 - one line each
+    def _carry_out(self, message: Up) -> None:  # noqa: C901, PLR0912 - one each
         match message:
             case Ask():
                 self._ask(message)
@@ -226,17 +246,18 @@ class OriginEnd:
                 if scene := self._scenes.get(message.document):
                     scene.wanted(message.digests)
             case OpenLane():
-                self._start(self._open_lane(message.lane, self._person_of(message.ticket)))
+                sees = self._sight_of(message.lane, self._person_of(message.ticket))
+                self._open(_LANE, message.lane, self._open_lane(message.lane, sees))
             case Refresh():
-                self._start(self._refresh(message.lane))
+                if message.lane in self._lanes and (_LANE, message.lane) not in self._opening:
+                    self._open(_LANE, message.lane, self._refresh(message.lane))
             case CloseLane():
-                if lane := self._lanes.pop(message.lane, None):
-                    self._engine.detach(lane)
+                self._close_lane(message.lane)
             case OpenScene():
-                self._start(self._open_scene(message.document, self._person_of(message.ticket)))
+                sees = self._sight_of(message.document, self._person_of(message.ticket))
+                self._open(_SCENE, message.document, self._open_scene(message.document, sees))
             case CloseScene():
-                if scene := self._scenes.get(message.document):
-                    scene.close()
+                self._close_scene(message.document)
             case Arrive():
                 self._arrive(message)
             case Leave():
@@ -244,47 +265,90 @@ class OriginEnd:
                     self._engine.detach(page)
             case Viewers():
                 self._viewers = message
+            case AskJoin() | AskDownload() if len(self._running) >= RUNNING_MAX:
+                self.outlet.post(encode(_too_much(message)))
             case AskJoin():
-                self._start(self._join(message))
+                self._start(self._join(message), self._running)
             case AskDownload():
-                self._start(self._download(message))
+                self._start(self._download(message), self._running)
             case Taken():
                 self._hang_up(message.reason[:200] or "another studio has this room.")
 
     def _person_of(self, ticket: str) -> Person | None:
         return self._room.person(ticket) if ticket else None
 
-    def _start(self, work: Coroutine[object, object, None]) -> asyncio.Task[None]:
-        if len(self._running) > RUNNING_MAX + LANES_MAX:
-            work.close()
-            raise RelayLineError("the relay asks for more at once than a relay needs.")
+    def _start(
+        self, work: Coroutine[object, object, None], among: set[asyncio.Task[None]]
+    ) -> asyncio.Task[None]:
         task = asyncio.get_running_loop().create_task(work)
-        self._running.add(task)
-        task.add_done_callback(self._running.discard)
+        among.add(task)
+
+        def ended(task: asyncio.Task[None]) -> None:
+            among.discard(task)
+            if not task.cancelled() and (error := task.exception()) is not None:
+                _log.error("What a relay asked for failed.", exc_info=error)
+                self._hang_up("")
+
+        task.add_done_callback(ended)
         return task
 
     # Lanes
 
-    async def _open_lane(self, name: str, person: Person | None) -> None:
-        if len(self._lanes) >= LANES_MAX:
-            raise RelayLineError("the relay asks for more documents than can be open.")
-        before = self._lanes.pop(name, None)
-        if before is not None:
-            self._engine.detach(before)
-        lane = OriginLane(name, self.outlet, self.tell_state, self._sight_of(name, person))
+    def _open(self, kind: str, name: str, work: Coroutine[object, object, None]) -> None:
+        """Open a lane or a 3D view; of one name the last that was asked for counts."""
+        self._cancel(kind, name)
+        if len(self._opening) >= _OPENING_MAX:
+            work.close()
+            raise RelayLineError("the relay asks for more at once than a relay needs.")
+        task = self._opening[kind, name] = self._start(work, self._serving)
+
+        def ended(task: asyncio.Task[None]) -> None:
+            if self._opening.get((kind, name)) is task:
+                del self._opening[kind, name]
+
+        task.add_done_callback(ended)
+
+    def _cancel(self, kind: str, name: str) -> None:
+        if task := self._opening.pop((kind, name), None):
+            task.cancel()
+
+    async def _turn(self) -> float:
+        """Wait until the whole state of something may be made: one at a time, and with rests."""
+        loop = asyncio.get_running_loop()
+        async with self._turns:
+            await asyncio.sleep(max(0.0, self._free_s - loop.time()))
+            self._free_s = loop.time() + _SCENE_S
+        return loop.time()
+
+    async def _open_lane(self, name: str, sees: Callable[[str], bool]) -> None:
+        self._forget_lane(name)
+        lane = OriginLane(name, self.outlet, self.tell_state, sees)
         try:
             await self._fill(lane)
         except StudioError as error:
             self._engine.detach(lane)
             self.outlet.post(encode(LaneClosed(name, str(error))))
-            return
-        self._lanes[name] = lane
-        if owner_of(name):
-            self._start(self._close_with_sight(lane))
+        except BaseException:
+            self._engine.detach(lane)
+            raise
+        else:
+            self._lanes[name] = lane
 
     async def _refresh(self, name: str) -> None:
-        if lane := self._lanes.get(name):
-            await self._fill(lane)
+        try:
+            if lane := self._lanes.get(name):
+                await self._fill(lane)
+        except StudioError as error:
+            self._forget_lane(name)
+            self.outlet.post(encode(LaneClosed(name, str(error))))
+
+    def _close_lane(self, name: str) -> None:
+        self._cancel(_LANE, name)
+        self._forget_lane(name)
+
+    def _forget_lane(self, name: str) -> None:
+        if lane := self._lanes.pop(name, None):
+            self._engine.detach(lane)
 
     async def _fill(self, lane: OriginLane) -> None:
         """Send a lane's whole state, and every change from then on.
@@ -293,6 +357,11 @@ class OriginEnd:
             StudioError: There is no such thing, or it may not be seen.
         """
         name = lane.lane
+        if name not in self._lanes and len(self._lanes) >= LANES_MAX:
+            raise CommandError("More is open at this relay than it may show: close a page.")
+        if owner_of(name) and lane.sees(name):
+            await self._engine.ready(name)
+        began_s = await self._turn()
         if name == STUDIO_LANE:
             lane.begin_snapshot()
             self._engine.attach(lane)
@@ -312,6 +381,8 @@ class OriginEnd:
             lane.begin_snapshot()
             await self._engine.watch(name, lane)
         lane.end_snapshot()
+        now_s = asyncio.get_running_loop().time()
+        self._free_s = max(self._free_s, now_s + min(now_s - began_s, _REST_S_MAX))
 
     async def _follow(self, lane: OriginLane, command: Command) -> None:
         answered = await COMMANDS.carry_out(self._engine, command, lane)  # type: ignore[arg-type]
@@ -319,28 +390,33 @@ class OriginEnd:
             send(lane, answered)
 
     def _sight_of(self, name: str, person: Person | None) -> Callable[[str], bool]:
+        tickets = self._room.tickets()
+
         def sees(document: str) -> bool:
             if not owner_of(document):
                 return True
             if person is None:
                 return document == self._room.state(self._relay).shown
-            return document == name and self._room.has(person) and person.sees(document)
+            is_here = self._room.has(person) and self._room.tickets() == tickets
+            return document == name and is_here and person.sees(document)
 
         return sees
 
-    async def _close_with_sight(self, lane: OriginLane) -> None:
-        while lane.sees(lane.lane):  # noqa: ASYNC110 - nobody tells it
-            await asyncio.sleep(_STATE_EVERY_S)
-        if self._lanes.get(lane.lane) is lane:
-            del self._lanes[lane.lane]
-            self._engine.detach(lane)
-            reason = str(UnknownDocumentError(lane.lane))
-            self.outlet.post(encode(LaneClosed(lane.lane, reason)))
+    def _review(self, has: Callable[[Person], bool]) -> None:
+        """End what may not be seen any more."""
+        for name, lane in tuple(self._lanes.items()):
+            if owner_of(name) and not lane.sees(name):
+                self._close_lane(name)
+                self.outlet.post(encode(LaneClosed(name, str(UnknownDocumentError(name)))))
+        self._topics.review(has)
 
-    async def _open_scene(self, document: str, person: Person | None) -> None:
-        sees = self._sight_of(document, person)
-        if before := self._scenes.pop(document, None):
-            before.close()
+    def _close_scene(self, document: str) -> None:
+        if scene := self._scenes.get(document):
+            scene.close()
+        else:
+            self._cancel(_SCENE, document)
+
+    async def _open_scene(self, document: str, sees: Callable[[str], bool]) -> None:
         try:
             if not sees(document) or len(self._scenes) >= LANES_MAX:
                 raise UnknownDocumentError(document)
@@ -348,14 +424,15 @@ class OriginEnd:
         except StudioError:
             self.outlet.post(encode(SceneClosed(document)))
             return
+        await self._turn()
         shown = self._scenes[document] = OriginScene(document, self._line, lambda: sees(document))
         try:
             await shown.serve(scene)
         finally:
             if self._scenes.get(document) is shown:
                 del self._scenes[document]
-                if self._is_open:
-                    self.outlet.post(encode(SceneClosed(document)))
+        if self._is_open:
+            self.outlet.post(encode(SceneClosed(document)))
 
     # People
 
@@ -367,16 +444,26 @@ class OriginEnd:
         self._pages[message.page] = page
         self._engine.arrive(page)
 
+    def _forget_pages(self, of: Callable[[RelayedPage], bool]) -> None:
+        for page in [one for one in self._pages.values() if of(one)]:
+            del self._pages[page.page]
+            self._engine.detach(page)
+
     def _ask(self, message: Ask) -> None:
+        if self._sent is None or self._room.tickets() != self._sent.tickets:
+            self.tell_state()
         page = self._pages.get(message.page)
         loop = asyncio.get_running_loop()
-        pause_s = self._allowance.spend(1 + len(message.text) / 1024, loop.time())
+        units = 1 + len(message.text) / 1024
+        pause_s = self._allowance.spend(units, loop.time())
         if page is None or not self._room.has(page.visitor):
             self._refuse(message, "You are not in this class any more: join it again.")
         elif len(self._running) >= RUNNING_MAX or pause_s > 1:
-            self._refuse(message, "Too much is asked for by this relay at once: try again soon.")
+            # Not counted: else one who floods would have all others refused for long after.
+            self._allowance.spend(-units, loop.time())
+            self._refuse(message, _TOO_MUCH)
         else:
-            self._start(self._answer(page, message))
+            self._start(self._answer(page, message), self._running)
 
     def _refuse(self, message: Ask, reason: str) -> None:
         request = request_of(message.text)
@@ -400,8 +487,9 @@ class OriginEnd:
         try:
             person = self._room.person(message.ticket)
             demand(person, ROUTES.get(_ROUTE.format(message.what)), message.document)
-            found = await self._made(message)
-            data = await asyncio.to_thread(_joined, found)
+            async with self._downloads:
+                found = await self._made(message)
+                data = await asyncio.to_thread(_joined, found)
         except StudioError as error:
             failed = Downloaded(message.number, kind=type(error).__name__, reason=str(error))
             self.outlet.post(encode(failed))
@@ -423,8 +511,11 @@ class OriginEnd:
         while True:
             await asyncio.sleep(_STATE_EVERY_S)
             self.tell_state()
+            self._review(self._room.has)
 
 
+_LANE, _SCENE = "lane", "scene"
+_TOO_MUCH: Final = "Too much is asked for by this relay at once: try again soon."
 _ROUTE: Final = "/api/documents/{{document}}/export/{}"
 _Followed = TypeVar("_Followed", bound=Command)
 
@@ -439,6 +530,12 @@ def _checked(kind: type[_Followed], **fields: str) -> _Followed:
         return kind(**fields)  # type: ignore[arg-type]
     except ValidationError as error:
         raise CommandError(malformed("lane", error)) from None
+
+
+def _too_much(message: AskJoin | AskDownload) -> Joined | Downloaded:
+    if isinstance(message, AskJoin):
+        return Joined(message.number, "", "tries", _TOO_MUCH)
+    return Downloaded(message.number, kind=CommandError.__name__, reason=_TOO_MUCH)
 
 
 def _joined(download: Download) -> bytes:

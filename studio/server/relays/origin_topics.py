@@ -17,6 +17,7 @@ from studio.protocol.subscriptions import (
     NotSubscribed,
     Subscribe,
     SubscriptionView,
+    Unsubscribe,
 )
 from studio.server.backlog import Backlog
 from studio.server.commands import malformed
@@ -149,6 +150,16 @@ class TopicsOfRelay:
                 self._is_serving = False
         while self._backlog and self._is_open():
             self._send_late()
+
+    def review(self, has: Callable[[Person], bool]) -> None:
+        """End what was subscribed of documents that may not be seen any more."""
+        for subscription, (command, person) in tuple(self._commands.items()):
+            if not owner_of(command.document) or person is None:
+                continue
+            if not (has(person) and person.sees(command.document)):
+                self._forget(subscription)
+                self._carry_out(Unsubscribe(subscription=subscription), None)
+                self._refuse(subscription, "There is no such document.")
 
     def close(self) -> None:
         """Subscribe nothing more."""

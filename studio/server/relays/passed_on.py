@@ -6,6 +6,7 @@ import asyncio
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError
+from studio.protocol.commands import COMMAND_LIMIT_BYTES
 from studio.protocol.documents import Refused
 from studio.protocol.listeners import send
 from studio.server.relays.messages import Ask
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from studio.protocol.listeners import Listener
 
 _PENDING_MAX: Final = 10_000
+_PENDING_BYTES_MAX: Final = 32 << 20
 _STARTED_ANEW: Final = (
     "The studio was started anew before it answered: see whether this was done, and do it again "
     "if it was not."
@@ -53,25 +55,31 @@ class PassedOn:
     def __init__(self, put: Callable[[Ask], bool]) -> None:
         self._put = put
         self._asked: dict[int, _Asked] = {}
+        self._asked_bytes = 0
 
     async def ask(self, number: int, page: int, command: Command, listener: Listener) -> None:
         """Ask, and wait until it is answered; on a new line it is asked again.
 
         Raises:
-            CommandError: Too much is asked already.
+            CommandError: Too much is asked already, or it is too long.
         """
-        if len(self._asked) >= _PENDING_MAX:
+        if len(self._asked) >= _PENDING_MAX or self._asked_bytes > _PENDING_BYTES_MAX:
             raise CommandError("Too much is asked for here at once: try again in a moment.")
         if not command.id:  # asked twice it runs once
             now_s = asyncio.get_running_loop().time()
             command = command.model_copy(update={"id": f"{now_s:.6f}-{number}"})
-        ask = Ask(page, number, command.model_dump_json().encode())
+        text = command.model_dump_json().encode()
+        if len(text) > COMMAND_LIMIT_BYTES:
+            raise CommandError(f"A command of more than {COMMAND_LIMIT_BYTES} bytes is not read.")
+        ask = Ask(page, number, text)
+        self._asked_bytes += len(text)
         asked = self._asked[number] = _Asked(listener, command.request, ask)
         asked.was_sent = self._put(ask)
         try:
             await asked.settled
         finally:
             self._asked.pop(number, None)
+            self._asked_bytes -= len(text)
 
     def ask_again(self, arrive: Callable[[Listener], object]) -> None:
         """Ask on a new line; `arrive` has the origin know a page before."""

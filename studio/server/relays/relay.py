@@ -33,20 +33,29 @@ from studio.server.app import make_app
 from studio.server.credentials import Credentials
 from studio.server.front import Front
 from studio.server.pages import waiting_page
+from studio.server.relays.inbox import Inbox
 from studio.server.relays.line import Line
 from studio.server.relays.messages import Claim, ClaimAnswer, Signed
 from studio.server.relays.metrics import metrics
 from studio.server.relays.room import Room
 from studio.server.relays.sealing import Handshake
 from studio.server.relays.tickets import verify_room
-from studio.server.relays.uplink import CLAIM_KEY, LEASE_MS, SAMPLES_MAX, line_keys
+from studio.server.relays.uplink import (
+    CLAIM_KEY,
+    LEASE_MS,
+    PIECES_BYTES_MAX,
+    SAMPLES_MAX,
+    key_digest,
+    line_keys,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from starlette.types import ASGIApp, Receive, Scope, Send
 
-    from studio.ros.wire.zenoh import Config, Query, Sample, Session
+    from studio.protocol.roles import Person
+    from studio.ros.wire.zenoh import Config, Outgoing, Query, Sample, Session
     from studio.server.assets import Assets
     from studio.server.crowd import Crowd
     from studio.server.origin import KnownHosts
@@ -56,8 +65,6 @@ if TYPE_CHECKING:
 ROOMS_MAX: Final = 64
 _BLOBS_BYTES: Final = 512 << 20
 _CLAIMS_WAITING: Final = 64
-_MESSAGE_BYTES_MAX: Final = 2 << 20
-"""Zenoh's bound of one message; ours travel in pieces of 256 KiB."""
 _MATCHING_S: Final = 10.0
 _FORGOTTEN_S: Final = 24 * 3600.0
 """After so long a room is forgotten whose origin is away, and that nobody looks at."""
@@ -65,6 +72,30 @@ _TAKEN: Final = (
     "another studio with the key of this room claimed it later: end that one, and start this one "
     "anew to have it back."
 )
+_, _DOWN, _ALIVE = line_keys("*")
+_ACCESS: Final = {
+    "enabled": True,
+    "default_permission": "deny",
+    "rules": [
+        {
+            "id": name,
+            "permission": "allow",
+            "flows": flows,
+            "messages": messages,
+            "key_exprs": [key],
+        }
+        for name, flows, messages, key in (
+            ("claims", ["ingress"], ["query"], CLAIM_KEY),
+            ("down", ["ingress"], ["put"], _DOWN),
+            ("up", ["ingress"], ["declare_subscriber"], "studio-relay/*/up"),
+            ("alive", ["ingress"], ["liveliness_token"], _ALIVE),
+            ("told", ["egress"], ["put", "reply", "declare_subscriber", "declare_queryable"], "**"),
+        )
+    ],
+    "subjects": [{"id": "studios"}],
+    "policies": [{"rules": ["claims", "down", "up", "alive", "told"], "subjects": ["studios"]}],
+}
+"""Who has the key may claim and send; not answer claims for us, nor hear what others send here."""
 _BEARER: Final = "bearer "
 _log = logging.getLogger(__name__)
 
@@ -103,7 +134,8 @@ class Relay:
         self._front = hosts, port, proxies
         self.rooms: dict[str, Room] = {}
         self._apps: dict[str, tuple[str, ASGIApp]] = {}
-        self._lines: dict[str, tuple[Room, Line]] = {}
+        self._lines: dict[str, tuple[Room, Inbox]] = {}
+        """By their names, which only the two ends know; some have ended."""
         self._blobs = BlobStore(_BLOBS_BYTES)
         self.crowd: Crowd | None = None
         self._session: Session | None = None
@@ -156,7 +188,8 @@ class Relay:
         insert(config, "transport/unicast/accept_timeout", "5000")
         insert(config, "transport/unicast/max_sessions", str(4 * ROOMS_MAX))
         insert(config, "transport/link/tx/lease", str(LEASE_MS))
-        insert(config, "transport/link/rx/max_message_size", str(_MESSAGE_BYTES_MAX))
+        insert(config, "transport/link/rx/max_message_size", str(PIECES_BYTES_MAX))
+        insert(config, "access_control", json.dumps(_ACCESS))
         for key, json5 in self.identity.credentials.of_router().items():
             insert(config, key, json5)
         return config
@@ -171,7 +204,7 @@ class Relay:
             by_line.setdefault(name, []).append(sample.payload.to_bytes())
         for name, sealed in by_line.items():
             if found := self._lines.get(name):
-                found[1].feed(sealed)
+                found[1].put(sealed)
 
     def _origins(self, samples: list[Sample]) -> None:
         """Notice origins that went."""
@@ -182,8 +215,15 @@ class Relay:
 
     def _left(self, name: str) -> None:
         found = self._lines.pop(name, None)
-        if found is not None and found[0].line is found[1]:
+        if found is not None and found[0].line is found[1].line:
             found[0].hang_up()
+        self._forget_lines()
+
+    def _forget_lines(self) -> None:
+        for name, (_, inbox) in tuple(self._lines.items()):
+            if inbox.line.closed:
+                del self._lines[name]
+                inbox.close()
 
     def _claims(self, queries: list[Query]) -> None:
         for query in queries:
@@ -208,6 +248,8 @@ class Relay:
         except msgspec.MsgspecError as error:
             raise RelayLineError(f"a claim cannot be read ({error}).") from None
         verify_room(claim.room, claim.public, signed.body, signed.signature)
+        if claim.version == studio.__version__ and claim.relay != key_digest(self.identity.key):
+            raise RelayLineError("a claim was made for another relay.")
         made = self._admitted(claim, signed.body)
         body = msgspec.msgpack.encode(made)
         return msgspec.msgpack.encode(Signed(body, self.identity.sign(signed.body + body)))
@@ -234,7 +276,7 @@ class Relay:
             self._forget_rooms()
             if len(self.rooms) >= ROOMS_MAX:
                 return f"it serves {ROOMS_MAX} rooms already."
-            room = self.rooms[claim.room] = Room(claim.room, self._blobs, self._end_person)
+            room = self.rooms[claim.room] = Room(claim.room, self._blobs, self._end_people)
             room.address = f"{self.address}{claim.room}/"
         elif claim.session in room.replaced:
             return _TAKEN
@@ -246,22 +288,31 @@ class Relay:
         session = self._session
         assert session is not None
         up = line_keys(name)[0]
-        line = Line(self._loop, lambda: declare_stream(session, up, _MATCHING_S), keys)
-        self._lines[name] = (room, line)
+        line: Line
+
+        def publisher() -> Outgoing:
+            return declare_stream(session, up, _MATCHING_S, lambda: not line.closed)
+
+        line = Line(self._loop, publisher, keys)
+        self._forget_lines()
+        self._lines[name] = (room, Inbox(line))
         room.connect(line)
         return ""
 
     def _forget_rooms(self) -> None:
+        """Forget rooms that nobody is at: all that are so for long, others for a new one's sake."""
         now_s = self._loop.time()
-        for name, room in tuple(self.rooms.items()):
-            if not room.is_there and not room.pages and now_s - room.away_since_s > _FORGOTTEN_S:
-                del self.rooms[name]
-                self._apps.pop(name, None)
-                self._loop.create_task(room.close())
+        empty = [one for one in self.rooms.values() if not one.is_there and not one.pages]
+        for room in sorted(empty, key=lambda one: one.away_since_s):
+            if len(self.rooms) < ROOMS_MAX and now_s - room.away_since_s <= _FORGOTTEN_S:
+                return
+            del self.rooms[room.name]
+            self._apps.pop(room.name, None)
+            self._loop.create_task(room.close())
 
-    def _end_person(self, person: str) -> None:
+    def _end_people(self, are_meant: Callable[[Person], bool]) -> None:
         if self.crowd is not None:
-            self.crowd.end_person(person)
+            self.crowd.end(are_meant)
 
     # Browsers
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import NotJoiningError, TicketError
+from studio.protocol.classroom import You
 from studio.protocol.roles import Role, owner_of
 from studio.server.relays.tickets import read_ticket
 
@@ -25,6 +27,10 @@ class RelayedMember:
         self._room = room
         self.person, self.name, self.role = person, name, role
         self.ticket = ""
+
+    def is_of(self, room: RelayedClass) -> bool:
+        """Whether they came by a ticket of this room; another room may know them by the same id."""
+        return self._room is room
 
     def controls(self, document: str) -> bool:
         """Whether they have control, as far as the relay was told: the origin asks again."""
@@ -142,6 +148,14 @@ class RelayedClass:
 
     async def log_out(self) -> None:
         """Nobody may ask a relay for it."""
+
+    def note(self, you: bytes) -> None:
+        """Take what the origin says to a person of themselves."""
+        with suppress(ValueError):
+            event = You.model_validate_json(you)
+            member = self._people.get(event.person)
+            if member is not None and event.role != Role.PRESENTER.value:
+                member.role, member.name = Role(event.role), event.name
 
     def renew(self, state: RoomState) -> None:
         """Take what the origin says of the room."""

@@ -7,7 +7,7 @@ import itertools
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import CommandError
+from studio.errors import CommandError, OriginAwayError, RelayLineError
 from studio.server.relays.messages import STUDIO_LANE, CloseLane, Frame, OpenLane, Refresh
 
 if TYPE_CHECKING:
@@ -20,6 +20,12 @@ FOLLOWED: Final = frozenset({"view", "focus"})
 """Keys of what only those are shown who follow the presenter."""
 _KEPT_BYTES: Final = 256 << 10
 """Of frames since a snapshot, at least: a snapshot is asked for again once they are larger."""
+_SINCE_BYTES_MAX: Final = 128 << 20
+"""The snapshot that was asked for does not come, then."""
+_EACH_BYTES: Final = 300
+"""What a frame takes besides its bytes."""
+_LANES_MAX: Final = 2_000
+_OPENING_S: Final = 30.0
 _IDLE_S: Final = 60.0
 
 
@@ -60,12 +66,18 @@ class LaneCopy:
         self.is_there.set()
 
     def take(self, frame: Frame) -> bool:
-        """Pass a frame on; answers whether a snapshot would be smaller than what is kept."""
+        """Pass a frame on; answers whether a snapshot would be smaller than what is kept.
+
+        Raises:
+            RelayLineError: A snapshot was asked for, and far more came instead.
+        """
         key = frame.key or next(self._numbers)
         if before := self._since.pop(key, None):
             self._since_bytes -= len(before.data)
         self._since[key] = frame
         self._since_bytes += len(frame.data)
+        if self._since_bytes + _EACH_BYTES * len(self._since) > _SINCE_BYTES_MAX:
+            raise RelayLineError("changes come without end, and not the state that was asked for.")
         self._post(frame)
         if self.refreshing or self._since_bytes <= max(self._snapshot_bytes, _KEPT_BYTES):
             return False
@@ -122,8 +134,15 @@ class RelayedLanes:
         Raises:
             CommandError: There is no such lane.
         """
+        if name not in self._lanes and len(self._lanes) >= _LANES_MAX:
+            raise CommandError("More is open at this relay than it may show: close a page.")
         lane = self._lanes.get(name) or self._open(name)
-        await lane.is_there.wait()
+        try:
+            await asyncio.wait_for(lane.is_there.wait(), _OPENING_S)
+        except TimeoutError:
+            if self._lanes.get(name) is lane:
+                self.close(name, str(OriginAwayError()))
+            raise OriginAwayError from None
         if lane.trouble:
             raise CommandError(lane.trouble)
         lane.add(listener)

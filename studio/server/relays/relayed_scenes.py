@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _IDLE_S: Final = 60.0
 _WAITING_MAX: Final = 1_000
 """Frames that wait for parts of one before them; then the view is asked for anew."""
+_WAITING_BYTES_MAX: Final = 64 << 20
 
 
 class SceneHere:
@@ -32,8 +33,15 @@ class SceneHere:
         self.looking = 0
         self.idle_since_s = loop.time()
         self.waiting: deque[SceneFrame] = deque()
+        self.waiting_bytes = 0
         self.missing: set[bytes] = set()
         """Digests of what the first of them lacks, besides what is on the way for the others."""
+
+    def clear(self) -> None:
+        """Forget the frames that wait."""
+        self.waiting.clear()
+        self.missing.clear()
+        self.waiting_bytes = 0
 
 
 class RelayedScenes:
@@ -75,10 +83,16 @@ class RelayedScenes:
             here.idle_since_s = asyncio.get_running_loop().time()
 
     def take(self, message: SceneFrame) -> None:
-        """Take a frame: shown at once, or when its parts are there."""
+        """Take a frame: shown at once, or when its parts are there.
+
+        Raises:
+            SceneError: It is none.
+        """
         here = self._scenes.get(message.document)
         if here is None:
             return
+        if len(message.parts) != len(message.is_digest):
+            raise SceneError("It is not said of each part of a frame what it is.")
         parts = zip(message.parts, message.is_digest, strict=True)
         digests = {part for part, is_digest in parts if is_digest}
         if digests:
@@ -86,7 +100,8 @@ class RelayedScenes:
             here.missing.update(lacking)
             self._send(WantBlobs(message.document, lacking))
         here.waiting.append(message)
-        if len(here.waiting) > _WAITING_MAX:
+        here.waiting_bytes += sum(map(len, message.parts))
+        if len(here.waiting) > _WAITING_MAX or here.waiting_bytes > _WAITING_BYTES_MAX:
             self._open_anew(here)
         self._show(here)
 
@@ -96,6 +111,8 @@ class RelayedScenes:
         Raises:
             SceneError: It is not what its digest says.
         """
+        if not any(blob.digest in here.missing for here in self._scenes.values()):
+            return  # nobody asked for it: it would only take the place of others'
         self._blobs.put(blob.digest, blob.data)
         for here in self._scenes.values():
             if blob.digest in here.missing:
@@ -110,8 +127,7 @@ class RelayedScenes:
     def reset(self) -> None:
         """The origin went: what waits for parts never gets them."""
         for here in self._scenes.values():
-            here.waiting.clear()
-            here.missing.clear()
+            here.clear()
 
     def renew(self) -> None:
         """The origin is there again: open anew what is looked at."""
@@ -142,10 +158,10 @@ class RelayedScenes:
                     self._open_anew(here)
                 return
             here.waiting.popleft()
+            here.waiting_bytes -= sum(map(len, message.parts))
             self.frame_count += 1
             here.scene.take(frame, is_first=message.is_first)
 
     def _open_anew(self, here: SceneHere) -> None:
-        here.waiting.clear()
-        here.missing.clear()
+        here.clear()
         self._send(OpenScene(here.document, self._ticket_for(here.document)))

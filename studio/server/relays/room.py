@@ -11,8 +11,9 @@ import itertools
 import logging
 from collections import deque
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from studio.documents.exports import Download
 from studio.errors import (
@@ -33,6 +34,7 @@ from studio.protocol.roles import Role, owner_of
 from studio.server.data_lane import DataLane
 from studio.server.relays.messages import (
     CHANGES,
+    NAME_LETTERS_MAX,
     OPERATIONS,
     Arrive,
     AskDownload,
@@ -59,13 +61,15 @@ from studio.server.relays.messages import (
     decode_down,
 )
 from studio.server.relays.passed_on import PassedOn
-from studio.server.relays.relayed_class import RelayedClass
+from studio.server.relays.questions import Questions
+from studio.server.relays.relayed_class import RelayedClass, RelayedMember
 from studio.server.relays.relayed_lanes import RelayedLanes
 from studio.server.relays.relayed_scenes import RelayedScenes
 from studio.server.relays.relayed_topics import RelayedTopics
 from studio.server.relays.room_documents import OnlyThere, RoomDocument
 from studio.server.relays.shared_reads import SharedReads, is_shared
 from studio.server.relays.standing import Standing
+from studio.server.relays.tickets import TICKET_LETTERS_MAX
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -73,6 +77,7 @@ if TYPE_CHECKING:
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
+    from studio.protocol.roles import Person
     from studio.scene.frame_parts import BlobStore
     from studio.server.relays.line import Line
     from studio.server.relays.messages import Down, Up
@@ -82,6 +87,8 @@ PATIENCE_S: Final = 3.0
 _GIVE_UP_S: Final = 90.0
 """So long an answer is waited for that was asked for before the origin went."""
 _TICK_S: Final = 1.0
+_GREETING_S: Final = 15.0
+"""So long after it claimed its room an origin has time to say what the room is."""
 _REPLACED_MAX: Final = 16
 _YOU: Final = b'{"type":"you"'
 _log = logging.getLogger(__name__)
@@ -93,11 +100,16 @@ class Room:
     Args:
         name: The room's.
         blobs: Large parts of 3D views, of all rooms.
-        end_person: Ends all connections of a person.
+        end_people: Ends all connections of some people.
     """
 
-    def __init__(self, name: str, blobs: BlobStore, end_person: Callable[[str], object]) -> None:
-        self.name, self._end_person = name, end_person
+    def __init__(
+        self,
+        name: str,
+        blobs: BlobStore,
+        end_people: Callable[[Callable[[Person], bool]], object],
+    ) -> None:
+        self.name, self._end_people = name, end_people
         self._line: Line | None = None
         self._loop = asyncio.get_running_loop()
         self._pages: dict[Listener, int] = {}
@@ -107,7 +119,7 @@ class Room:
         self.scenes = RelayedScenes(self._send, self._ticket_for, blobs)
         self.browser_topics = RelayedTopics(self._send, self._ticket_of)
         self.uploads = self.copies = OnlyThere()
-        self._greeted = False
+        self._greeted, self._greet_by_s = False, 0.0
         self._before_bytes = [0, 0, 0]
         """Received, sent and refused on lines that have ended."""
         self._arrived: set[int] = set()
@@ -118,8 +130,8 @@ class Room:
         self._standing = Standing()
         self._renewing: set[asyncio.Task[None]] = set()
         self._reads = SharedReads(self._pass_on, self.detach, lambda: self.lanes.frame_count)
-        self._joining: dict[int, asyncio.Future[Joined]] = {}
-        self._downloading: dict[int, asyncio.Future[Downloaded]] = {}
+        self._joining = Questions[Joined](self._send, _JOINING_MAX)
+        self._downloading = Questions[Downloaded](self._send, _DOWNLOADING_MAX)
         self._sent_viewers = Viewers(0, 0)
         self.away_since_s = self._loop.time()
         self.replaced: deque[str] = deque(maxlen=_REPLACED_MAX)
@@ -182,7 +194,7 @@ class Room:
         self._line = line
         self._arrived.clear()
         self._sent_viewers = Viewers(0, 0)
-        self._greeted = False
+        self._greeted, self._greet_by_s = False, self._loop.time() + _GREETING_S
         line.begin(self)
 
     def hang_up(self, reason: str = "") -> None:
@@ -196,9 +208,8 @@ class Room:
         for at, count in enumerate((line.received_bytes, line.sent_bytes, line.refused)):
             self._before_bytes[at] += count
         line.close()
-        for waiting in (*self._joining.values(), *self._downloading.values()):
-            if not waiting.done():
-                waiting.set_exception(OriginAwayError())
+        self._joining.give_up()
+        self._downloading.give_up()
         self.browser_topics.reset()
         self.scenes.reset()
         self._tell_all()
@@ -214,7 +225,7 @@ class Room:
         """Take a message of the origin; one that is none ends the line."""
         try:
             self._carry_out(decode_down(data))
-        except StudioError as error:
+        except (StudioError, ValueError) as error:  # or what it says to a page cannot be read
             _log.warning("%s", error)
             self.hang_up()
 
@@ -251,11 +262,15 @@ class Room:
             case Pong():
                 self.round_trip_s = (self._now_ns() - message.sent_ns) / 1e9
             case EndPerson():
-                self._end_person(message.person)
+                self._end_people(partial(self._is_ours, message.person))
             case Joined():
-                _resolve(self._joining, message)
+                self._joining.answer(message)
             case Downloaded():
-                _resolve(self._downloading, message)
+                self._downloading.answer(message)
+
+    def _is_ours(self, person: str, visitor: Person) -> bool:
+        member = visitor if isinstance(visitor, RelayedMember) else None
+        return member is not None and member.person == person and member.is_of(self.classroom)
 
     def _send(self, message: Up) -> bool:
         """Send a message; answers whether there is a line."""
@@ -275,8 +290,8 @@ class Room:
         if before is not None and before.session != state.session:
             self._passed_on.refuse_sent()
             # As after any restart of a studio, pages come again, and ask anew for what they show.
-            for person in {one.person for one in self._pages}:
-                self._end_person(person)
+            people = {one.person for one in self._pages}
+            self._end_people(lambda one: one.person in people)
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
@@ -365,15 +380,8 @@ class Room:
             return
         frame = message.frame
         if frame.data.startswith(_YOU):
-            self._note_role(frame.data)
+            self.classroom.note(frame.data)
         listener.post(frame.data, binary=frame.binary, key=frame.key or None)
-
-    def _note_role(self, data: bytes) -> None:
-        with suppress(ValueError):
-            you = You.model_validate_json(data)
-            member = self.classroom.person(you.person)
-            if member is not None and you.role != Role.PRESENTER.value:
-                member.role, member.name = Role(you.role), you.name
 
     # Commands
 
@@ -384,6 +392,7 @@ class Room:
             StudioError: It cannot be done.
         """
         if isinstance(command, Watch):
+            self.check(command.document)
             self.lanes.leave(listener)
             await self.lanes.watch(command.document, listener)
         elif isinstance(command, FollowChanges):
@@ -429,9 +438,12 @@ class Room:
         if not self.is_there:
             raise NotJoiningError("away", "The studio is away: try again in a moment.")
         number = next(self._numbers)
-        form = AskJoin(number, name[:400], code[:64], password[:400], ticket)
+        before = ticket if len(ticket) <= TICKET_LETTERS_MAX else ""
+        form = AskJoin(number, name[:400], code[:64], password[:400], before)
+        if self._joining.is_full:
+            raise NotJoiningError("tries", "Too many join at once: try again in a moment.")
         try:
-            return await self._answered(self._joining, number, form)
+            return await self._joining.ask(number, form)
         except OriginAwayError as error:
             raise NotJoiningError("away", str(error)) from None
 
@@ -444,25 +456,14 @@ class Room:
             StudioError: It cannot be made, or the origin is away.
         """
         self._check_there()
+        if self._downloading.is_full or len(document) > NAME_LETTERS_MAX:
+            raise CommandError("Too much is asked for here at once: try again in a moment.")
         number = next(self._numbers)
         asked = AskDownload(number, self._ticket_for(document), document, what, tuple(options))
-        found = await self._answered(self._downloading, number, asked)
+        found = await self._downloading.ask(number, asked)
         if found.kind:
             raise CommandError(found.reason)
         return Download(found.name, found.media_type, (found.data,))
-
-    async def _answered(
-        self, waiting: dict[int, asyncio.Future[Any]], number: int, message: Up
-    ) -> Any:  # noqa: ANN401 - of the kind that is waited for
-        future: asyncio.Future[Any] = self._loop.create_future()
-        waiting[number] = future
-        self._send(message)
-        try:
-            return await asyncio.wait_for(future, _ANSWER_S)
-        except TimeoutError:
-            raise OriginAwayError from None
-        finally:
-            waiting.pop(number, None)
 
     def _ticket_of(self, lane: DataLaneEnd) -> str:
         """Return the ticket of a data lane's person."""
@@ -515,7 +516,8 @@ class Room:
             UnknownDocumentError: There is none.
         """
         state = self.classroom.state
-        if not owner_of(name) and (state is None or name not in state.documents):
+        is_known = owner_of(name) or (state is not None and name in state.documents)
+        if not is_known or len(name) > NAME_LETTERS_MAX:
             raise UnknownDocumentError(name)
 
     async def ready(self, name: str) -> RoomDocument:
@@ -532,6 +534,8 @@ class Room:
             await asyncio.sleep(_TICK_S)
             self.lanes.close_idle()
             self.scenes.close_idle()
+            if self._line and not self._greeted and self._loop.time() > self._greet_by_s:
+                self.hang_up()
             if self.is_there:
                 self._send(Ping(self._now_ns()))
                 self._tell_viewers()
@@ -547,11 +551,6 @@ class Room:
             self._send(viewers)
 
 
-_ANSWER_S: Final = 30.0
+_JOINING_MAX, _DOWNLOADING_MAX = 200, 8
+"""So many ask the origin at once."""
 _NOWHERE: Final = Path("/nonexistent")
-
-
-def _resolve(waiting: dict[int, asyncio.Future[Any]], message: Joined | Downloaded) -> None:
-    future = waiting.get(message.number)
-    if future is not None and not future.done():
-        future.set_result(message)

@@ -18,7 +18,8 @@ PUBLIC_BYTES: Final = 32
 SEAL_BYTES: Final = 24
 """A sealed message is longer by this."""
 MESSAGE_BYTES_MAX: Final = 64 * 1024 * 1024
-PIECE_BYTES: Final = 256 * 1024
+PIECE_BYTES: Final = 64 * 1024
+"""Many pieces may wait to be read, of each line: they bound what that takes."""
 _NUMBER_BYTES: Final = 8
 _KEY_BYTES: Final = 32
 _NONCE_START: Final = b"\0\0\0\0"
@@ -161,9 +162,10 @@ def _mark(is_first: bool, more_follows: bool) -> bytes:  # noqa: FBT001
 
 
 class Joiner:
-    """Joins the pieces of messages; for one thread."""
+    """Joins the pieces of messages of at most `most_bytes`; for one thread."""
 
-    def __init__(self) -> None:
+    def __init__(self, most_bytes: int = MESSAGE_BYTES_MAX) -> None:
+        self._most_bytes = most_bytes
         self._half: bytearray | None = None
         self._skips = False
 
@@ -190,21 +192,20 @@ class Joiner:
                 raise RelayLineError("a message began within another.")
             self._skips = False
             if not more_follows:
-                return _bounded(piece[1:])
+                return self._bounded(piece[1:])
             half = bytearray()
         elif self._skips:
             return None
         elif half is None:
             raise RelayLineError("a piece came of a message that did not begin.")
         half += memoryview(piece)[1:]
-        _bounded(half)
+        self._bounded(half)
         if not more_follows:
             return bytes(half)
         self._half = half
         return None
 
-
-def _bounded(message: BytesT) -> BytesT:
-    if len(message) > MESSAGE_BYTES_MAX:
-        raise RelayLineError(f"a message has more than {MESSAGE_BYTES_MAX} bytes.")
-    return message
+    def _bounded(self, message: BytesT) -> BytesT:
+        if len(message) > self._most_bytes:
+            raise RelayLineError(f"a message has more than {self._most_bytes} bytes.")
+        return message

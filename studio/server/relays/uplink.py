@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import json
 import logging
+import re
 from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol
 
 import msgspec
@@ -28,7 +30,7 @@ from studio.ros.wire.zenoh import (
     watch_transports,
 )
 from studio.server.relays.line import Line
-from studio.server.relays.messages import Claim, ClaimAnswer, Signed
+from studio.server.relays.messages import UP_BYTES_MAX, Claim, ClaimAnswer, Signed
 from studio.server.relays.sealing import Handshake
 
 if TYPE_CHECKING:
@@ -43,8 +45,14 @@ LEASE_MS: Final = 5_000
 """A relay or an origin that is silent for so long is gone: a cut cable tells nobody."""
 SAMPLES_MAX: Final = 4_096
 """Of a line that are not read yet; of more the oldest are lost, which ends the line."""
+PIECES_BYTES_MAX: Final = 128 << 10
+"""Of what either side takes of the other at once; a piece of a message is half as large."""
+_REASON_MAX: Final = 200
+_ADDRESS: Final = re.compile(r"https?://[A-Za-z0-9.:\[\]-]{1,260}/[A-Za-z0-9._~%/-]{0,260}")
+"""Of a page; it is shown to people, and other relays send theirs there."""
 _CLAIM_TIMEOUT_S: Final = 5.0
 _MATCHING_TIMEOUT_S: Final = 5.0
+_LINE: Final = re.compile(r"[0-9a-f]{16}")
 _RETRY_S: Final = (0.25, 0.5, 1.0, 2.0)
 """From one attempt to the next, unless the first took longer."""
 _OPEN_MS: Final = (3_000, 3_000, 3_000, 6_000)
@@ -54,8 +62,18 @@ _log = logging.getLogger(__name__)
 
 
 def line_keys(line: str) -> tuple[str, str, str]:
-    """Return the keys of a line's two streams, to the origin and to the relay, and of its token."""
-    return f"studio-relay/{line}/up", f"studio-relay/{line}/down", f"studio-relay/{line}/alive"
+    """Return the keys of a line's two streams, to the origin and to the relay, and of its token.
+
+    Others who have the relay's key may read the first: it does not tell them the name of the line,
+    by which they could send something to the second, or end the token.
+    """
+    shown = hashlib.blake2b(line.encode(), digest_size=8).hexdigest()
+    return f"studio-relay/{shown}/up", f"studio-relay/{line}/down", f"studio-relay/{line}/alive"
+
+
+def key_digest(key: str) -> bytes:
+    """Return what names a relay's key to those who have it."""
+    return hashlib.blake2b(key.encode(), digest_size=16, person=b"relay of a claim").digest()
 
 
 class OriginEnd(Protocol):
@@ -219,7 +237,8 @@ class Uplink:
     def _claim(self, session: Session, watch: ReadingThread[TransportEvent]) -> Claimed:
         handshake, identity = Handshake(), self._identity()
         claim = Claim(
-            studio.__version__, identity.id, identity.public, handshake.public, self._session
+            *(studio.__version__, identity.id, identity.public, handshake.public, self._session),
+            key_digest(self.relay.key),
         )
         body = msgspec.msgpack.encode(claim)
         signed = msgspec.msgpack.encode(Signed(body, identity.sign(body)))
@@ -228,12 +247,14 @@ class Uplink:
             raise RelayError(f"What answers at {self.relay.endpoint} is no relay of a studio.")
         answer = self._checked(found, body)
         if answer.reason:
-            raise RelayRefusedError(self.relay.endpoint, answer.reason)
+            raise RelayRefusedError(self.relay.endpoint, answer.reason[:_REASON_MAX])
+        if not (_ADDRESS.fullmatch(answer.address) and _LINE.fullmatch(answer.line)):
+            raise RelayLineError("its answer names no line, or no address of a page.")
         keys = handshake.keys(answer.handshake, body, is_origin=True)
         up, down, alive = line_keys(answer.line)
         incoming = declare_subscription(session, up, SAMPLES_MAX, reliable=True)
         publisher = declare_stream(session, down, _MATCHING_TIMEOUT_S)
-        line = Line(self._task.get_loop(), lambda: publisher, keys)
+        line = Line(self._task.get_loop(), lambda: publisher, keys, UP_BYTES_MAX)
         reading = _reading(incoming, line)
         token = declare_token(session, alive)
 
@@ -290,6 +311,7 @@ def _config(relay: RelayAddress, open_ms: int) -> Config:
     insert(config, "scouting/multicast/enabled", "false")
     insert(config, "transport/link/tx/lease", str(LEASE_MS))
     insert(config, "transport/unicast/open_timeout", str(open_ms))
+    insert(config, "transport/link/rx/max_message_size", str(PIECES_BYTES_MAX))
     for key, json5 in relay.credentials.of_session().items():
         insert(config, key, json5)
     return config
