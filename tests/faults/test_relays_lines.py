@@ -24,8 +24,10 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.network
 AWAY_S = LEASE_MS / 1000 + 5
 """A cut is noticed within this, on a busy machine."""
-BACK_S = 20.0
-"""So long after the line is whole, all goes on at the latest, on a busy machine."""
+BACK_S = 8.0
+"""So long after the line is whole, all goes on at the latest, on a busy machine: what was begun
+while it was cut is given up before.
+"""
 OTHERS_ASK = 1_100
 LESSON = "# Length\n\ncheck: property base_length is 0.61\n\nNow open it.\n\ncheck: opened origin\n"
 CUTS = [
