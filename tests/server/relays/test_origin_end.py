@@ -223,9 +223,7 @@ def test_no_page_does_what_only_more_than_its_person_may(hostile: HostileClass, 
         if refused["kind"] not in {"NotAllowedError", "UnknownDocumentError"}:
             executed.append(f"{kind}: {refused}")
     assert hostile.ask(page, "save", document="rover")["kind"] == "NotInControlError"
-    assert {"open_path", "list_folder", "start_class", "add_relay"} <= {
-        *commands_above(role)
-    }
+    assert {"open_path", "list_folder", "start_class", "add_relay"} <= {*commands_above(role)}
     assert not executed
     for fields in ({"type": "set_member_role", "person": member.person, "role": "helper"},):
         assert hostile.ask_text(page, json.dumps(fields).encode())["kind"] == "NotAllowedError"
