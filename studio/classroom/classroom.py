@@ -48,7 +48,7 @@ from studio.protocol.classroom import (
 from studio.protocol.classroom import Control as ControlEvent
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import Audience, encode, send
-from studio.protocol.roles import Role, original_of
+from studio.protocol.roles import RELAY, Role, original_of
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -180,7 +180,7 @@ class Classroom:
         """
         self._everybody.add(listener)
         send(listener, self._control_event())
-        if listener.person:
+        if listener.person != RELAY:
             self.arrive(listener)
         self.following.attach(listener)
         send(listener, self.nodes.event())

@@ -6,7 +6,7 @@ import asyncio
 from collections import deque
 from typing import TYPE_CHECKING, Final
 
-from studio.protocol.roles import Role, owner_of
+from studio.protocol.roles import RELAY, Role, owner_of
 from studio.scene import SUBPROTOCOL
 from studio.scene.frame_parts import split_frame
 from studio.server.relays.messages import (
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from studio.server.relays.line import Line
     from studio.server.surface import OpenScene
 
-_NOBODY: Final = ""
-
 
 class OriginLane:
     """A Listener to which the studio sends what a guest's page gets, for all of a relay's pages.
@@ -48,7 +46,7 @@ class OriginLane:
         sees: Callable[[str], bool],
     ) -> None:
         self.lane, self._sees = lane, sees
-        self.role, self.person = Role.GUEST, _NOBODY
+        self.role, self.person = Role.GUEST, RELAY
         self._outlet, self._before = outlet, before
         self._number = 0
         self._collected: list[Frame] | None = None

@@ -74,6 +74,8 @@ class LaneCopy:
         key = frame.key or next(self._numbers)
         if before := self._since.pop(key, None):
             self._since_bytes -= len(before.data)
+        if not frame.data:  # what had this key holds no more
+            return False
         self._since[key] = frame
         self._since_bytes += len(frame.data)
         if self._since_bytes + _EACH_BYTES * len(self._since) > _SINCE_BYTES_MAX:
