@@ -220,8 +220,8 @@ class Uplink:
         except ZError as error:
             raise RelayError(
                 f"No relay answers at {endpoint}: see that `studio relay` runs there, that its "
-                f"port is open, and that the key is its own ({_reason(error)})."
-            ) from None
+                "port is open, and that the key is its own."
+            ) from error
         watch: ReadingThread[TransportEvent] | None = None
         try:
             watch = _watch_router(session, self._task.get_loop(), self._ended.set)
@@ -279,10 +279,6 @@ def _let_go(dialled: asyncio.Future[Claimed]) -> None:
         claimed = dialled.result()
         claimed.line.close()
         claimed.close()
-
-
-def _reason(error: ZError) -> str:
-    return str(error).split(" at /")[0][:160]
 
 
 def _reading(incoming: Incoming[Sample], line: Line) -> ReadingThread[Sample]:
