@@ -56,6 +56,19 @@ DISPLAYS_NAMED = {
 }
 COMMANDS_PASSED_ON = {
     "AddDisplay": {"studio/live/displays/ghost.py"},
+    # A relay does these by itself, and asks for what many follow once.
+    "Watch": {"studio/server/relays/room.py"},
+    "Follow": {
+        "studio/server/relays/room.py",
+        "studio/server/relays/origin_end.py",
+        "studio/server/relays/standing.py",
+    },
+    "OpenLesson": {"studio/server/relays/standing.py"},
+    "CloseLesson": {"studio/server/relays/standing.py"},
+    "SawPanel": {"studio/server/relays/standing.py"},
+    "FollowParameters": {"studio/server/relays/standing.py"},
+    "FollowChanges": {"studio/server/relays/room.py", "studio/server/relays/origin_end.py"},
+    "FollowOperations": {"studio/server/relays/room.py", "studio/server/relays/origin_end.py"},
     "AddToPackage": {"studio/live/programs/making.py"},
     "CreatePackage": {"studio/live/programs/making.py"},
     "GetGraph": {"studio/live/panels/recorded.py"},

@@ -56,10 +56,10 @@ function Open({ state, onClose }) {
     onClose();
     commandById("panel.people")?.run();
   };
-  return html`<${JoinBlock} state=${state} />
+  return html`<div class="class-open"><${JoinBlock} state=${state} />
     ${state.only_here && html`<${OnlyHere} />`}
     <${JoinSettings} state=${state} />
-    <${Relays} />
+    <${Relays} /></div>
     <footer><button type="button" class="button danger" onClick=${askToEnd}>${t("class.end")}…</button>
       <button type="button" class="button" onClick=${pauseClass}>${t("class.pause")}</button><span class="push"></span>
       <button type="button" class="button primary" data-first onClick=${showPeople}><${Icon} name="users" />${t("class.people", { count: hereCount.value })}</button></footer>`;

@@ -6,6 +6,7 @@ import { html, useEffect, useSignal } from "vendor/preact.js";
 import { copyText } from "../lib/clipboard.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, EmptyState, Icon, ProgressBar } from "../lib/ui.js";
+import { isAtRelay } from "../model/relays.js";
 import {
   accessRefused,
   askForAccess,
@@ -47,6 +48,7 @@ function Access({ access }) {
     if (await copyText(line)) notify(t("nodes.copied"));
   };
   return html`<p class="dialog-text">${t("nodes.text", { domain: access.domain })}</p>
+    ${isAtRelay.value && html`<p class="dialog-text">${t("nodes.at_relay", { endpoint: access.endpoint })}</p>`}
     <div class="nodes-line"><label class="field"><span>${t("nodes.shell")}</span>
         <select class="box" value=${shell.value} onChange=${(/** @type {any} */ event) => {
           shell.value = event.currentTarget.value;

@@ -16,6 +16,7 @@ import {
   showingLastGood,
 } from "../model/document.js";
 import { followOperations, repeatedPublications } from "../model/operations.js";
+import { studioAway } from "../model/relays.js";
 import { connectRos, ros } from "../model/ros.js";
 import { heldBack } from "../model/source.js";
 import { dialog } from "../model/view.js";
@@ -37,7 +38,7 @@ export function StatusBar() {
 }
 
 function Link() {
-  const state = connection.value;
+  const state = studioAway.value ? "away" : connection.value;
   const words = state === "connected" ? t(`role.${role.value}`) : t(`connection.${state}`);
   const hint = version.value ? t("version", { version: version.value }) : "";
   return html`<span class=${`link-state ${state}`} title=${hint}><span class="dot"></span>${words}</span>`;

@@ -25,6 +25,8 @@ const SAY_MS = 1500;
 
 /** The presenter's; null: not told. @type {Signal<readonly RelayView[] | null>} */
 export const relays = signal(null);
+/** This page came by a relay. */
+export const isAtRelay = signal(false);
 /** What the page shows is the last that came. */
 export const studioAway = signal(false);
 /** Our relay is gone, and the page is about to go on at another. */
@@ -40,6 +42,7 @@ subscribe("relays", (event) => {
 });
 
 subscribe("relay_state", (event) => {
+  isAtRelay.value = true;
   studioAway.value = event.studio === "away";
   const before = String(others.map(healthOf));
   others = event.others ?? [];

@@ -48,7 +48,7 @@ from studio.protocol.classroom import (
 from studio.protocol.classroom import Control as ControlEvent
 from studio.protocol.commands import Commands, Limits, Scope
 from studio.protocol.listeners import Audience, encode, send
-from studio.protocol.roles import Role, original_of
+from studio.protocol.roles import RELAY, Role, original_of
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -180,7 +180,7 @@ class Classroom:
         """
         self._everybody.add(listener)
         send(listener, self._control_event())
-        if listener.person:
+        if listener.person != RELAY:
             self.arrive(listener)
         self.following.attach(listener)
         send(listener, self.nodes.event())
@@ -215,7 +215,7 @@ class Classroom:
         pages.remove(listener)
         if not pages:
             del self._pages[person]
-            self.control.left(person)
+            self.control.left(person, may_move=bool(self.relays.addresses()))
         self._changed()
 
     def is_here(self, person: str) -> bool:
@@ -255,6 +255,8 @@ class Classroom:
             self.end_pages(person)
         await self.nodes.stop()
         await self._file.delete()
+        if self.relay_lines:  # which are about nobody
+            await self._keep_quietly()
         if self.on_end is not None:
             await self.on_end()
 

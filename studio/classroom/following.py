@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 from studio.protocol.classroom import Focus, Gather, Leading
 from studio.protocol.listeners import Audience, encode, send
+from studio.protocol.roles import RELAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -19,7 +20,7 @@ VIEW: Final = 2
 """First byte of the frame; 1 are joints."""
 _FRAME: Final = struct.Struct("<BB6x13f")
 _NOWHERE: Final = (math.nan,) * 3
-_KEY: Final = "view"
+_KEY, _FOCUS_KEY = "view", "focus"
 
 
 class Seen(NamedTuple):
@@ -60,14 +61,21 @@ class Following:
         self._followers.pop(listener, None)
         self._shown_elsewhere.discard(listener)
         if self._leader is listener:  # who comes now is not taken to where it was
-            self._view, self._focus, self._leader = b"", None, None
+            self._forget()
 
     def lead(self, *, leading: bool) -> None:
         """Show others what the presenter looks at, or no longer."""
         self.leading = leading
         if not leading:
-            self._view, self._focus, self._leader = b"", None, None
+            self._forget()
         self._everybody.send(Leading(leading=leading))
+
+    def _forget(self) -> None:
+        self._view, self._focus, self._leader = b"", None, None
+        for page in self._followers:
+            if page.person == RELAY:  # it keeps them for who comes later
+                page.post(b"", binary=True, key=_KEY)
+                page.post(b"", binary=True, key=_FOCUS_KEY)
 
     def gather(self, document: str = "") -> None:
         """Bring everybody to what the presenter looks at, or first to a document."""
@@ -126,7 +134,7 @@ class Following:
         self._focus = focus
         data = encode(focus)
         for page in pages:
-            page.post(data, key="focus")
+            page.post(data, key=_FOCUS_KEY)
 
     def _others(self, leader: Listener, document: str) -> list[Listener]:
         """Return those who follow: to a copy that is not shown to them they are not taken."""

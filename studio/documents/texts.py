@@ -220,7 +220,7 @@ COMMANDS: Final = Commands[Texts](Scope.DOCUMENT)
 COMMANDS.controller(
     EditText, lambda texts, c, who: texts.edit(c, who.role), on_copies=OnCopies.WITHIN_ROOM
 )
-COMMANDS.viewer(GetText, lambda texts, c, who: texts.answer(c, who.role))
+COMMANDS.viewer(GetText, lambda texts, c, who: texts.answer(c, who.role), same_for_all=True)
 
 
 def _edits(file: str, text: EditorText, changes: Sequence[TextChange]) -> tuple[Edit, ...]:

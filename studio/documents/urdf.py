@@ -226,7 +226,7 @@ class UrdfText:
 
 
 COMMANDS: Final = Commands[UrdfText](Scope.DOCUMENT)
-COMMANDS.viewer(GetUrdf, lambda urdf, c, _: urdf.answer(c))
+COMMANDS.viewer(GetUrdf, lambda urdf, c, _: urdf.answer(c), same_for_all=True)
 COMMANDS.viewer(GetUrdfChanges, lambda urdf, c, _: urdf.changes(c))
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, StrEnum, auto
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
@@ -136,6 +136,8 @@ class CommandEntry(Generic[_Target]):
     on_copies: OnCopies = OnCopies.ALLOWED
     reviews: bool = False
     """Whether a presenter who sends it has seen what the texts are now."""
+    same_for_all: bool = False
+    """Whether all of one role are answered alike, so that a relay asks it once for many."""
 
 
 class Commands(Generic[_Target]):
@@ -167,9 +169,13 @@ class Commands(Generic[_Target]):
         *,
         needs_router: bool = False,
         limits: Limits | None = None,
+        same_for_all: bool = False,
     ) -> None:
         """Add a command that everybody may send who sees the page."""
-        self._add(message, work, Role.GUEST, needs_router=needs_router, limits=limits)
+        permission = Permission(type_of(message), Role.GUEST, self._scope)
+        limits = limits or Limits()
+        entry = CommandEntry(permission, message, work, needs_router, limits)
+        self._put(replace(entry, same_for_all=same_for_all))
 
     def student(
         self,
@@ -273,6 +279,7 @@ def _within(
         entry.limits,
         entry.on_copies,
         entry.reviews,
+        entry.same_for_all,
     )
 
 
@@ -307,8 +314,11 @@ class CommandRates:
                 del self._left[one]
 
 
-REMEMBERED_MAX: Final = 2_000
-"""Outcomes, of all persons together; of who has most of them the oldest are forgotten first."""
+REMEMBERED_MAX: Final = 20_000
+"""Outcomes, of all persons together; those of who asked nothing for longest are forgotten first."""
+REMEMBERED_OF_ONE: Final = 200
+"""Outcomes of one person: more than pages of theirs have on the way. However much others ask, what
+was asked before a line was cut runs once when it is asked again."""
 
 
 class AtMostOnce:
@@ -319,8 +329,7 @@ class AtMostOnce:
     """
 
     def __init__(self) -> None:
-        self._outcomes: dict[str, OrderedDict[str, asyncio.Task[Answer]]] = {}
-        """By person, so that nobody has others' forgotten by sending many."""
+        self._outcomes: OrderedDict[str, OrderedDict[str, asyncio.Task[Answer]]] = OrderedDict()
         self._count = 0
 
     async def run(
@@ -336,28 +345,29 @@ class AtMostOnce:
         """
         if not command.id:
             return await carry_out(command, asker)
-        own = self._outcomes.get(asker.person)
-        outcome = None if own is None else own.get(command.id)
-        if outcome is None:
-            outcome = asyncio.ensure_future(carry_out(command, asker))
-            outcome.add_done_callback(_noticed)
-            self._remember(asker.person, command.id, outcome)
+        known = self._outcomes.get(asker.person)
+        running = None if known is None else known.get(command.id)
+        if running is None:
+            running = asyncio.ensure_future(carry_out(command, asker))
+            running.add_done_callback(_noticed)
+            self._remember(asker.person, command.id, running)
         # Who asked may leave: what runs is finished all the same.
-        answer = await asyncio.shield(outcome)
+        answer = await asyncio.shield(running)
         if answer is not None and "request" in type(answer).model_fields:
             return answer.model_copy(update={"request": command.request})
         return answer
 
-    def _remember(self, person: str, id_: str, outcome: asyncio.Task[Answer]) -> None:
-        self._outcomes.setdefault(person, OrderedDict())[id_] = outcome
+    def _remember(self, person: str, name: str, running: asyncio.Task[Answer]) -> None:
+        outcomes = self._outcomes.setdefault(person, OrderedDict())
+        self._outcomes.move_to_end(person)
+        outcomes[name] = running
         self._count += 1
-        if self._count <= REMEMBERED_MAX:
-            return
-        most = max(self._outcomes, key=lambda one: len(self._outcomes[one]))
-        self._outcomes[most].popitem(last=False)
-        self._count -= 1
-        if not self._outcomes[most]:
-            del self._outcomes[most]
+        if len(outcomes) > REMEMBERED_OF_ONE:
+            outcomes.popitem(last=False)
+            self._count -= 1
+        while self._count > REMEMBERED_MAX:
+            _, forgotten = self._outcomes.popitem(last=False)
+            self._count -= len(forgotten)
 
 
 def _noticed(outcome: asyncio.Task[Answer]) -> None:

@@ -32,6 +32,10 @@ OWNER: Final = "~"
 """In the id of a copy, between that of the document and the person whose it is."""
 
 
+RELAY: Final = "@relay"
+"""In the place of a person, of what a relay is sent for all of its pages."""
+
+
 def owner_of(document: str) -> str:
     """Return the person whose copy a document is; empty: it is everybody's."""
     return document.partition(OWNER)[2]

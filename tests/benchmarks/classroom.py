@@ -62,9 +62,9 @@ def run() -> None:
         studio = held.enter_context(running_studio(words, Path(scratch) / "data"))
         lane = Lane(studio)
         lane.send("animate_joints", running=True)
-        cookies, joins_s = _joined(studio, max(VIEWERS))
+        cookies, joins_s = joined(studio.origin, studio.class_code, max(VIEWERS))
         say(f"100 join by the form, one after the other: {joins_s:.2f} s")
-        with _read(lane):
+        with read_lanes(lane):
             found = {count: _measure(studio, lane, cookies[:count]) for count in VIEWERS}
         for count, seen in found.items():
             _tell(f"{count} browsers, the studio", count, seen)
@@ -84,8 +84,8 @@ def _judge(found: dict[int, Seen], stock: Seen) -> None:
         if seen.machine > _BUSY:
             say(f"      {count}: the machine is busy ({seen.machine:.0%}), ages are told only")
             continue
-        judge(f"{count} browsers: the presenter's view, p95", _p95(seen.ages_ms), at_most=100)
-        judge(f"{count} browsers: the presenter's edit, p95", _p95(seen.edits_ms), at_most=200)
+        judge(f"{count} browsers: the presenter's view, p95", p95(seen.ages_ms), at_most=100)
+        judge(f"{count} browsers: the presenter's edit, p95", p95(seen.edits_ms), at_most=200)
 
 
 def _tell(what: str, count: int, seen: Seen) -> None:
@@ -97,25 +97,27 @@ def _tell(what: str, count: int, seen: Seen) -> None:
     )
     if seen.ages_ms and seen.edits_ms:
         say(
-            f"{'':<28}view p50 {_middle(seen.ages_ms):.1f} ms, p95 {_p95(seen.ages_ms):.1f} ms; "
-            f"edit p50 {_middle(seen.edits_ms):.1f} ms, p95 {_p95(seen.edits_ms):.1f} ms"
+            f"{'':<28}view p50 {middle(seen.ages_ms):.1f} ms, p95 {p95(seen.ages_ms):.1f} ms; "
+            f"edit p50 {middle(seen.edits_ms):.1f} ms, p95 {p95(seen.edits_ms):.1f} ms"
         )
 
 
-def _middle(values: list[float]) -> float:
+def middle(values: list[float]) -> float:
+    """The value in the middle, or the one above it."""
     return sorted(values)[len(values) // 2]
 
 
-def _p95(values: list[float]) -> float:
+def p95(values: list[float]) -> float:
+    """The value that one in twenty passes."""
     return sorted(values)[min(len(values) - 1, round(0.95 * (len(values) - 1)))]
 
 
-def _joined(studio: RunningStudio, count: int) -> tuple[list[str], float]:
+def joined(address: str, code: str, count: int) -> tuple[list[str], float]:
     """Cookies of so many people, and the seconds that the first hundred took to join."""
     begin_s, took_s, cookies = time.perf_counter(), 0.0, list[str]()
     for number in range(count):
-        one = Classmate(studio.origin)
-        assert one.join(f"Student {number}", studio.class_code).status_code == 303
+        one = Classmate(address)
+        assert one.join(f"Student {number}", code).status_code == 303
         cookies.append(one.cookie)
         one.close()
         if number == 99:
@@ -124,7 +126,7 @@ def _joined(studio: RunningStudio, count: int) -> tuple[list[str], float]:
 
 
 @contextmanager
-def _read(lane: Lane) -> Generator[None]:
+def read_lanes(lane: Lane) -> Generator[None]:
     """Within this block both lanes are read, as a page does."""
     done = threading.Event()
     readers = [
@@ -143,7 +145,7 @@ def _read(lane: Lane) -> Generator[None]:
 
 def _measure(studio: RunningStudio, lane: Lane, cookies: list[str]) -> Seen:
     def act(during: threading.Event) -> list[float]:
-        return _present(lane, during)
+        return present(lane, during)
 
     return _watch(studio.port, studio.pid, lane.document, cookies, act)
 
@@ -152,7 +154,7 @@ def _do_nothing(_: threading.Event) -> list[float]:
     return []
 
 
-def _present(lane: Lane, during: threading.Event) -> list[float]:
+def present(lane: Lane, during: threading.Event) -> list[float]:
     """Turn the camera and edit, as a presenter's page does; when each edit was sent."""
     site = next(one for one in lane.sites.values() if one["name"].endswith("wheel_radius"))
     sent_s: list[float] = []
@@ -187,10 +189,10 @@ def _watch(
     acting = threading.Thread(target=lambda: sent_s.extend(act(done)))
     acting.start()
     time.sleep(_SETTLE_S)
-    begin_s, cpu_s, machine = time.perf_counter(), cpu_s_of(pid), _machine_s()
+    begin_s, cpu_s, machine = time.perf_counter(), cpu_s_of(pid), machine_s()
     seen: dict[str, Any] = json.loads(process.stdout.readline())
     took_s = time.perf_counter() - begin_s
-    busy, whole = (after - before for after, before in zip(_machine_s(), machine, strict=True))
+    busy, whole = (after - before for after, before in zip(machine_s(), machine, strict=True))
     spent = (cpu_s_of(pid) - cpu_s) / took_s
     done.set()
     acting.join()
@@ -225,7 +227,7 @@ def _after(sent_s: list[float], lanes_s: list[list[float]], since_s: float) -> l
     return took_ms
 
 
-def _machine_s() -> tuple[float, float]:
+def machine_s() -> tuple[float, float]:
     """Ticks of all cores that were used, and all of them (Linux)."""
     ticks = [int(one) for one in Path("/proc/stat").read_text().split("\n", 1)[0].split()[1:9]]
     return sum(ticks) - ticks[3] - ticks[4], sum(ticks)

@@ -14,6 +14,10 @@ import struct
 import sys
 import time
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 _BUFFER = bytearray(1 << 20)
 _VIEW = struct.Struct("<9f")
@@ -33,6 +37,10 @@ class Job:
     cookies: list[str]
     settle_s: float
     window_s: float
+    base: str = ""
+    """The path below which the class is, without a slash at its end."""
+    topic: str = ""
+    """What each hears on a data lane; empty: nothing."""
 
 
 @dataclass
@@ -64,6 +72,8 @@ class Crowd:
             if document := self._job.document:
                 self._open("/control", cookie, is_read=number % _SAMPLED == 0)
                 self._open(f"/d/{document}/viser", cookie, scene=True)
+                if self._job.topic:
+                    self._open("/data", cookie)
             else:
                 self._open("/", cookie, scene=True)
         while not all(lane.came for lane in self.lanes):
@@ -83,32 +93,10 @@ class Crowd:
         self.ages_ms.clear()
 
     def _open(self, path: str, cookie: str, *, is_read: bool = False, scene: bool = False) -> None:
-        job = self._job
-        opened = socket.create_connection((job.host, job.port), 60)
-        key = base64.b64encode(os.urandom(16)).decode()
-        lines = [
-            f"GET {path} HTTP/1.1",
-            f"Host: {job.host}:{job.port}",
-            f"Origin: http://{job.host}:{job.port}",
-            f"Cookie: {cookie}",
-            "Connection: Upgrade",
-            "Upgrade: websocket",
-            "Sec-WebSocket-Version: 13",
-            f"Sec-WebSocket-Key: {key}",
-            *([f"Sec-WebSocket-Protocol: {_SCENE}"] if scene else []),
-        ]
-        opened.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
-        head = bytearray()
-        while b"\r\n\r\n" not in head:
-            head += opened.recv(4096)
-        assert b" 101 " in head.split(b"\r\n", 1)[0], head
+        opened, came = open_lane(self._job, path, cookie)
         lane = Lane(opened, scene, is_read)
-        lane.held += head.partition(b"\r\n\r\n")[2]
+        lane.held += came
         lane.came = len(lane.held)
-        if not scene:
-            opened.sendall(_masked(json.dumps({"type": "watch", "document": job.document})))
-            opened.sendall(_masked(json.dumps({"type": "follow", "following": True})))
-        opened.setblocking(False)
         self._selector.register(opened, selectors.EVENT_READ, lane)
         self.lanes.append(lane)
 
@@ -142,6 +130,48 @@ class Crowd:
                 self.ages_ms.append((now_s - (minute_s * 60 + ms / 1000) % 86_400) % 86_400 * 1e3)
             elif body.startswith(b'{"type":"built"'):
                 lane.built_s.append(now_s)
+
+
+def open_lane(job: Job, path: str, cookie: str) -> tuple[socket.socket, bytes]:
+    """A websocket, with what a page says on it at first; and what came with its head."""
+    opened = socket.create_connection((job.host, job.port), 60)
+    key = base64.b64encode(os.urandom(16)).decode()
+    lines = [
+        f"GET {job.base}{path} HTTP/1.1",
+        f"Host: {job.host}:{job.port}",
+        f"Origin: http://{job.host}:{job.port}",
+        f"Cookie: {cookie}",
+        "Connection: Upgrade",
+        "Upgrade: websocket",
+        "Sec-WebSocket-Version: 13",
+        f"Sec-WebSocket-Key: {key}",
+        *([f"Sec-WebSocket-Protocol: {_SCENE}"] if path not in _LANES else []),
+    ]
+    opened.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
+    head = bytearray()
+    while b"\r\n\r\n" not in head:
+        head += opened.recv(4096)
+    assert b" 101 " in head.split(b"\r\n", 1)[0], head
+    for said in _LANES.get(path, lambda _: ())(job):
+        opened.sendall(_masked(json.dumps(said)))
+    opened.setblocking(False)
+    return opened, bytes(head.partition(b"\r\n\r\n")[2])
+
+
+def _of_control(job: Job) -> tuple[dict[str, object], ...]:
+    watch: dict[str, object] = {"type": "watch", "document": job.document}
+    return watch, {"type": "follow", "following": True}
+
+
+def _of_data(job: Job) -> tuple[dict[str, object], ...]:
+    return ({"type": "subscribe", "subscription": 1, "topic": job.topic, "mode": "every"},)
+
+
+_LANES: Final[dict[str, Callable[[Job], tuple[dict[str, object], ...]]]] = {
+    "/control": _of_control,
+    "/data": _of_data,
+}
+"""What is said first, by path; any other lane is that of a 3D view."""
 
 
 def _masked(text: str) -> bytes:

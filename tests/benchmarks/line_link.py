@@ -50,13 +50,13 @@ class Link:
     @contextmanager
     def near(self) -> Generator[None]:
         """Be at the one end, `NEAR`, within this block."""
-        with _within(self._near):
+        with within(self._near):
             yield
 
     @contextmanager
     def far(self) -> Generator[None]:
         """Be at the other end, `FAR`, within this block."""
-        with _within(self._far):
+        with within(self._far):
             yield
 
     def cut(self) -> None:
@@ -124,7 +124,8 @@ def _made(address: str) -> tuple[int, int]:
 
 
 @contextmanager
-def _within(namespace: int) -> Generator[None]:
+def within(namespace: int) -> Generator[None]:
+    """Be in a network namespace, an open file of it, within this block: this thread alone."""
     home = os.open(_NETWORK, os.O_RDONLY)
     _call("setns", namespace, _NEW_NETWORK)
     try:

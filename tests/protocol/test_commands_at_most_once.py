@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.errors import CommandError
-from studio.protocol.commands import REMEMBERED_MAX, AtMostOnce
+from studio.protocol.commands import REMEMBERED_MAX, REMEMBERED_OF_ONE, AtMostOnce
 from studio.protocol.documents import Places
 from studio.protocol.edits import Undo
 from tests.support.open_documents import Ear
@@ -98,15 +98,47 @@ def test_the_same_id_of_another_person_is_another_command():
     asyncio.run(run())
 
 
-def test_only_so_many_outcomes_are_kept():
+def test_only_so_many_outcomes_of_a_person_are_kept():
     async def run() -> None:
         once, work = AtMostOnce(), Work()
         work.go_on.set()
-        for number in range(REMEMBERED_MAX + 1):
+        for number in range(REMEMBERED_OF_ONE + 1):
             await once.run(Undo(id=str(number)), Ear(), work.carry_out)
-        await once.run(Undo(id=str(REMEMBERED_MAX)), Ear(), work.carry_out)
-        assert work.runs == REMEMBERED_MAX + 1
+        await once.run(Undo(id=str(REMEMBERED_OF_ONE)), Ear(), work.carry_out)
+        assert work.runs == REMEMBERED_OF_ONE + 1
         await once.run(Undo(id="0"), Ear(), work.carry_out)
+        assert work.runs == REMEMBERED_OF_ONE + 2
+
+    asyncio.run(run())
+
+
+def test_however_much_others_ask_what_a_person_asked_last_is_remembered():
+    async def run() -> None:
+        once, work = AtMostOnce(), Work()
+        work.go_on.set()
+        first, second = Ear(), Ear()
+        first.person, second.person = "first", "second"
+        await once.run(Undo(id="a"), first, work.carry_out)
+        for number in range(2_000):
+            await once.run(Undo(id=str(number)), second, work.carry_out)
+        await once.run(Undo(id="a"), first, work.carry_out)
+        assert work.runs == 2_001
+
+    asyncio.run(run())
+
+
+def test_of_very_many_persons_who_asked_nothing_for_longest_is_forgotten():
+    async def run() -> None:
+        once, work = AtMostOnce(), Work()
+        work.go_on.set()
+        ear = Ear()
+        for number in range(REMEMBERED_MAX + 1):
+            ear.person = str(number)
+            await once.run(Undo(id="a"), ear, work.carry_out)
+        await once.run(Undo(id="a"), ear, work.carry_out)
+        assert work.runs == REMEMBERED_MAX + 1
+        ear.person = "0"
+        await once.run(Undo(id="a"), ear, work.carry_out)
         assert work.runs == REMEMBERED_MAX + 2
 
     asyncio.run(run())

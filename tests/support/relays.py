@@ -7,7 +7,6 @@ import os
 import re
 import signal
 import socket
-import subprocess
 import sys
 import threading
 import time
@@ -25,13 +24,16 @@ from studio.server.relays.relay import Relay
 from studio.server.server import Server
 from tests.support.classmates import Classmate
 from tests.support.served_class import ServedClass, served_class
+from tests.support.warm_python import STUDIO, start_python
 
 if TYPE_CHECKING:
+    import subprocess
     from collections.abc import Callable, Coroutine, Generator, Sequence
     from typing import Any
 
     from studio.server.relays.room import Room
     from studio.server.relays.uplink import Uplink
+    from tests.support.warm_python import WarmProcess
 
 _Result = TypeVar("_Result")
 _PATIENCE_S = 60.0
@@ -55,28 +57,29 @@ def wait_until(holds: Callable[[], object], what: str, patience_s: float = _PATI
 class RelayProcess:
     """`studio relay`, which can be killed, stopped for a while, and started again where it was."""
 
-    def __init__(self, folder: Path, *prefix: str) -> None:
+    def __init__(self, folder: Path, *prefix: str, name: str = "127.0.0.1") -> None:
         """Choose its ports; `prefix` goes before the command, as `faketime +1h`."""
-        self.folder, self._prefix = folder, prefix
+        self.folder, self._prefix, self.name = folder, prefix, name
         self.port, self.listen_port = free_port(), free_port()
         self.line = self.key = ""
-        self.process: subprocess.Popen[str] | None = None
+        self.process: subprocess.Popen[str] | WarmProcess | None = None
 
     @property
     def address(self) -> str:
         """Of its page, without a room."""
-        return f"http://127.0.0.1:{self.port}/"
+        return f"http://{self.name}:{self.port}/"
 
     def start(self) -> None:
         """Start it, and wait until origins may dial in."""
         command = [
             *(*self._prefix, sys.executable, "-m", "studio", "relay"),
             *("--listen", f"tls/127.0.0.1:{self.listen_port}", "--port", str(self.port)),
-            *("--data-dir", str(self.folder)),
+            *("--data-dir", str(self.folder), "--name", self.name),
         ]
-        self.process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, text=True, cwd=Path(__file__).resolve().parents[2]
-        )
+        with (self.folder / "relay.stderr").open("a") as errors:
+            self.process = start_python(
+                command, os.environ, stderr=errors.fileno(), imported=STUDIO
+            )
         assert self.process.stdout is not None
         for text in self.process.stdout:
             if found := re.match(r"Relay: (tls/\S+#(\S+))", text):
@@ -89,6 +92,7 @@ class RelayProcess:
         self._signal(signal.SIGKILL)
         assert self.process is not None
         self.process.wait(_PATIENCE_S)
+        self._close_pipe()
 
     def pause(self) -> None:
         """Let it stand still."""
@@ -104,6 +108,9 @@ class RelayProcess:
             self.resume()
             self.process.terminate()
             self.process.wait(_PATIENCE_S)
+            self._close_pipe()
+
+    def _close_pipe(self) -> None:
         if self.process is not None and self.process.stdout is not None:
             self.process.stdout.close()
 
@@ -113,10 +120,10 @@ class RelayProcess:
 
 
 @contextmanager
-def relay_process(folder: Path, *prefix: str) -> Generator[RelayProcess]:
-    """A relay in a process of its own."""
+def relay_process(folder: Path, *prefix: str, name: str = "127.0.0.1") -> Generator[RelayProcess]:
+    """A relay in a process of its own, found by a name."""
     folder.mkdir(parents=True, exist_ok=True)
-    made = RelayProcess(folder, *prefix)
+    made = RelayProcess(folder, *prefix, name=name)
     try:
         made.start()
         yield made

@@ -209,4 +209,4 @@ COMMANDS.controller(RenameTool, lambda tools, c, _: tools.rename(c), on_copies=O
 COMMANDS.controller(
     SetToolProperty, lambda tools, c, _: tools.set_property(c), on_copies=OnCopies.REFUSED
 )
-COMMANDS.viewer(GetToolKinds, lambda tools, c, _: tools.kinds(c))
+COMMANDS.viewer(GetToolKinds, lambda tools, c, _: tools.kinds(c), same_for_all=True)

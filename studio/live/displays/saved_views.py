@@ -145,7 +145,7 @@ def _named(name: str) -> str:
 
 
 COMMANDS: Final = Commands[SavedViews](Scope.DOCUMENT)
-COMMANDS.viewer(GetViewKinds, lambda views, c, _: views.kinds(c))
+COMMANDS.viewer(GetViewKinds, lambda views, c, _: views.kinds(c), same_for_all=True)
 COMMANDS.controller(SaveView, lambda views, c, _: views.save(c))
 COMMANDS.controller(RenameView, lambda views, c, _: views.rename(c))
 COMMANDS.controller(MoveView, lambda views, c, _: views.move(c))

@@ -44,8 +44,8 @@ class TopicOffers:
 
 
 COMMANDS: Final = Commands[TopicOffers](Scope.DOCUMENT)
-COMMANDS.viewer(GetDisplayKinds, lambda offers, c, _: offers.kinds(c))
-COMMANDS.viewer(GetTopics, lambda offers, c, _: offers.topics(c))
+COMMANDS.viewer(GetDisplayKinds, lambda offers, c, _: offers.kinds(c), same_for_all=True)
+COMMANDS.viewer(GetTopics, lambda offers, c, _: offers.topics(c), same_for_all=True)
 
 
 def full_name(topic: str) -> str:

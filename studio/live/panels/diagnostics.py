@@ -135,4 +135,4 @@ def _view(status: MessageValue) -> DiagnosticView:
 
 
 COMMANDS: Final = Commands[PartDiagnostics](Scope.ROS)
-COMMANDS.viewer(GetDiagnostics, lambda one, c, _: one.diagnostics(c))
+COMMANDS.viewer(GetDiagnostics, lambda one, c, _: one.diagnostics(c), same_for_all=True)

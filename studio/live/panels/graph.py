@@ -170,5 +170,5 @@ def node_answer(
 
 
 COMMANDS: Final = Commands[AnswersGraph](Scope.ROS)
-COMMANDS.viewer(GetGraph, lambda one, c, _: one.graph(c))
-COMMANDS.viewer(GetNode, lambda one, c, _: one.node(c))
+COMMANDS.viewer(GetGraph, lambda one, c, _: one.graph(c), same_for_all=True)
+COMMANDS.viewer(GetNode, lambda one, c, _: one.node(c), same_for_all=True)

@@ -291,6 +291,6 @@ def _constant_view(constant: Constant) -> ConstantView:
 
 
 COMMANDS: Final = Commands[InterfaceTypes](Scope.ROS)
-COMMANDS.viewer(GetInterface, lambda one, c, _: one.interface(c))
-COMMANDS.viewer(ListInterfaces, lambda one, c, _: one.names(c))
+COMMANDS.viewer(GetInterface, lambda one, c, _: one.interface(c), same_for_all=True)
+COMMANDS.viewer(ListInterfaces, lambda one, c, _: one.names(c), same_for_all=True)
 COMMANDS.presenter(AddInterfaces, lambda one, c, _: one.add(c))

@@ -92,6 +92,6 @@ def _offers(
 
 
 COMMANDS: Final = Commands[Offers](Scope.ROS)
-COMMANDS.viewer(GetServices, lambda one, c, _: one.services(c))
-COMMANDS.viewer(GetActions, lambda one, c, _: one.actions(c))
+COMMANDS.viewer(GetServices, lambda one, c, _: one.services(c), same_for_all=True)
+COMMANDS.viewer(GetActions, lambda one, c, _: one.actions(c), same_for_all=True)
 COMMANDS.viewer(ReadValues, lambda one, c, _: one.read(c))

@@ -194,5 +194,5 @@ def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
 
 
 COMMANDS: Final = Commands[AnswersTopics](Scope.ROS)
-COMMANDS.viewer(ListTopics, lambda one, c, _: one.topics(c))
-COMMANDS.viewer(GetTopicEnds, lambda one, c, _: one.ends(c))
+COMMANDS.viewer(ListTopics, lambda one, c, _: one.topics(c), same_for_all=True)
+COMMANDS.viewer(GetTopicEnds, lambda one, c, _: one.ends(c), same_for_all=True)

@@ -9,10 +9,11 @@ from __future__ import annotations
 import asyncio
 import itertools
 import logging
+from collections import deque
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from studio.documents.exports import Download
 from studio.errors import (
@@ -26,8 +27,7 @@ from studio.errors import (
 from studio.protocol.calls import FollowOperations
 from studio.protocol.changes import FollowChanges
 from studio.protocol.classroom import Follow, You
-from studio.protocol.commands import COMMAND_LIMIT_BYTES
-from studio.protocol.documents import Done, Refused, Watch
+from studio.protocol.documents import Done, Watch
 from studio.protocol.listeners import send
 from studio.protocol.relays import RelayState
 from studio.protocol.roles import Role, owner_of
@@ -36,8 +36,8 @@ from studio.server.relays.messages import (
     CHANGES,
     NAME_LETTERS_MAX,
     OPERATIONS,
+    VIEWER,
     Arrive,
-    Ask,
     AskDownload,
     AskJoin,
     Blob,
@@ -61,16 +61,19 @@ from studio.server.relays.messages import (
     Viewers,
     decode_down,
 )
+from studio.server.relays.passed_on import PassedOn
+from studio.server.relays.questions import Questions
 from studio.server.relays.relayed_class import RelayedClass, RelayedMember
 from studio.server.relays.relayed_lanes import RelayedLanes
 from studio.server.relays.relayed_scenes import RelayedScenes
 from studio.server.relays.relayed_topics import RelayedTopics
 from studio.server.relays.room_documents import OnlyThere, RoomDocument
 from studio.server.relays.shared_reads import SharedReads, is_shared
+from studio.server.relays.standing import Standing
 from studio.server.relays.tickets import TICKET_LETTERS_MAX
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
@@ -87,18 +90,9 @@ _GIVE_UP_S: Final = 90.0
 _TICK_S: Final = 1.0
 _GREETING_S: Final = 15.0
 """So long after it claimed its room an origin has time to say what the room is."""
-_PENDING_MAX: Final = 10_000
-_PENDING_BYTES_MAX: Final = 32 << 20
+_REPLACED_MAX: Final = 16
 _YOU: Final = b'{"type":"you"'
 _log = logging.getLogger(__name__)
-
-
-class _Asked:
-    """What was passed on and is not answered yet."""
-
-    def __init__(self, listener: Listener, page: int, request: int, text: bytes) -> None:
-        self.listener, self.page, self.request, self.text = listener, page, request, text
-        self.settled: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
 
 class Room:
@@ -133,13 +127,17 @@ class Room:
         """Pages that the origin knows one by one."""
         self._by_number: dict[int, Listener] = {}
         self._numbers = itertools.count(1)
-        self._asked: dict[int, _Asked] = {}
-        self._asked_bytes = 0
+        self._passed_on = PassedOn(self._send)
+        self._standing = Standing()
+        self._renewing: set[asyncio.Task[None]] = set()
         self._reads = SharedReads(self._pass_on, self.detach, lambda: self.lanes.frame_count)
-        self._joining: dict[int, asyncio.Future[Joined]] = {}
-        self._downloading: dict[int, asyncio.Future[Downloaded]] = {}
+        self._joining = Questions[Joined](self._send, _JOINING_MAX)
+        self._downloading = Questions[Downloaded](self._send, _DOWNLOADING_MAX)
         self._sent_viewers = Viewers(0, 0)
         self.away_since_s = self._loop.time()
+        self.replaced: deque[str] = deque(maxlen=_REPLACED_MAX)
+        """Sessions of studios that had the room until another claimed it; they have it no more,
+        also if their line was cut when that one came."""
         self.round_trip_s = 0.0
         self.address = ""
         """Of the room's page here."""
@@ -149,8 +147,8 @@ class Room:
 
     @property
     def is_there(self) -> bool:
-        """Whether the origin is."""
-        return self._line is not None and self.classroom.state is not None
+        """Whether the origin is, and has said what room it has."""
+        return self._line is not None and self._greeted
 
     @property
     def line(self) -> Line | None:
@@ -160,12 +158,12 @@ class Room:
     @property
     def pages(self) -> int:
         """How many are open."""
-        return len(self._pages)
+        return len(self.lanes.studio.listeners)
 
     @property
     def people(self) -> int:
         """How many persons have one open."""
-        return len({one.person for one in self._pages})
+        return len({one.person for one in self.lanes.studio.listeners})
 
     @property
     def frame_count(self) -> int:
@@ -211,6 +209,8 @@ class Room:
         for at, count in enumerate((line.received_bytes, line.sent_bytes, line.refused)):
             self._before_bytes[at] += count
         line.close()
+        self._joining.give_up()
+        self._downloading.give_up()
         self.browser_topics.reset()
         self.scenes.reset()
         self._tell_all()
@@ -220,8 +220,7 @@ class Room:
         self.hang_up()
         self._ticking.cancel()
         self.scenes.close()
-        for asked in tuple(self._asked.values()):
-            self._refuse(asked, OriginAwayError())
+        self._passed_on.refuse_all(OriginAwayError())
 
     def take(self, data: bytes) -> None:
         """Take a message of the origin; one that is none ends the line."""
@@ -248,7 +247,7 @@ class Room:
             case Say():
                 self._say(message)
             case Settled():
-                self._settle(message)
+                self._passed_on.settle(message.number)
             case RoomState():
                 self._renew(message)
             case LaneSnapshot():
@@ -266,40 +265,73 @@ class Room:
             case EndPerson():
                 self._end_people(partial(self._is_ours, message.person))
             case Joined():
-                _resolve(self._joining, message)
+                self._joining.answer(message)
             case Downloaded():
-                _resolve(self._downloading, message)
+                self._downloading.answer(message)
 
     def _is_ours(self, person: str, visitor: Person) -> bool:
         member = visitor if isinstance(visitor, RelayedMember) else None
         return member is not None and member.person == person and member.is_of(self.classroom)
 
-    def _send(self, message: Up) -> None:
-        if self._line is not None:
-            self._line.send(message)
+    def _send(self, message: Up) -> bool:
+        """Send a message; answers whether there is a line."""
+        if self._line is None or not self._greeted:
+            return False
+        self._line.send(message)
+        return True
 
     def _renew(self, state: RoomState) -> None:
         """Take what the room is now; on a new line, ask for all anew that is looked at."""
         before, self.classroom.state = self.classroom.state, self.classroom.state
         self.classroom.renew(state)
+        self._review(before)
         if self._greeted:
             if before is not None and before.others != state.others:
                 self._tell_all()
             return
         self._greeted = True
         if before is not None and before.session != state.session:
-            for asked in tuple(self._asked.values()):
-                self._refuse(asked, CommandError(_STARTED_ANEW))
+            self._passed_on.refuse_sent()
+            # As after any restart of a studio, pages come again, and ask anew for what they show.
+            for person in {one.person for one in self._pages}:
+                self._end_people(partial(self._is_ours, person))
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
         self.lanes.renew()
         self.scenes.renew()
         self.browser_topics.renew()
-        for number, asked in self._asked.items():
-            self._arrive(asked.listener)
-            self._send(Ask(asked.page, number, asked.text))
+        self._passed_on.ask_again(self._arrive)
+        for listener in tuple(self._pages):
+            task = self._loop.create_task(self._ask_standing(listener))
+            self._renewing.add(task)
+            task.add_done_callback(self._renewing.discard)
         self._tell_all()
+
+    def _review(self, before: RoomState | None) -> None:
+        """End the pages of who may not be here any more, and what is not to be seen any more."""
+        state = self.classroom.state
+        if before is None or state is None or before == state:
+            return
+        here = (before.is_open, before.sent_out, before.tickets)
+        if here != (state.is_open, state.sent_out, state.tickets):
+            self._end_people(self._is_out)
+        if before.shown != state.shown:
+            self.lanes.review()
+
+    def _is_out(self, visitor: Person) -> bool:
+        member = visitor if isinstance(visitor, RelayedMember) else None
+        return (
+            member is not None
+            and member.is_of(self.classroom)
+            and not self.classroom.admits(member)
+        )
+
+    async def _ask_standing(self, listener: Listener) -> None:
+        """Ask again for what lasts, one after the other: a lesson before the panels seen in it."""
+        for command in self._standing.of(listener):
+            with suppress(StudioError):
+                await self._pass_on(command, listener)
 
     # Pages
 
@@ -330,15 +362,15 @@ class Room:
         if page is None:
             return
         self._by_number.pop(page, None)
-        for number in [one for one, asked in self._asked.items() if asked.page == page]:
-            del self._asked[number]
+        self._standing.forget(listener)
+        self._passed_on.leave(page)
         if page in self._arrived:
             self._arrived.discard(page)
             self._send(Leave(page))
 
     def _is_known(self, listener: Listener) -> bool:
-        """Whether the origin keeps a list of such people: all but those who only look."""
-        return listener.role is not Role.GUEST
+        """Whether the origin keeps a list of such people: all but those beyond its places."""
+        return not listener.person.startswith(VIEWER)
 
     def _arrive(self, listener: Listener) -> int:
         """Have the origin know a page; answers its number."""
@@ -370,15 +402,9 @@ class Room:
             return
         frame = message.frame
         if frame.data.startswith(_YOU):
-            self._note_role(frame.data)
+            self.classroom.note(frame.data)
+            self.lanes.review()
         listener.post(frame.data, binary=frame.binary, key=frame.key or None)
-
-    def _note_role(self, data: bytes) -> None:
-        with suppress(ValueError):
-            you = You.model_validate_json(data)
-            member = self.classroom.person(you.person)
-            if member is not None and you.role != Role.PRESENTER.value:
-                member.role, member.name = Role(you.role), you.name
 
     # Commands
 
@@ -405,6 +431,7 @@ class Room:
         else:
             if isinstance(command, Follow):
                 self.lanes.studio.follow(listener, following=command.following)
+            self._standing.note(command, listener)
             await self._pass_on(command, listener)
             return
         send(listener, Done(request=command.request))
@@ -417,24 +444,7 @@ class Room:
     async def _pass_on(self, command: Command, listener: Listener) -> None:
         """Ask the origin, which answers to the page itself."""
         self._check_there()
-        if len(self._asked) >= _PENDING_MAX or self._asked_bytes > _PENDING_BYTES_MAX:
-            raise CommandError("Too much is asked for here at once: try again in a moment.")
-        number = next(self._numbers)
-        if not command.id:
-            # Asked again on the next line, if this one ends before the answer; it runs once.
-            command = command.model_copy(update={"id": f"{self._loop.time():.6f}-{number}"})
-        page = self._arrive(listener)
-        text = command.model_dump_json().encode()
-        if len(text) > COMMAND_LIMIT_BYTES:
-            raise CommandError(f"A command of more than {COMMAND_LIMIT_BYTES} bytes is not read.")
-        self._asked_bytes += len(text)
-        asked = self._asked[number] = _Asked(listener, page, command.request, text)
-        self._send(Ask(page, number, text))
-        try:
-            await asked.settled
-        finally:
-            self._asked.pop(number, None)
-            self._asked_bytes -= len(text)
+        await self._passed_on.ask(next(self._numbers), self._arrive(listener), command, listener)
 
     def _check_there(self) -> None:
         """Pass if the origin is there, or went only just now.
@@ -445,17 +455,6 @@ class Room:
         if not self.is_there and self._loop.time() - self.away_since_s > PATIENCE_S:
             raise OriginAwayError
 
-    def _settle(self, message: Settled) -> None:
-        asked = self._asked.pop(message.number, None)
-        if asked is not None and not asked.settled.done():
-            asked.settled.set_result(None)
-
-    def _refuse(self, asked: _Asked, error: StudioError) -> None:
-        refusal = Refused(request=asked.request, kind=type(error).__name__, reason=str(error))
-        send(asked.listener, refusal)
-        if not asked.settled.done():
-            asked.settled.set_result(None)
-
     # Joining and downloads
 
     async def _join(self, name: str, code: str, password: str, ticket: str) -> Joined:
@@ -464,10 +463,10 @@ class Room:
         number = next(self._numbers)
         before = ticket if len(ticket) <= TICKET_LETTERS_MAX else ""
         form = AskJoin(number, name[:400], code[:64], password[:400], before)
-        if len(self._joining) >= _JOINING_MAX:
+        if self._joining.is_full:
             raise NotJoiningError("tries", "Too many join at once: try again in a moment.")
         try:
-            return await self._answered(self._joining, number, form)
+            return await self._joining.ask(number, form)
         except OriginAwayError as error:
             raise NotJoiningError("away", str(error)) from None
 
@@ -479,28 +478,17 @@ class Room:
         Raises:
             StudioError: It cannot be made, or the origin is away.
         """
-        self._check_there()
-        if len(self._downloading) >= _DOWNLOADING_MAX or len(document) > NAME_LETTERS_MAX:
+        if not self.is_there:
+            raise OriginAwayError
+        if self._downloading.is_full or len(document) > NAME_LETTERS_MAX:
             raise CommandError("Too much is asked for here at once: try again in a moment.")
         number = next(self._numbers)
-        asked = AskDownload(number, self._ticket_for(document), document, what, tuple(options))
-        found = await self._answered(self._downloading, number, asked)
+        ticket = self._ticket_for(document) or next((one.ticket for one in self._members()), "")
+        asked = AskDownload(number, ticket, document, what, tuple(options))
+        found = await self._downloading.ask(number, asked)
         if found.kind:
             raise CommandError(found.reason)
         return Download(found.name, found.media_type, (found.data,))
-
-    async def _answered(
-        self, waiting: dict[int, asyncio.Future[Any]], number: int, message: Up
-    ) -> Any:  # noqa: ANN401 - of the kind that is waited for
-        future: asyncio.Future[Any] = self._loop.create_future()
-        waiting[number] = future
-        self._send(message)
-        try:
-            return await asyncio.wait_for(future, _ANSWER_S)
-        except TimeoutError:
-            raise OriginAwayError from None
-        finally:
-            waiting.pop(number, None)
 
     def _ticket_of(self, lane: DataLaneEnd) -> str:
         """Return the ticket of a data lane's person."""
@@ -508,11 +496,22 @@ class Room:
         return member.ticket if member else ""
 
     def _ticket_for(self, document: str) -> str:
-        """Return the ticket of somebody here who may see a document; empty where all may."""
-        people = (self.classroom.person(one.person) for one in self._pages)
-        if document and not owner_of(document) and document[:1] != "!":
-            return next((one.ticket for one in people if one), "")
-        return next((one.ticket for one in people if one and one.sees(document)), "")
+        """Return the ticket of whose copy a document is, or of a helper; empty where all may."""
+        owner = owner_of(document)
+        if not owner:
+            return ""
+        members = [one for one in self._members() if one.sees(document)]
+        return next(
+            (one.ticket for one in members if one.person == owner),
+            next((one.ticket for one in members if one.role.includes(Role.HELPER)), ""),
+        )
+
+    def _members(self) -> Iterator[RelayedMember]:
+        """Give the people who have pages open here, and may."""
+        for person in {one.person for one in self._pages}:
+            member = self.classroom.person(person)
+            if member is not None and self.classroom.admits(member):
+                yield member
 
     # What the server's routes use of an engine
 
@@ -577,29 +576,18 @@ class Room:
                 self._send(Ping(self._now_ns()))
                 self._tell_viewers()
             elif self._loop.time() - self.away_since_s > _GIVE_UP_S:
-                for asked in tuple(self._asked.values()):
-                    self._refuse(asked, OriginAwayError())
+                self._passed_on.refuse_all(OriginAwayError())
                 self.lanes.give_up(str(OriginAwayError()))
 
     def _tell_viewers(self) -> None:
-        guests = sum(page not in self._arrived for page in self._pages.values())
-        viewers = Viewers(len(self._pages), guests)
+        pages = self.lanes.studio.listeners
+        guests = sum(one.person.startswith(VIEWER) for one in pages)
+        viewers = Viewers(len(pages), guests)
         if viewers != self._sent_viewers:
             self._sent_viewers = viewers
             self._send(viewers)
 
 
-_ANSWER_S: Final = 30.0
 _JOINING_MAX, _DOWNLOADING_MAX = 200, 8
 """So many ask the origin at once."""
 _NOWHERE: Final = Path("/nonexistent")
-_STARTED_ANEW: Final = (
-    "The studio was started anew before it answered: see whether this was done, and do it again "
-    "if it was not."
-)
-
-
-def _resolve(waiting: dict[int, asyncio.Future[Any]], message: Joined | Downloaded) -> None:
-    future = waiting.get(message.number)
-    if future is not None and not future.done():
-        future.set_result(message)

@@ -6,17 +6,8 @@ import asyncio
 import json
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from studio.protocol.calls import GetActions, GetServices
-from studio.protocol.diagnostics import GetDiagnostics
-from studio.protocol.displays import GetDisplayKinds, GetTopics
-from studio.protocol.graph import GetGraph, GetNode
-from studio.protocol.interfaces import GetInterface, ListInterfaces
-from studio.protocol.language import GetOutline
+from studio.documents.engine import COMMANDS
 from studio.protocol.roles import Role, owner_of
-from studio.protocol.texts import GetText, GetUrdf
-from studio.protocol.tools import GetToolKinds
-from studio.protocol.topics import GetTopicEnds, ListTopics
-from studio.protocol.views import GetViewKinds
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
@@ -24,27 +15,24 @@ if TYPE_CHECKING:
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
 
-_KINDS: Final = (
-    *(GetText, GetOutline, GetUrdf, GetGraph, GetNode, GetTopics, ListTopics, GetTopicEnds),
-    *(GetServices, GetActions, GetDiagnostics, GetInterface, ListInterfaces),
-    *(GetDisplayKinds, GetToolKinds, GetViewKinds),
-)
-"""They are answered alike whoever asks."""
 _FRESH_S: Final = 1.0
 _KEPT_MAX: Final = 256
 
 
 def is_shared(command: Command, listener: Listener) -> bool:
     """Whether the answer to others serves this page as well."""
-    shared = isinstance(command, _KINDS) and not owner_of(command.document)
+    shared = COMMANDS[type(command)].same_for_all and not owner_of(command.document)
     return shared and listener.role in {Role.GUEST, Role.STUDENT}
 
 
 class _Reader:
-    """A Listener that keeps what comes, for all who asked."""
+    """A Listener that keeps what answers a command, for all who asked.
 
-    def __init__(self, first: Listener) -> None:
-        self._first = first
+    What else it is sent is for the person who asked first: who they are, what they control.
+    """
+
+    def __init__(self, first: Listener, request: int) -> None:
+        self._first, self._request = first, request
         self.role, self.person = first.role, first.person
         self.events: list[dict[str, Any]] = []
 
@@ -53,10 +41,10 @@ class _Reader:
         return self._first.sees(document)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
-        """Keep one event."""
+        """Keep one event, if it is of the answer."""
         del key
-        if not binary:
-            self.events.append(json.loads(data))
+        if not binary and (event := json.loads(data)).get("request") == self._request:
+            self.events.append(event)
 
 
 class _Read(NamedTuple):
@@ -89,22 +77,26 @@ class SharedReads:
         Raises:
             StudioError: The origin is away.
         """
-        key = command.model_dump_json(exclude={"request", "id"})
+        key = listener.role + command.model_dump_json(exclude={"request", "id"})
         now_s = asyncio.get_running_loop().time()
         found = self._reads.get(key)
         if found is None or found.version != self._version() or now_s - found.since_s > _FRESH_S:
             events = asyncio.ensure_future(self._asked(command, listener))
             events.add_done_callback(_noticed)
-            self._reads.pop(key, None)
+            self._reads = {
+                one: read
+                for one, read in self._reads.items()
+                if one != key and now_s - read.since_s <= _FRESH_S
+            }
             found = self._reads[key] = _Read(self._version(), now_s, events)
             while len(self._reads) > _KEPT_MAX:
                 del self._reads[next(iter(self._reads))]
         for event in await asyncio.shield(found.events):
-            own = {**event, "request": command.request} if "request" in event else event
+            own = {**event, "request": command.request}
             listener.post(json.dumps(own, separators=(",", ":")).encode())
 
     async def _asked(self, command: Command, first: Listener) -> list[dict[str, Any]]:
-        reader = _Reader(first)
+        reader = _Reader(first, command.request)
         try:
             await self._ask(command, reader)
         finally:

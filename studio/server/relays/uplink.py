@@ -54,6 +54,10 @@ _CLAIM_TIMEOUT_S: Final = 5.0
 _MATCHING_TIMEOUT_S: Final = 5.0
 _LINE: Final = re.compile(r"[0-9a-f]{16}")
 _RETRY_S: Final = (0.25, 0.5, 1.0, 2.0)
+"""From one attempt to the next, unless the first took longer."""
+_OPEN_MS: Final = (3_000, 3_000, 3_000, 6_000)
+"""So long an attempt is given, in turn: one that was begun while the cable was cut may never be
+answered, and a slow line is to be reached as well."""
 _log = logging.getLogger(__name__)
 
 
@@ -144,30 +148,45 @@ class Uplink:
     def hang_up(self, reason: str = "", *, refused: bool = False) -> None:
         """End the line as it is; it is dialled again, unless the relay `refused` us."""
         if refused:
-            self._set("refused", reason)
+            self._set("refused", str(RelayRefusedError(self.relay.endpoint, reason)))
         self._ended.set()
 
     async def _run(self) -> None:
         use_few_threads()
         attempts = 0
+        loop = asyncio.get_running_loop()
         while self.state != "refused":
+            next_s = loop.time() + _RETRY_S[min(attempts, len(_RETRY_S) - 1)]
             try:
-                claimed = await asyncio.to_thread(self._dial)
+                claimed = await self._dialled(_OPEN_MS[attempts % len(_OPEN_MS)])
             except RelayRefusedError as error:
                 self._set("refused", str(error))
                 return
             except RelayError as error:
                 self._set("lost" if self.address else "connecting", str(error))
-                await asyncio.sleep(_RETRY_S[min(attempts, len(_RETRY_S) - 1)])
+                await asyncio.sleep(next_s - loop.time())
                 attempts += 1
                 continue
             attempts = 0
             await self._serve(claimed)
+            await asyncio.sleep(next_s - loop.time())
+
+    async def _dialled(self, patience_ms: int) -> Claimed:
+        """Dial in a thread; if that is given up meanwhile, what comes of it is ended.
+
+        Raises:
+            RelayError: As `_dial` does.
+        """
+        self._ended.clear()
+        dialling = asyncio.ensure_future(asyncio.to_thread(self._dial, patience_ms))
+        try:
+            return await asyncio.shield(dialling)
+        except asyncio.CancelledError:
+            dialling.add_done_callback(_let_go)
+            raise
 
     async def _serve(self, claimed: Claimed) -> None:
         """Speak on the line until it ends."""
-        self._ended.clear()
-        watch = _watch_router(claimed.session, asyncio.get_running_loop(), self._ended.set)
         try:
             self.line, self.address = claimed.line, claimed.address
             self.end = self._make_end(claimed.line, self)
@@ -179,7 +198,6 @@ class Uplink:
                 self.end.close()
             self.line = self.end = None
             claimed.line.close()
-            watch.close()
             await asyncio.to_thread(claimed.close)
             if self.state != "refused":
                 self._set("lost", "The line to the relay is cut: it is dialled again.")
@@ -189,8 +207,8 @@ class Uplink:
             self.state, self.reason = state, reason
             self._changed()
 
-    def _dial(self) -> Claimed:
-        """Open a session and claim the room, in a thread.
+    def _dial(self, patience_ms: int) -> Claimed:
+        """Open a session, which may take so long, and claim the room, in a thread.
 
         Raises:
             RelayRefusedError: The relay does not take this studio.
@@ -198,22 +216,25 @@ class Uplink:
         """
         endpoint = self.relay.endpoint
         try:
-            session = open_zenoh(_config(self.relay))
+            session = open_zenoh(_config(self.relay, patience_ms))
         except ZError as error:
             raise RelayError(
                 f"No relay answers at {endpoint}: see that `studio relay` runs there, that its "
-                f"port is open, and that the key is its own ({_reason(error)})."
-            ) from None
+                "port is open, and that the key is its own."
+            ) from error
+        watch: ReadingThread[TransportEvent] | None = None
         try:
-            return self._claim(session)
-        except ZError as error:
+            watch = _watch_router(session, self._task.get_loop(), self._ended.set)
+            return self._claim(session, watch)
+        except BaseException as error:
+            if watch is not None:
+                watch.close()
             close(session)
-            raise RelayLineError(f"{error}.") from None
-        except BaseException:
-            close(session)
+            if isinstance(error, ZError):
+                raise RelayLineError(f"{error}.") from None
             raise
 
-    def _claim(self, session: Session) -> Claimed:
+    def _claim(self, session: Session, watch: ReadingThread[TransportEvent]) -> Claimed:
         handshake, identity = Handshake(), self._identity()
         claim = Claim(
             *(studio.__version__, identity.id, identity.public, handshake.public, self._session),
@@ -238,6 +259,7 @@ class Uplink:
         token = declare_token(session, alive)
 
         def end() -> None:
+            watch.close()
             reading.close()
             close(session)
 
@@ -252,8 +274,11 @@ class Uplink:
             raise RelayLineError(f"its answer cannot be read ({error}).") from None
 
 
-def _reason(error: ZError) -> str:
-    return str(error).split(" at /")[0][:160]
+def _let_go(dialled: asyncio.Future[Claimed]) -> None:
+    if not dialled.cancelled() and dialled.exception() is None:
+        claimed = dialled.result()
+        claimed.line.close()
+        claimed.close()
 
 
 def _reading(incoming: Incoming[Sample], line: Line) -> ReadingThread[Sample]:
@@ -275,12 +300,13 @@ def _watch_router(
     return ReadingThread("relay-watch", watch_transports(session), take)
 
 
-def _config(relay: RelayAddress) -> Config:
+def _config(relay: RelayAddress, open_ms: int) -> Config:
     config = read_config()
     insert(config, "mode", '"client"')
     insert(config, "connect/endpoints", json.dumps([relay.endpoint]))
     insert(config, "scouting/multicast/enabled", "false")
     insert(config, "transport/link/tx/lease", str(LEASE_MS))
+    insert(config, "transport/unicast/open_timeout", str(open_ms))
     insert(config, "transport/link/rx/max_message_size", str(PIECES_BYTES_MAX))
     for key, json5 in relay.credentials.of_session().items():
         insert(config, key, json5)
