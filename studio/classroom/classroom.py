@@ -215,7 +215,7 @@ class Classroom:
         pages.remove(listener)
         if not pages:
             del self._pages[person]
-            self.control.left(person)
+            self.control.left(person, may_move=bool(self.relays.addresses()))
         self._changed()
 
     def is_here(self, person: str) -> bool:
@@ -255,6 +255,8 @@ class Classroom:
             self.end_pages(person)
         await self.nodes.stop()
         await self._file.delete()
+        if self.relay_lines:  # which are about nobody
+            await self._keep_quietly()
         if self.on_end is not None:
             await self.on_end()
 

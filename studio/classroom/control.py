@@ -10,6 +10,8 @@ if TYPE_CHECKING:
 
 ABSENCE_S: Final = 5.0
 """So long the holder's pages may all be gone: a reload takes less."""
+MOVING_S: Final = 12.0
+"""The same where a page may go on at another relay."""
 
 
 class Robot(Protocol):
@@ -53,11 +55,15 @@ class Control:
             self.document = document
             self._on_change(before)
 
-    def left(self, person: str) -> None:
-        """The last page of a person was closed: control returns unless one comes back soon."""
+    def left(self, person: str, *, may_move: bool = False) -> None:
+        """The last page of a person was closed: control returns unless one comes back soon.
+
+        Where relays share the class it `may_move`, which takes a page some seconds.
+        """
         if person and person == self._holder and self._absence is None:
             loop = asyncio.get_running_loop()
-            self._absence = loop.call_later(ABSENCE_S, self.give, "")
+            absence_s = MOVING_S if may_move else ABSENCE_S
+            self._absence = loop.call_later(absence_s, self.give, "")
 
     def back(self, person: str) -> None:
         """A page of a person is there again."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 from studio.protocol.message import Command, Event
 
@@ -33,5 +33,6 @@ class FollowChanges(Command):
 class Changed(Event):
     """The subject changed, once or several times since the last such event."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["changed"] = "changed"
     subject: Subject

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, ClassVar, Literal, TypeAlias
 
 from pydantic import Field, StringConstraints
 
@@ -198,6 +198,7 @@ class Leading(Event):
 class Gather(Event):
     """Follow the presenter, whatever you did before."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["gather"] = "gather"
     document: str = ""
     """A copy that is shown to all; empty: what the presenter has open."""
@@ -241,6 +242,7 @@ class Control(Event):
 class Stopped(Event):
     """Somebody has stopped the robot."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["stopped"] = "stopped"
     name: str
     """Empty: the presenter."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -154,6 +154,7 @@ class Opened(Event):
 class Gone(Event):
     """The document was closed."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["gone"] = "gone"
     document: str
 

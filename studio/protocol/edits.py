@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -90,6 +90,7 @@ class History(Event):
 class Built(Event):
     """A run ended: how long it took from the edit to the scene."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["built"] = "built"
     ok: bool
     duration_ms: float

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias, TypeVar, Union
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, TypeAlias, TypeVar, Union
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints, TypeAdapter
 
@@ -45,6 +45,9 @@ class Command(Message, allow_inf_nan=False):
 
 class Event(Message):
     """What the studio sends; each has a `type` of its own."""
+
+    is_moment: ClassVar[bool] = False
+    """Whether it tells what happened just now, which a page that comes later is not told."""
 
 
 _Kind = TypeVar("_Kind", bound=Command | Event)

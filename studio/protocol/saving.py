@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -49,6 +49,7 @@ class ResolveCollisions(Command):
 class DiskMerged(Event):
     """Another program wrote a file: its changes were taken, and so many edits are kept unsaved."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["disk_merged"] = "disk_merged"
     file: str
     kept: int
@@ -78,6 +79,7 @@ class Collisions(Event):
 class Saved(Event):
     """These files were written."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["saved"] = "saved"
     files: tuple[str, ...]
 

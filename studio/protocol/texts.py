@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field
 
@@ -68,6 +68,7 @@ class Text(Event):
 class TextsChanged(Event):
     """A text that was asked for changed, by an edit or otherwise; it now has this version."""
 
+    is_moment: ClassVar[bool] = True
     type: Literal["texts_changed"] = "texts_changed"
     file: str
     version: int

@@ -93,7 +93,10 @@ class Api:
         listener = Answers(_visitor(request))
         self._engine.attach(listener)
         self._engine.detach(listener)
-        return next(event for event in listener.events if isinstance(event, Documents))
+        found = [event for event in listener.events if isinstance(event, Documents)]
+        if not found:  # a relay was told of none yet
+            raise CommandError("The studio has not said what is open: ask again in a moment.")
+        return found[-1]
 
     async def urdf(self, document: str, request: Request) -> Response:
         """Return the expanded URDF of the last good run, as a file."""

@@ -9,6 +9,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from studio.classroom import control as control_module
 from tests.support.relays import RelayedClass, relay_process, relayed_class, wait_until
 from tests.support.strangers import resident_bytes
 from tests.support.watched_pages import Mover, gone_on_at_another, measured, watched_page
@@ -38,6 +39,12 @@ def room(
 ) -> Generator[RelayedClass]:
     with relayed_class(tmp_path_factory.mktemp("class"), [one.line for one in relays]) as made:
         yield made
+
+
+@pytest.fixture(autouse=True)
+def _who_has_control_keeps_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However slow the machine: a page that is gone for five seconds loses it otherwise."""
+    monkeypatch.setattr(control_module, "ABSENCE_S", 300.0)
 
 
 @contextmanager

@@ -15,6 +15,10 @@ from studio.errors import RelayLineError
 from studio.server.relays.tickets import TICKET_LETTERS_MAX
 
 STUDIO_LANE: Final = ""
+VIEWER: Final = "viewer-"
+"""Before the id of people who look on and are kept in no list: the class is full."""
+MOMENT: Final = "!"
+"""Key of what is told of a moment, and to nobody who comes later."""
 CHANGES, OPERATIONS = "!changes ", "!operations "
 UP_BYTES_MAX: Final = 4 << 20
 """Of a message of a relay; the largest is a command."""
@@ -95,6 +99,8 @@ class OpenScene(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Send the 3D view of a document from now on."""
 
     document: Name
+    opening: Number
+    """Frames and what is asked for them carry it: those of an opening before are none of this."""
     ticket: TicketText = ""
 
 
@@ -108,6 +114,7 @@ class WantBlobs(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """The relay has none of these (BLAKE2b digests); a frame of the 3D view waits for them."""
 
     document: Name
+    opening: Number
     digests: tuple[bytes, ...]
 
 
@@ -189,6 +196,8 @@ class RoomState(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """Changes when the studio was started anew."""
     tickets: bytes
     """Public key of those who sign tickets."""
+    link: bytes
+    """Digest of the code in the link, by which a relay knows who has it."""
     is_open: bool
     has_password: bool
     default_document: str
@@ -237,9 +246,12 @@ class SceneFrame(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """
 
     document: str
+    opening: int
     is_first: bool
     parts: tuple[bytes, ...]
     is_digest: tuple[bool, ...]
+    announced: tuple[bytes, ...] = ()
+    """Digests whose bytes follow without being asked for."""
 
 
 class Blob(msgspec.Struct, frozen=True, tag=True, array_like=True):

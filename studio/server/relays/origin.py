@@ -12,9 +12,10 @@ from studio.protocol.relays import Relays, RelayView
 from studio.protocol.roles import Role, Visitor
 from studio.server.joining import Rate, Tries
 from studio.server.relays.keys import parse_relay_line
-from studio.server.relays.messages import RoomState
+from studio.server.relays.messages import VIEWER, RoomState
 from studio.server.relays.origin_end import OriginEnd
 from studio.server.relays.origin_topics import AllowedTopics
+from studio.server.relays.relayed_class import link_digest
 from studio.server.relays.tickets import RoomIdentity, TicketIssuer, read_ticket
 from studio.server.relays.uplink import Uplink
 
@@ -33,8 +34,6 @@ _SEEN_EVERY_S: Final = 1.0
 _GUESSES: Final = Rate(300.0, 3.0), Rate(600.0, 6.0)
 """Wrong codes of a relay, which holds each address to fewer, and of all relays."""
 _JOINS: Final = Rate(2_000.0, 50.0), Rate(4_000.0, 100.0)
-_VIEWER: Final = "viewer-"
-"""Before the id of people who look on and are kept in no list: the class is full."""
 
 
 class Origin:
@@ -67,16 +66,22 @@ class Origin:
         self._tries, self._joins = Tries(*_GUESSES), Tries(*_JOINS)
         self._shown: Relays | None = None
         self._watching: asyncio.Task[None] | None = None
+        self._changing = asyncio.Lock()
+        """Two that dial one relay at once would claim the room against each other."""
         classroom.relays = self
 
     # Relays
 
     async def begin(self, lines: Sequence[str], warn: Callable[[str], object]) -> None:
         """Dial the relays that were named, and those of before; what cannot be is told."""
-        for line in (*lines, *self._classroom.relay_lines):
+        kept = self._classroom.relay_lines
+        for line in (*lines, *kept):
             try:
-                if parse_relay_line(line).endpoint not in self.uplinks:
+                endpoint = parse_relay_line(line).endpoint
+                if endpoint not in self.uplinks:
                     await self.dial(line)
+                if line in lines:  # it may have another key now
+                    kept[:] = [line if _is_at(one, endpoint) else one for one in kept]
             except StudioError as error:
                 warn(str(error))
 
@@ -103,10 +108,11 @@ class Origin:
         relay = parse_relay_line(line)
         if relay.endpoint not in self.uplinks and len(self.uplinks) >= RELAYS_MAX:
             raise CommandError(f"{RELAYS_MAX} relays are in use: remove one first.")
-        await self._drop(relay.endpoint)
-        self.uplinks[relay.endpoint] = Uplink(
-            relay, lambda: self.identity, self._session, self._end_of, self._changed
-        )
+        async with self._changing:
+            await self._drop(relay.endpoint)
+            self.uplinks[relay.endpoint] = Uplink(
+                relay, lambda: self.identity, self._session, self._end_of, self._changed
+            )
         if self._watching is None:
             self._watching = asyncio.create_task(self._watch())
         self._changed()
@@ -118,7 +124,9 @@ class Origin:
         Raises:
             CommandError: It is none of those in use.
         """
-        if not await self._drop(endpoint):
+        async with self._changing:
+            was_there = await self._drop(endpoint)
+        if not was_there:
             raise CommandError(f"{endpoint} is no relay of this studio.")
         self._changed()
         kept = self._classroom.relay_lines
@@ -209,6 +217,7 @@ class Origin:
         return RoomState(
             session=self._session,
             tickets=self.issuer.public,
+            link=link_digest(admission.link),
             is_open=admission.open,
             has_password=bool(admission.password),
             default_document=engine.default_document or "",
@@ -230,7 +239,7 @@ class Origin:
         found = read_ticket(ticket, issuer.public, self.identity.id)
         if not classroom.admission.open:
             raise TicketError("the class is closed.")
-        if found.person.startswith(_VIEWER):
+        if found.person.startswith(VIEWER):
             return Visitor(Role.GUEST, found.person, classroom.control)
         member = classroom.members.find(found.person)
         if member is None or member.removed:
@@ -246,7 +255,7 @@ class Origin:
         classroom = self._classroom
         if not classroom.admission.open:
             return False
-        if person.person.startswith(_VIEWER):
+        if person.person.startswith(VIEWER):
             return True
         member = classroom.members.find(person.person)
         return member is not None and member is person and not member.removed
@@ -257,22 +266,27 @@ class Origin:
         Raises:
             NotJoiningError: They may not join.
         """
-        self._tries.begin(relay)
-        self._joins.begin(relay)
         classroom = self._classroom
+        admission = classroom.admission
+        # Nobody guesses the link: who has it joins though others spend all tries.
+        is_guess = bool(admission.password) or not admission.knows_link(form.code)
+        if is_guess:
+            self._tries.begin(relay)
+        self._joins.begin(relay)
         try:
             member = await classroom.join(
                 form.name, form.code, form.password, self._cookie_of(form.ticket)
             )
         except NotJoiningError as refusal:
             self._joins.give_back(relay)
-            if refusal.why not in {"code", "password"}:
+            if is_guess and refusal.why not in {"code", "password"}:
                 self._tries.give_back(relay)
             if refusal.why != "full":
                 raise
-            person = f"{_VIEWER}{secrets.token_hex(8)}"
+            person = f"{VIEWER}{secrets.token_hex(8)}"
             return self.issuer.issue(person, form.name[:40], Role.GUEST.value)
-        self._tries.give_back(relay)
+        if is_guess:
+            self._tries.give_back(relay)
         return self.issuer.issue(member.person, member.name, member.role.value)
 
     def _cookie_of(self, ticket: str) -> str:
@@ -283,6 +297,10 @@ class Origin:
             return ""
         member = self._classroom.members.find(person)
         return self._classroom.members.cookie_of(member) if member else ""
+
+
+def _is_at(line: str, endpoint: str) -> bool:
+    return line.partition("#")[0] == endpoint
 
 
 def _view(uplink: Uplink) -> RelayView:

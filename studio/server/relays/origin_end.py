@@ -244,7 +244,7 @@ class OriginEnd:
                 self._topics.carry_out(message, self._person_of(message.ticket))
             case WantBlobs():
                 if scene := self._scenes.get(message.document):
-                    scene.wanted(message.digests)
+                    scene.wanted(message.opening, message.digests)
             case OpenLane():
                 sees = self._sight_of(message.lane, self._person_of(message.ticket))
                 self._open(_LANE, message.lane, self._open_lane(message.lane, sees))
@@ -255,7 +255,8 @@ class OriginEnd:
                 self._close_lane(message.lane)
             case OpenScene():
                 sees = self._sight_of(message.document, self._person_of(message.ticket))
-                self._open(_SCENE, message.document, self._open_scene(message.document, sees))
+                work = self._open_scene(message.document, message.opening, sees)
+                self._open(_SCENE, message.document, work)
             case CloseScene():
                 self._close_scene(message.document)
             case Arrive():
@@ -275,7 +276,12 @@ class OriginEnd:
                 self._hang_up(message.reason[:200] or "another studio has this room.")
 
     def _person_of(self, ticket: str) -> Person | None:
-        return self._room.person(ticket) if ticket else None
+        """Return whose ticket it is: nobody's that is not valid, who sees what all may see."""
+        try:
+            return self._room.person(ticket) if ticket else None
+        except TicketError as error:
+            _log.info("A relay asked with a ticket that is not valid: %s", error)
+            return None
 
     def _start(
         self, work: Coroutine[object, object, None], among: set[asyncio.Task[None]]
@@ -322,7 +328,7 @@ class OriginEnd:
 
     async def _open_lane(self, name: str, sees: Callable[[str], bool]) -> None:
         self._forget_lane(name)
-        lane = OriginLane(name, self.outlet, self.tell_state, sees)
+        lane = OriginLane(name, self.outlet, self.tell_state, sees, self._lane_ended)
         try:
             await self._fill(lane)
         except StudioError as error:
@@ -341,6 +347,17 @@ class OriginEnd:
         except StudioError as error:
             self._forget_lane(name)
             self.outlet.post(encode(LaneClosed(name, str(error))))
+
+    def _lane_ended(self, lane: OriginLane) -> None:
+        """Its document is closed: what is opened under that name later is another."""
+
+        def end() -> None:
+            if self._lanes.get(lane.lane) is lane and self._is_open:
+                self._close_lane(lane.lane)
+                reason = str(UnknownDocumentError(lane.lane))
+                self.outlet.post(encode(LaneClosed(lane.lane, reason)))
+
+        asyncio.get_running_loop().call_soon(end)
 
     def _close_lane(self, name: str) -> None:
         self._cancel(_LANE, name)
@@ -393,10 +410,10 @@ class OriginEnd:
         tickets = self._room.tickets()
 
         def sees(document: str) -> bool:
-            if not owner_of(document):
+            if not owner_of(document) or document == self._room.state(self._relay).shown:
                 return True
             if person is None:
-                return document == self._room.state(self._relay).shown
+                return False
             is_here = self._room.has(person) and self._room.tickets() == tickets
             return document == name and is_here and person.sees(document)
 
@@ -416,7 +433,7 @@ class OriginEnd:
         else:
             self._cancel(_SCENE, document)
 
-    async def _open_scene(self, document: str, sees: Callable[[str], bool]) -> None:
+    async def _open_scene(self, document: str, opening: int, sees: Callable[[str], bool]) -> None:
         try:
             if not sees(document) or len(self._scenes) >= LANES_MAX:
                 raise UnknownDocumentError(document)
@@ -425,7 +442,9 @@ class OriginEnd:
             self.outlet.post(encode(SceneClosed(document)))
             return
         await self._turn()
-        shown = self._scenes[document] = OriginScene(document, self._line, lambda: sees(document))
+        shown = self._scenes[document] = OriginScene(
+            document, opening, self._line, lambda: sees(document)
+        )
         try:
             await shown.serve(scene)
         finally:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
+from functools import cache
 from typing import TYPE_CHECKING, Final
 
+from studio.protocol.documents import Gone
+from studio.protocol.message import all_events, type_of
 from studio.protocol.roles import RELAY, Role, owner_of
 from studio.scene import SUBPROTOCOL
 from studio.scene.frame_parts import split_frame
 from studio.server.relays.messages import (
+    MOMENT,
     Blob,
     Frame,
     LaneFrame,
@@ -36,6 +40,7 @@ class OriginLane:
         outlet: Where its frames go.
         before: Called before each.
         sees: Whether it may show what is in a document.
+        ended: Called once what it shows is no more.
     """
 
     def __init__(
@@ -44,8 +49,9 @@ class OriginLane:
         outlet: Outlet,
         before: Callable[[], object],
         sees: Callable[[str], bool],
+        ended: Callable[[OriginLane], object],
     ) -> None:
-        self.lane, self._sees = lane, sees
+        self.lane, self._sees, self._ended = lane, sees, ended
         self.role, self.person = Role.GUEST, RELAY
         self._outlet, self._before = outlet, before
         self._number = 0
@@ -62,10 +68,13 @@ class OriginLane:
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Send one message, or have it in the snapshot that is being made."""
-        frame = Frame(data, binary, key or "")
+        kind = "" if binary else data[len(_TYPE) : data.find(b'"', len(_TYPE))].decode()
+        frame = Frame(data, binary, MOMENT if kind in _moments() else key or "")
         if self._collected is not None:
             self._collected.append(frame)
             return
+        if kind == _GONE:
+            self._ended(self)
         self._before()
         self._number += 1
         place = f"{self.lane}\0{key}" if key else None
@@ -120,8 +129,11 @@ class RelayedPage:
 class OriginScene:
     """One 3D view of the studio, shown to a relay as to a page that only looks."""
 
-    def __init__(self, document: str, line: Line, may_go_on: Callable[[], bool]) -> None:
-        self._document, self._line, self._may_go_on = document, line, may_go_on
+    def __init__(
+        self, document: str, opening: int, line: Line, may_go_on: Callable[[], bool]
+    ) -> None:
+        self._document, self._opening = document, opening
+        self._line, self._may_go_on = line, may_go_on
         self._is_first = True
         self._ended = asyncio.Event()
         self._resume: Callable[[], object] = lambda: None
@@ -154,17 +166,19 @@ class OriginScene:
         first, self._is_first = self._is_first, False
         if blobs:
             self._unasked.append(blobs)
-        if not first:  # what is new goes along: to be asked for it would take time each time
-            for digest in blobs.keys() - self._sent:
-                self._line.send(Blob(digest, bytes(blobs[digest])))
+        # What is new in a later frame goes along: to be asked for it would take time each time.
+        announced = () if first else tuple(blobs.keys() - self._sent)
         self._sent |= blobs.keys()
         if len(self._sent) > _DIGESTS_MAX:
             self._sent = set(blobs)
-        self._line.send(SceneFrame(self._document, first, tuple(parts), tuple(is_digest)))
+        where = self._document, self._opening
+        self._line.send(SceneFrame(*where, first, tuple(parts), tuple(is_digest), announced))
+        for digest in announced:
+            self._line.send(Blob(digest, bytes(blobs[digest])))
 
-    def wanted(self, digests: tuple[bytes, ...]) -> None:
+    def wanted(self, opening: int, digests: tuple[bytes, ...]) -> None:
         """The relay has none of these, which the oldest frame with digests names."""
-        if self._unasked:
+        if self._unasked and opening == self._opening:
             blobs = self._unasked.popleft()
             self._blobs += [(one, blobs[one]) for one in digests if one in blobs]
             self._send_blobs()
@@ -199,5 +213,12 @@ class OriginScene:
         self.close()
 
 
+@cache
+def _moments() -> frozenset[str]:
+    return frozenset(type_of(kind) for kind in all_events() if kind.is_moment)
+
+
+_TYPE: Final = b'{"type":"'
+_GONE: Final = type_of(Gone)
 _LOOK_EVERY_S: Final = 1.0
 _DIGESTS_MAX: Final = 10_000

@@ -233,6 +233,8 @@ class Relay:
                     query.reply(str(query.key_expr), answer, attachment=b"")
             except (RelayError, ZError, TimeoutError) as error:
                 _log.warning("A claim was refused: %s", error)
+            except Exception:  # noqa: BLE001 - the claims of other studios wait behind it
+                _log.exception("A claim could not be answered.")
             finally:
                 query.drop()
 
@@ -245,7 +247,7 @@ class Relay:
         try:
             signed = msgspec.msgpack.decode(payload, type=Signed)
             claim = msgspec.msgpack.decode(signed.body, type=Claim)
-        except msgspec.MsgspecError as error:
+        except (msgspec.MsgspecError, UnicodeDecodeError) as error:
             raise RelayLineError(f"a claim cannot be read ({error}).") from None
         verify_room(claim.room, claim.public, signed.body, signed.signature)
         if claim.version == studio.__version__ and claim.relay != key_digest(self.identity.key):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import hmac
 from collections import OrderedDict
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final
@@ -87,9 +89,14 @@ class RelayedAdmission:
         return "?" if self._room.state and self._room.state.has_password else ""
 
     def knows_link(self, given: str) -> bool:
-        """Return that it is not known."""
-        del given
-        return False
+        """Whether this is the code of the link, which nobody guesses."""
+        state = self._room.state
+        return state is not None and hmac.compare_digest(state.link, link_digest(given))
+
+
+def link_digest(code: str) -> bytes:
+    """Return the digest of a link's code, by which a relay knows who has the link."""
+    return hashlib.blake2b(code.encode(), digest_size=16).digest()
 
 
 class RelayedClass:
@@ -114,7 +121,14 @@ class RelayedClass:
         if self.state is None or not self.state.is_open:
             return None
         member = self._member(given)
-        return None if member is None or member.person in self.state.sent_out else member
+        return member if member is not None and self.admits(member) else None
+
+    def admits(self, member: RelayedMember) -> bool:
+        """Whether they may be here, by what the origin said last."""
+        state = self.state
+        if state is None or not state.is_open or member.person in state.sent_out:
+            return False
+        return self._people.get(member.person) is member
 
     def is_sent_out(self, given: str) -> bool:
         """Whether this is the ticket of somebody who was sent out."""

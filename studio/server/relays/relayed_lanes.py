@@ -8,7 +8,17 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError, OriginAwayError, RelayLineError
-from studio.server.relays.messages import STUDIO_LANE, CloseLane, Frame, OpenLane, Refresh
+from studio.protocol.documents import Gone
+from studio.protocol.listeners import send
+from studio.protocol.roles import owner_of
+from studio.server.relays.messages import (
+    MOMENT,
+    STUDIO_LANE,
+    CloseLane,
+    Frame,
+    OpenLane,
+    Refresh,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -41,6 +51,8 @@ class LaneCopy:
         self.trouble = ""
         """Why there is no such lane."""
         self.idle_since_s = asyncio.get_running_loop().time()
+        self.ticket = ""
+        """Of the person for whom it was opened last; empty: all may see it."""
         self._snapshot: tuple[Frame, ...] = ()
         self._since: OrderedDict[str | int, Frame] = OrderedDict()
         self._numbers = itertools.count()
@@ -71,6 +83,9 @@ class LaneCopy:
         Raises:
             RelayLineError: A snapshot was asked for, and far more came instead.
         """
+        if frame.key == MOMENT:
+            self._post(frame)
+            return False
         key = frame.key or next(self._numbers)
         if before := self._since.pop(key, None):
             self._since_bytes -= len(before.data)
@@ -112,6 +127,7 @@ class LaneCopy:
     def _post(self, frame: Frame) -> None:
         pages = self.followers if frame.key in FOLLOWED else self.listeners
         data, binary, key = frame.data, frame.binary, frame.key or None
+        key = None if key == MOMENT else key
         for page in tuple(pages):
             page.post(data, binary=binary, key=key)
 
@@ -127,7 +143,7 @@ class RelayedLanes:
     def __init__(self, send: Callable[[Up], object], ticket_for: Callable[[str], str]) -> None:
         self._send, self._ticket_for = send, ticket_for
         self._lanes: dict[str, LaneCopy] = {}
-        self.studio = self._open(STUDIO_LANE)
+        self.studio = self._lanes[STUDIO_LANE] = LaneCopy(STUDIO_LANE)
         self.frame_count = 0
 
     async def watch(self, name: str, listener: Listener) -> None:
@@ -138,7 +154,12 @@ class RelayedLanes:
         """
         if name not in self._lanes and len(self._lanes) >= _LANES_MAX:
             raise CommandError("More is open at this relay than it may show: close a page.")
-        lane = self._lanes.get(name) or self._open(name)
+        lane = self._lanes.get(name)
+        if lane is None:
+            lane = self._lanes[name] = LaneCopy(name)
+            self._ask_for(lane)
+        elif not lane.ticket and self._ticket_for(name):
+            self._ask_for(lane)  # it was shown to all so far, and is this person's own
         try:
             await asyncio.wait_for(lane.is_there.wait(), _OPENING_S)
         except TimeoutError:
@@ -162,9 +183,9 @@ class RelayedLanes:
 
     def renew(self) -> None:
         """The origin is there again: open all lanes anew, for what was missed."""
-        for name, lane in tuple(self._lanes.items()):
+        for lane in tuple(self._lanes.values()):
             lane.refreshing = False
-            self._send(OpenLane(name, self._ticket_for(name)))
+            self._ask_for(lane)
 
     def take_snapshot(self, message: LaneSnapshot) -> None:
         """Take the whole state of a lane."""
@@ -180,11 +201,32 @@ class RelayedLanes:
                 self._send(Refresh(message.lane))
 
     def close(self, name: str, reason: str) -> None:
-        """There is no such lane, or no more; pages keep what they have."""
-        if (lane := self._lanes.get(name)) and lane is not self.studio:
-            lane.trouble = reason
-            lane.is_there.set()
-            del self._lanes[name]
+        """There is no such lane, or no more; pages keep what they have.
+
+        It is opened again for somebody who may see it, if it was opened for somebody else.
+        """
+        lane = self._lanes.get(name)
+        if lane is None or lane is self.studio:
+            return
+        self._let_go(lane)
+        if lane.listeners and self._ticket_for(name) not in {"", lane.ticket}:
+            self._ask_for(lane)
+            return
+        lane.trouble = reason
+        lane.is_there.set()
+        del self._lanes[name]
+
+    def review(self) -> None:
+        """Roles, or what is shown, are others: send nobody what they may not see any more."""
+        for lane in self._lanes.values():
+            if owner_of(lane.name):
+                self._let_go(lane)
+
+    def _let_go(self, lane: LaneCopy) -> None:
+        for listener in tuple(lane.listeners):
+            if not listener.sees(lane.name):
+                lane.remove(listener)
+                send(listener, Gone(document=lane.name))
 
     def close_idle(self) -> None:
         """End lanes that nobody has had open for a while."""
@@ -201,7 +243,6 @@ class RelayedLanes:
             if not lane.is_there.is_set() and lane is not self.studio:
                 self.close(name, reason)
 
-    def _open(self, name: str) -> LaneCopy:
-        lane = self._lanes[name] = LaneCopy(name)
-        self._send(OpenLane(name, self._ticket_for(name)))
-        return lane
+    def _ask_for(self, lane: LaneCopy) -> None:
+        lane.ticket = self._ticket_for(lane.name)
+        self._send(OpenLane(lane.name, lane.ticket))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 from collections import deque
 from typing import TYPE_CHECKING, Final
 
@@ -30,6 +31,8 @@ class SceneHere:
     def __init__(self, document: str) -> None:
         loop = asyncio.get_running_loop()
         self.document, self.scene = document, RelayedScene(loop)
+        self.opening = 0
+        """Number of the last `OpenScene`; frames of those before are too late."""
         self.looking = 0
         self.idle_since_s = loop.time()
         self.waiting: deque[SceneFrame] = deque()
@@ -61,6 +64,7 @@ class RelayedScenes:
     ) -> None:
         self._send, self._ticket_for, self._blobs = send, ticket_for, blobs
         self._scenes: dict[str, SceneHere] = {}
+        self._openings = itertools.count(1)
         self.frame_count = 0
 
     async def serve(
@@ -74,7 +78,7 @@ class RelayedScenes:
         here = self._scenes.get(document)
         if here is None:
             here = self._scenes[document] = SceneHere(document)
-            self._send(OpenScene(document, self._ticket_for(document)))
+            self._ask_for(here)
         here.looking += 1
         try:
             await here.scene.serve(connection, allowed, subprotocol)
@@ -89,16 +93,17 @@ class RelayedScenes:
             SceneError: It is none.
         """
         here = self._scenes.get(message.document)
-        if here is None:
+        if here is None or message.opening != here.opening:
             return
         if len(message.parts) != len(message.is_digest):
             raise SceneError("It is not said of each part of a frame what it is.")
         parts = zip(message.parts, message.is_digest, strict=True)
         digests = {part for part, is_digest in parts if is_digest}
         if digests:
-            lacking = tuple(one for one in digests if self._blobs.get(one) is None)
-            here.missing.update(lacking)
-            self._send(WantBlobs(message.document, lacking))
+            lacking = {one for one in digests if self._blobs.get(one) is None}
+            here.missing |= lacking
+            wanted = tuple(lacking - set(message.announced))
+            self._send(WantBlobs(message.document, here.opening, wanted))
         here.waiting.append(message)
         here.waiting_bytes += sum(map(len, message.parts))
         if len(here.waiting) > _WAITING_MAX or here.waiting_bytes > _WAITING_BYTES_MAX:
@@ -132,7 +137,7 @@ class RelayedScenes:
     def renew(self) -> None:
         """The origin is there again: open anew what is looked at."""
         for here in self._scenes.values():
-            self._send(OpenScene(here.document, self._ticket_for(here.document)))
+            self._ask_for(here)
 
     def close_idle(self) -> None:
         """End views that nobody has looked at for a while."""
@@ -164,4 +169,9 @@ class RelayedScenes:
 
     def _open_anew(self, here: SceneHere) -> None:
         here.clear()
-        self._send(OpenScene(here.document, self._ticket_for(here.document)))
+        self._ask_for(here)
+
+    def _ask_for(self, here: SceneHere) -> None:
+        here.opening = next(self._openings)
+        document = here.document
+        self._send(OpenScene(document, here.opening, self._ticket_for(document)))

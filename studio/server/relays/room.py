@@ -36,6 +36,7 @@ from studio.server.relays.messages import (
     CHANGES,
     NAME_LETTERS_MAX,
     OPERATIONS,
+    VIEWER,
     Arrive,
     AskDownload,
     AskJoin,
@@ -72,7 +73,7 @@ from studio.server.relays.standing import Standing
 from studio.server.relays.tickets import TICKET_LETTERS_MAX
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from studio.live.topics.browsers import DataLaneEnd
     from studio.protocol import Command
@@ -146,8 +147,8 @@ class Room:
 
     @property
     def is_there(self) -> bool:
-        """Whether the origin is."""
-        return self._line is not None and self.classroom.state is not None
+        """Whether the origin is, and has said what room it has."""
+        return self._line is not None and self._greeted
 
     @property
     def line(self) -> Line | None:
@@ -157,12 +158,12 @@ class Room:
     @property
     def pages(self) -> int:
         """How many are open."""
-        return len(self._pages)
+        return len(self.lanes.studio.listeners)
 
     @property
     def people(self) -> int:
         """How many persons have one open."""
-        return len({one.person for one in self._pages})
+        return len({one.person for one in self.lanes.studio.listeners})
 
     @property
     def frame_count(self) -> int:
@@ -274,14 +275,16 @@ class Room:
 
     def _send(self, message: Up) -> bool:
         """Send a message; answers whether there is a line."""
-        if self._line is not None:
-            self._line.send(message)
-        return self._line is not None
+        if self._line is None or not self._greeted:
+            return False
+        self._line.send(message)
+        return True
 
     def _renew(self, state: RoomState) -> None:
         """Take what the room is now; on a new line, ask for all anew that is looked at."""
         before, self.classroom.state = self.classroom.state, self.classroom.state
         self.classroom.renew(state)
+        self._review(before)
         if self._greeted:
             if before is not None and before.others != state.others:
                 self._tell_all()
@@ -304,6 +307,25 @@ class Room:
             self._renewing.add(task)
             task.add_done_callback(self._renewing.discard)
         self._tell_all()
+
+    def _review(self, before: RoomState | None) -> None:
+        """End the pages of who may not be here any more, and what is not to be seen any more."""
+        state = self.classroom.state
+        if before is None or state is None or before == state:
+            return
+        here = (before.is_open, before.sent_out, before.tickets)
+        if here != (state.is_open, state.sent_out, state.tickets):
+            self._end_people(self._is_out)
+        if before.shown != state.shown:
+            self.lanes.review()
+
+    def _is_out(self, visitor: Person) -> bool:
+        member = visitor if isinstance(visitor, RelayedMember) else None
+        return (
+            member is not None
+            and member.is_of(self.classroom)
+            and not self.classroom.admits(member)
+        )
 
     async def _ask_standing(self, listener: Listener) -> None:
         """Ask again for what lasts, one after the other: a lesson before the panels seen in it."""
@@ -347,8 +369,8 @@ class Room:
             self._send(Leave(page))
 
     def _is_known(self, listener: Listener) -> bool:
-        """Whether the origin keeps a list of such people: all but those who only look."""
-        return listener.role is not Role.GUEST
+        """Whether the origin keeps a list of such people: all but those beyond its places."""
+        return not listener.person.startswith(VIEWER)
 
     def _arrive(self, listener: Listener) -> int:
         """Have the origin know a page; answers its number."""
@@ -381,6 +403,7 @@ class Room:
         frame = message.frame
         if frame.data.startswith(_YOU):
             self.classroom.note(frame.data)
+            self.lanes.review()
         listener.post(frame.data, binary=frame.binary, key=frame.key or None)
 
     # Commands
@@ -455,11 +478,13 @@ class Room:
         Raises:
             StudioError: It cannot be made, or the origin is away.
         """
-        self._check_there()
+        if not self.is_there:
+            raise OriginAwayError
         if self._downloading.is_full or len(document) > NAME_LETTERS_MAX:
             raise CommandError("Too much is asked for here at once: try again in a moment.")
         number = next(self._numbers)
-        asked = AskDownload(number, self._ticket_for(document), document, what, tuple(options))
+        ticket = self._ticket_for(document) or next((one.ticket for one in self._members()), "")
+        asked = AskDownload(number, ticket, document, what, tuple(options))
         found = await self._downloading.ask(number, asked)
         if found.kind:
             raise CommandError(found.reason)
@@ -471,11 +496,22 @@ class Room:
         return member.ticket if member else ""
 
     def _ticket_for(self, document: str) -> str:
-        """Return the ticket of somebody here who may see a document; empty where all may."""
-        people = (self.classroom.person(one.person) for one in self._pages)
-        if document and not owner_of(document) and document[:1] != "!":
-            return next((one.ticket for one in people if one), "")
-        return next((one.ticket for one in people if one and one.sees(document)), "")
+        """Return the ticket of whose copy a document is, or of a helper; empty where all may."""
+        owner = owner_of(document)
+        if not owner:
+            return ""
+        members = [one for one in self._members() if one.sees(document)]
+        return next(
+            (one.ticket for one in members if one.person == owner),
+            next((one.ticket for one in members if one.role.includes(Role.HELPER)), ""),
+        )
+
+    def _members(self) -> Iterator[RelayedMember]:
+        """Give the people who have pages open here, and may."""
+        for person in {one.person for one in self._pages}:
+            member = self.classroom.person(person)
+            if member is not None and self.classroom.admits(member):
+                yield member
 
     # What the server's routes use of an engine
 
@@ -544,8 +580,9 @@ class Room:
                 self.lanes.give_up(str(OriginAwayError()))
 
     def _tell_viewers(self) -> None:
-        guests = sum(page not in self._arrived for page in self._pages.values())
-        viewers = Viewers(len(self._pages), guests)
+        pages = self.lanes.studio.listeners
+        guests = sum(one.person.startswith(VIEWER) for one in pages)
+        viewers = Viewers(len(pages), guests)
         if viewers != self._sent_viewers:
             self._sent_viewers = viewers
             self._send(viewers)

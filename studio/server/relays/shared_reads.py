@@ -83,7 +83,11 @@ class SharedReads:
         if found is None or found.version != self._version() or now_s - found.since_s > _FRESH_S:
             events = asyncio.ensure_future(self._asked(command, listener))
             events.add_done_callback(_noticed)
-            self._reads.pop(key, None)
+            self._reads = {
+                one: read
+                for one, read in self._reads.items()
+                if one != key and now_s - read.since_s <= _FRESH_S
+            }
             found = self._reads[key] = _Read(self._version(), now_s, events)
             while len(self._reads) > _KEPT_MAX:
                 del self._reads[next(iter(self._reads))]
