@@ -10,8 +10,6 @@ if TYPE_CHECKING:
 
 ABSENCE_S: Final = 5.0
 """So long the holder's pages may all be gone: a reload takes less."""
-MOVING_S: Final = 20.0
-"""The same if their relay went: the page notices, looks for another, and loads there anew."""
 MOVING_S: Final = 12.0
 """The same where a page may go on at another relay."""
 
@@ -66,13 +64,6 @@ class Control:
             loop = asyncio.get_running_loop()
             absence_s = MOVING_S if may_move else ABSENCE_S
             self._absence = loop.call_later(absence_s, self.give, "")
-
-    def moves(self, person: str) -> None:
-        """Who left did so because their relay went: it takes longer until they are back."""
-        if person == self._holder and self._absence is not None:
-            self._absence.cancel()
-            loop = asyncio.get_running_loop()
-            self._absence = loop.call_later(max(ABSENCE_S, MOVING_S), self.give, "")
 
     def back(self, person: str) -> None:
         """A page of a person is there again."""

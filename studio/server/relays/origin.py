@@ -260,10 +260,6 @@ class Origin:
         member = classroom.members.find(person.person)
         return member is not None and member is person and not member.removed
 
-    def moves(self, person: str) -> None:
-        """A person's relay went: control is kept for them until they can be at another."""
-        self._classroom.control.moves(person)
-
     async def join(self, relay: str, form: AskJoin) -> str:
         """Add a person, and return their ticket; one more than the class takes only looks.
 

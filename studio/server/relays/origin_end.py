@@ -129,10 +129,6 @@ class Room(Protocol):
         """Whether a person may still be here."""
         ...
 
-    def moves(self, person: str, /) -> None:
-        """A person's relay went: they are on their way to another."""
-        ...
-
     def tickets(self) -> bytes:
         """Return the public key of those who sign tickets."""
         ...
@@ -234,8 +230,6 @@ class OriginEnd:
             scene.close()
         for listener in (*self._lanes.values(), *self._pages.values()):
             self._engine.detach(listener)
-        for page in self._pages.values():
-            self._room.moves(page.person)
         self._topics.close()
         self.outlet.close()
         self._viewers = Viewers(0, 0)
