@@ -6,7 +6,7 @@ import json
 import secrets
 import threading
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import msgspec
 
@@ -23,11 +23,17 @@ from studio.ros.wire.zenoh import (
 )
 from studio.server.relays.keys import RelayIdentity, new_secret
 from studio.server.relays.messages import (
+    Arrive,
+    Ask,
     AskJoin,
     Claim,
     ClaimAnswer,
     Down,
     Joined,
+    Ping,
+    Pong,
+    Say,
+    Settled,
     Signed,
     Up,
     decode_down,
@@ -40,8 +46,10 @@ from tests.support.relays import free_port, wait_until
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterable
 
+    from studio.classroom.classroom import Classroom
     from studio.ros.wire.zenoh import Outgoing, Query, Sample, Session
     from studio.server.relays.sealing import Opener, Sealer
+    from tests.support.relays import RelayedClass
 
 _Kind = TypeVar("_Kind")
 _PATIENCE_S = 30.0
@@ -61,6 +69,12 @@ class HostileLine:
         with self._sending:
             return [self._sealer.seal(one) for one in split(b"m" + data)]
 
+    def send(self, data: bytes) -> None:
+        """Send a message: nothing else goes between its pieces."""
+        with self._sending:
+            for one in split(b"m" + data):
+                self._publisher.put(self._sealer.seal(one))
+
     def put(self, sealed: Iterable[bytes]) -> None:
         """Send what was sealed, now or before."""
         for one in sealed:
@@ -69,8 +83,7 @@ class HostileLine:
     def confirm(self, size: int) -> None:
         """Tell that so many bytes came."""
         with self._sending:
-            sealed = self._sealer.seal(split(b"c" + size.to_bytes(8, "little"))[0])
-        self._publisher.put(sealed)
+            self._publisher.put(self._sealer.seal(split(b"c" + size.to_bytes(8, "little"))[0]))
 
     def open(self, sealed: bytes) -> bytes | None:
         """A message of the origin that this completes, with its first byte."""
@@ -123,11 +136,11 @@ class HostileRelay:
     def say(self, *messages: Up) -> None:
         """Send messages as a relay seals them."""
         for one in messages:
-            self.now.put(self.now.seal(encode(one)))
+            self.now.send(encode(one))
 
     def raw(self, data: bytes) -> None:
         """Send bytes that may be no message, sealed."""
-        self.now.put(self.now.seal(data))
+        self.now.send(data)
 
     def join(self, name: str, code: str) -> str:
         """The ticket of somebody who joins here."""
@@ -209,3 +222,58 @@ def hostile_relay() -> Generator[HostileRelay]:
         yield made
     finally:
         made.close()
+
+
+class HostileClass:
+    """A class at a hostile relay, and what its relay can do there."""
+
+    def __init__(self, room: RelayedClass, relay: HostileRelay) -> None:
+        self.room, self.relay = room, relay
+        self._flooder = ""
+
+    @property
+    def classroom(self) -> Classroom:
+        return self.room.served.classroom
+
+    def ticket(self, name: str) -> str:
+        """Of somebody who joined at the relay."""
+        return self.relay.join(name, self.classroom.admission.code)
+
+    def flooder(self) -> str:
+        """The ticket of somebody who joined before any flood, after which nobody might."""
+        self._flooder = self._flooder or self.ticket("Jim")
+        return self._flooder
+
+    def person(self, name: str) -> str:
+        return next(one.person for one in self.classroom.members if one.name == name)
+
+    def page(self, ticket: str) -> int:
+        """The number of a page that has arrived."""
+        page = self.relay.number()
+        self.relay.say(Arrive(page, ticket))
+        return page
+
+    def ask(self, page: int, kind: str, **fields: object) -> dict[str, Any]:
+        """What a command of a page is answered."""
+        return self.ask_text(page, json.dumps({"type": kind, "request": 1, **fields}).encode())
+
+    def ask_text(self, page: int, text: bytes) -> dict[str, Any]:
+        since, number = len(self.relay.heard), self.relay.number()
+        self.relay.say(Ask(page, number, text))
+        self.relay.until(Settled, lambda one: one.number == number, since)
+        said = [one for one in self.relay.heard[since:] if isinstance(one, Say)]
+        events = [json.loads(one.frame.data) for one in said if not one.frame.binary]
+        return next(one for one in reversed(events) if one["type"] in {"done", "refused"})
+
+    def answers(self) -> None:
+        """Wait until all that was said before was taken."""
+        number = self.relay.number()
+        self.relay.say(Ping(number))
+        self.relay.until(Pong, lambda one: one.sent_ns == number)
+
+    def copy_of(self, name: str) -> tuple[int, str, str]:
+        """A page, its ticket, and the copy that its person has made."""
+        ticket = self.ticket(name)
+        page = self.page(ticket)
+        assert self.ask(page, "open_copy", document="rover")["type"] == "done"
+        return page, ticket, f"rover~{self.person(name)}"

@@ -63,7 +63,8 @@ class Line:
 
     Args:
         loop: Where messages are taken.
-        open_publisher: Opens what they are sent by, in the thread that sends; it may wait.
+        open_publisher: Opens what they are sent by, in the thread that sends; it may wait for as
+            long as what it is given says that the line is open.
         keys: Seal what goes, and open what comes.
         most_bytes: Of a message that comes; a larger one is refused.
     """
@@ -71,7 +72,7 @@ class Line:
     def __init__(
         self,
         loop: asyncio.AbstractEventLoop,
-        open_publisher: Callable[[], Outgoing],
+        open_publisher: Callable[[Callable[[], bool]], Outgoing],
         keys: tuple[Sealer, Opener],
         most_bytes: int = MESSAGE_BYTES_MAX,
     ) -> None:
@@ -249,7 +250,7 @@ class Line:
     def _send_all(self) -> None:
         """Seal and send, in a thread: Zenoh waits while the network takes nothing."""
         try:
-            publisher = self._open_publisher()
+            publisher = self._open_publisher(lambda: not self.closed)
             while (data := self._outgoing.get()) is not None:
                 if data[:1] == _MESSAGE:  # before it goes, for it may be confirmed at once
                     self._gone_bytes += len(data) - 1

@@ -290,10 +290,9 @@ class Relay:
         session = self._session
         assert session is not None
         up = line_keys(name)[0]
-        line: Line
 
-        def publisher() -> Outgoing:
-            return declare_stream(session, up, _MATCHING_S, lambda: not line.closed)
+        def publisher(is_open: Callable[[], bool]) -> Outgoing:
+            return declare_stream(session, up, _MATCHING_S, is_open)
 
         line = Line(self._loop, publisher, keys)
         self._forget_lines()

@@ -254,7 +254,7 @@ class Uplink:
         up, down, alive = line_keys(answer.line)
         incoming = declare_subscription(session, up, SAMPLES_MAX, reliable=True)
         publisher = declare_stream(session, down, _MATCHING_TIMEOUT_S)
-        line = Line(self._task.get_loop(), lambda: publisher, keys, UP_BYTES_MAX)
+        line = Line(self._task.get_loop(), lambda _: publisher, keys, UP_BYTES_MAX)
         reading = _reading(incoming, line)
         token = declare_token(session, alive)
 
