@@ -112,7 +112,8 @@ class Seen:
                 for name, ages in seen.items()
                 if ages
             ]
-            say(f"    {kind:<6} {'; '.join(parts)}")
+            if parts:
+                say(f"    {kind:<6} {'; '.join(parts)}")
 
 
 def judge_all(seen: Sequence[Seen], rooms: Rooms) -> None:
@@ -134,7 +135,7 @@ def _judge_ages(one: Seen) -> None:
     for kind, ages in one.ages.items():
         what = f"{one.relays} relays, {one.viewers} browsers: {kind}, added at p95"
         if one.cost.machine > _BUSY:
-            say(f"  {what}: {p95(ages['added_ms']):.1f} ms; the machine is busy, it is told only")
+            say(f"  {what}: {p95(ages['added_ms']):.1f} ms; the machine is busy: told only")
         else:
             judge(what, p95(ages["added_ms"]), at_most=ADDED_MS)
 
