@@ -1,20 +1,46 @@
-"""A presenter and three students in browsers of their own, directly and behind nginx with TLS."""
+"""A presenter and three students in browsers: directly, behind nginx with TLS, and by relays."""
 
 from __future__ import annotations
 
-from contextlib import ExitStack, contextmanager
+import sys
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 
 from tests.support.certificates import make_certificates
+from tests.support.class_tabs import (
+    bar,
+    copy_bar,
+    give_control,
+    hold_slider,
+    is_pressed,
+    join,
+    let_go,
+    orbit,
+    press,
+    press_in_bar,
+    same_camera,
+    shows,
+    tab,
+    value_of,
+)
 from tests.support.nginx import free_port, running_nginx
 from tests.support.panel_pictures import SHOW_PANEL
+from tests.support.relayed_studio import (
+    RelayedStudio,
+    complaints,
+    note_when_shown,
+    relayed_studio,
+    same_places,
+    shown_after,
+)
 from tests.support.server import RunningStudio, running_studio
-from tests.support.studio_page import StudioPage, studio_context, wait_until
+from tests.support.studio_page import StudioPage, wait_until
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Iterator
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
 
     from playwright.sync_api import Browser, Locator
 
@@ -42,45 +68,19 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
         yield Served(studio, {"directly": f"{studio.origin}{PATH}/", "nginx": behind})
 
 
-@contextmanager
-def tab(browser: Browser) -> Generator[StudioPage]:
-    """A browser of somebody's own; the certificate is that of the test."""
-    context = studio_context(browser, ignore_https_errors=True)
-    try:
-        yield StudioPage(context.new_page())
-    finally:
-        context.close()
+@pytest.fixture
+def relayed(tmp_path: Path) -> Iterator[RelayedStudio]:
+    with relayed_studio(tmp_path) as made:
+        yield made
 
 
-def join(tab: StudioPage, address: str, name: str, code: str, *, view: bool = False) -> StudioPage:
-    """Come to the bare address, type the code and a name."""
-    url = address[: address.index("/", 8)]
-    if not view:
-        tab.page.context.add_cookies([{"name": "without_view", "value": "1", "url": url}])
-    tab.page.goto(address)
-    tab.page.get_by_label("Code").fill(code)
-    tab.page.get_by_label("Your name").fill(name)
-    tab.page.get_by_role("button", name="Join").click()
-    bar(tab).get_by_text("You are looking").wait_for()
-    return tab
+class People(NamedTuple):
+    """Their tabs."""
 
-
-def bar(tab: StudioPage) -> Locator:
-    """The bar that says who has control."""
-    return tab.page.locator(".control-bar")
-
-
-def press(tab: StudioPage, name: str) -> None:
-    tab.page.get_by_role("button", name=name, exact=True).click()
-
-
-def value_of(tab: StudioPage, name: str) -> float:
-    tab.seek(name)
-    return float(tab.box(name).input_value())
-
-
-def shows(tab: StudioPage, name: str, value: float) -> None:
-    wait_until(f"{name} to be {value:g}", lambda: abs(value_of(tab, name) - value) < 1e-9)
+    presenter: StudioPage
+    ada: StudioPage
+    bob: StudioPage
+    eve: StudioPage
 
 
 @pytest.mark.parametrize("way", ["directly", pytest.param("nginx", marks=pytest.mark.sweep)])
@@ -89,30 +89,103 @@ def test_students_join_ask_for_control_drag_what_all_see_and_hand_it_back(
 ):
     address, code = served.addresses[way], served.studio.class_code
     with ExitStack() as held:
-        presenter, ada, bob, eve = (held.enter_context(tab(browser)) for _ in range(4))
-        presenter.open(f"{address}?token={served.studio.token}", view=False)
-        for student, name in ((ada, "Ada"), (bob, "Bob"), (eve, "Eve")):
+        people = People(*(held.enter_context(tab(browser)) for _ in range(4)))
+        people.presenter.open(f"{address}?token={served.studio.token}", view=False)
+        for student, name in zip(people[1:], ("Ada", "Bob", "Eve"), strict=True):
             join(student, address, f"{name} {way}", code)
-        assert "token" not in presenter.page.url
-        assert "code" not in ada.page.url
-        looks_only(ada)
-        press(bob, "Ask for control")
-        press(ada, "Ask for control")
-        give_control(presenter, f"Ada {way}")
-        bar(ada).get_by_text("You have control").wait_for()
-        for other in (presenter, bob, eve):
-            bar(other).get_by_text(f"Ada {way} has control").wait_for()
-        dragged = float(ada.drag_slider("wheel_radius", 0.7))
-        for other in (presenter, bob, eve):
-            shows(other, "wheel_radius", dragged)
-            assert other.slider("wheel_radius").is_disabled()
-        press(ada, "Give back")
-        bar(presenter).wait_for(state="detached")
-        shows(presenter, "wheel_radius", dragged)
-        a_drag_that_is_cut_off_is_one_step(presenter, bob, f"Bob {way}")
-        presenter.undo_all()
-        for one in (presenter, ada, bob, eve):
+        assert "token" not in people.presenter.page.url
+        dragged = one_of_two_gets_control_and_drags(people, way)
+        control_is_given_back_and_taken(people, way, dragged)
+        for one in people:
             assert one.errors == []
+
+
+@pytest.mark.parametrize("drawn_within_s", [30.0, pytest.param(2.0, marks=pytest.mark.sweep)])
+def test_a_class_at_two_relays_goes_on_at_one_when_the_other_is_killed(
+    browser: Browser, relayed: RelayedStudio, drawn_within_s: float
+):
+    code, (ada_at, eve_at) = relayed.studio.class_code, relayed.addresses
+    with ExitStack() as held:
+        people = People(*(held.enter_context(tab(browser)) for _ in range(4)))
+        people.presenter.open(relayed.studio.url)
+        join(people.ada, ada_at, "Ada R", code, view=True)
+        join(people.bob, ada_at, "Bob R", code, view=True)
+        join(people.eve, eve_at, "Eve R", code)
+        dragged = one_of_two_gets_control_and_drags(people, "R")
+        two_go_on_at_the_other_relay(relayed, people, drawn_within_s)
+        control_is_given_back_and_taken(people, "R", dragged)
+        for one in people:
+            assert complaints(one) == []
+
+
+def one_of_two_gets_control_and_drags(people: People, way: str) -> float:
+    """It is Ada; what she dragged is the radius of the wheels, to the value that is returned."""
+    presenter, ada, bob, eve = people
+    assert "code" not in ada.page.url
+    looks_only(ada)
+    press(bob, "Ask for control")
+    press(ada, "Ask for control")
+    give_control(presenter, f"Ada {way}")
+    bar(ada).get_by_text("You have control").wait_for()
+    for other in (presenter, bob, eve):
+        bar(other).get_by_text(f"Ada {way} has control").wait_for()
+    dragged = float(ada.drag_slider("wheel_radius", 0.7))
+    for other in (presenter, bob, eve):
+        shows(other, "wheel_radius", dragged)
+        assert other.slider("wheel_radius").is_disabled()
+    return dragged
+
+
+def two_go_on_at_the_other_relay(
+    relayed: RelayedStudio, people: People, drawn_within_s: float
+) -> None:
+    """Theirs is killed while Ada holds a slider: they are who they were, and see what all see."""
+    presenter, ada, bob, eve = people
+    before = value_of(presenter, "base_length")
+    hold_slider(ada, "base_length", 0.8)
+    held = float(ada.slider("base_length").input_value())
+    for other in (presenter, eve):
+        shows(other, "base_length", held)
+    for one in (ada, bob):
+        note_when_shown(one)
+    relayed.first.kill()
+    for one in (ada, bob):
+        one.page.wait_for_url(f"{relayed.addresses.second}d/*")
+    ada.page.mouse.up()
+    for one in (ada, bob):
+        after = shown_after(one)
+        sys.stdout.write(
+            f"Listed after {after.listed_s:.2f} s, drawn after {after.drawn_s:.2f} s\n"
+        )
+        assert after.drawn_s < drawn_within_s
+    bar(ada).get_by_text("You have control").wait_for()
+    bar(bob).get_by_text("Ada R has control").wait_for()
+    wait_until("her hand to be up", lambda: is_pressed(ada, "Raise hand"))
+    wait_until("his asking to be known", lambda: is_pressed(bob, "Asked for control"))
+    for one in (presenter, ada, bob):
+        shows(one, "base_length", held)
+    all_of(same_places, presenter, ada, bob)
+    press(ada, "Undo")
+    for one in people:
+        shows(one, "base_length", before)
+    orbit(presenter, 120)
+    all_of(same_camera, presenter, ada, bob)
+
+
+def all_of(same: Callable[[StudioPage, StudioPage], bool], *tabs: StudioPage) -> None:
+    """Wait until others have the same as the first."""
+    first, *others = tabs
+    wait_until("the same for all", lambda: all(same(first, one) for one in others))
+
+
+def control_is_given_back_and_taken(people: People, way: str, dragged: float) -> None:
+    """What was dragged stays; and Bob, who asked as well, holds a slider as it is taken back."""
+    presenter, ada, bob, _ = people
+    press(ada, "Give back")
+    bar(presenter).wait_for(state="detached")
+    shows(presenter, "wheel_radius", dragged)
+    a_drag_that_is_cut_off_is_one_step(presenter, bob, f"Bob {way}")
+    presenter.undo_all()
 
 
 def looks_only(student: StudioPage) -> None:
@@ -121,16 +194,7 @@ def looks_only(student: StudioPage) -> None:
     student.seek("wheel_radius")
     assert student.slider("wheel_radius").is_disabled()
     press(student, "Raise hand")
-    pressed = student.page.get_by_role("button", name="Raise hand", exact=True)
-    wait_until("the hand to be up", lambda: pressed.get_attribute("aria-pressed") == "true")
-
-
-def give_control(presenter: StudioPage, name: str) -> None:
-    """By the list of people, to which the window of sharing leads."""
-    presenter.page.get_by_role("button", name="Share").click()
-    presenter.page.locator(".class-code").wait_for()
-    presenter.page.locator(".class-dialog footer .primary").click()
-    presenter.page.get_by_role("button", name=f"Give control to {name}").click()
+    wait_until("the hand to be up", lambda: is_pressed(student, "Raise hand"))
 
 
 def a_drag_that_is_cut_off_is_one_step(
@@ -140,54 +204,16 @@ def a_drag_that_is_cut_off_is_one_step(
     before = value_of(presenter, "base_length")
     presenter.page.get_by_role("button", name=f"Give control to {name}").click()
     bar(student).get_by_text("You have control").wait_for()
-    student.seek("base_length")
-    slider = student.slider("base_length")
-    slider.scroll_into_view_if_needed()
-    box = slider.bounding_box()
-    assert box is not None
-    begin = float(slider.evaluate("one => (one.value - one.min) / (one.max - one.min)"))
-    y = box["y"] + box["height"] / 2
-    student.page.mouse.move(box["x"] + box["width"] * begin, y)
-    student.page.mouse.down()
-    student.page.mouse.move(box["x"] + box["width"] * 0.8, y, steps=4)
+    hold_slider(student, "base_length", 0.8)
     wait_until("all to see it", lambda: value_of(presenter, "base_length") != before)
     press_in_bar(presenter, "Take back")
     bar(student).get_by_text("You are looking").wait_for()
-    student.page.mouse.move(box["x"] + box["width"] * 0.2, y, steps=4)
-    student.page.mouse.up()
+    let_go(student, "base_length", 0.2)
     cut_off = value_of(presenter, "base_length")
     shows(student, "base_length", cut_off)
     presenter.page.get_by_role("button", name="Undo", exact=True).first.click()
     shows(presenter, "base_length", before)
     shows(student, "base_length", before)
-
-
-def press_in_bar(tab: StudioPage, name: str) -> None:
-    bar(tab).get_by_role("button", name=name).click()
-
-
-_CAMERA = "frame => frame.contentWindow.studio3d?.getCamera()"
-
-
-def camera(tab: StudioPage) -> list[float]:
-    """Its eye and what it looks at, in the root frame."""
-    pose = tab.page.locator("iframe").evaluate(_CAMERA)
-    return [*pose["position"], *pose["target"]]
-
-
-def same_camera(one: StudioPage, other: StudioPage) -> bool:
-    return all(abs(a - b) < 1e-4 for a, b in zip(camera(one), camera(other), strict=True))
-
-
-def orbit(tab: StudioPage, x_px: float) -> None:
-    """Drag the ground of the 3D view."""
-    box = tab.page.locator("iframe").bounding_box()
-    assert box is not None
-    x, y = box["x"] + box["width"] * 0.7, box["y"] + box["height"] * 0.3
-    tab.page.mouse.move(x, y)
-    tab.page.mouse.down()
-    tab.page.mouse.move(x + x_px, y + 30, steps=5)
-    tab.page.mouse.up()
 
 
 def test_a_student_follows_camera_selection_and_panel_explores_and_is_brought_back(
@@ -310,8 +336,3 @@ def test_a_lesson_is_written_turns_green_for_one_and_the_teacher_sees_it(
         assert "'=Bob L,," in table
         for one in (presenter, ada, bob):
             assert one.errors == []
-
-
-def copy_bar(tab: StudioPage) -> Locator:
-    """The bar above a copy."""
-    return tab.page.locator(".copy-bar")

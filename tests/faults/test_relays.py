@@ -9,10 +9,9 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from tests.support.classmates import Classmate
 from tests.support.relays import RelayedClass, relay_process, relayed_class, wait_until
 from tests.support.strangers import resident_bytes
-from tests.support.watched_pages import Mover, measured, watched_page
+from tests.support.watched_pages import Mover, gone_on_at_another, measured, watched_page
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -46,22 +45,6 @@ def presenting(room: RelayedClass) -> Generator[Mover]:
     """The presenter's page, and what moves the rover there."""
     with room.served.presenter() as browser, watched_page(browser) as page:
         yield Mover(page, room.served.site("base_length"))
-
-
-@contextmanager
-def gone_on_at_another(page: WatchedPage) -> Generator[WatchedPage]:
-    """What the page does when its relay is gone: it goes where its relay said that one can."""
-    (address,) = page.newest("relay_state")["others"]
-    parts = urlsplit(str(address))
-    other = Classmate(f"{parts.scheme}://{parts.netloc}{parts.path.removesuffix('join')}")
-    try:
-        answer = other.client.get(f"/join?{parts.query}")
-        assert answer.status_code == 303
-        assert "pass=" not in answer.headers["location"]
-        with watched_page(other) as made:
-            yield made
-    finally:
-        other.close()
 
 
 def endpoint(relay: RelayProcess) -> str:

@@ -96,6 +96,20 @@ def see_that_all_was_done_once(mover: Mover, page: WatchedPage, before: int) -> 
     assert mover.times_told("class_state", "members", person, "hand_s") == 1
 
 
+def see_that_who_joins_is_told(room: RelayedClass) -> None:
+    """Whose form comes while the line is cut is told as soon as that is noticed."""
+    newcomer = Classmate(room.address())
+    try:
+        began_s = time.monotonic()
+        answer = newcomer.join("Dora", room.served.classroom.admission.code)
+        assert time.monotonic() - began_s < AWAY_S
+        assert answer.status_code < 500
+        assert "The studio is away" in answer.text
+        assert not newcomer.cookie
+    finally:
+        newcomer.close()
+
+
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize(("cut_s", "resets"), CUTS)
 def test_after_a_silent_cut_the_newest_is_shown_and_what_was_asked_is_done_once(
@@ -106,6 +120,7 @@ def test_after_a_silent_cut_the_newest_is_shown_and_what_was_asked_is_done_once(
         line.cut()
         cut_at_s = time.monotonic()
         numbers = ask_all(page)
+        see_that_who_joins_is_told(room)
         wait_until(lambda: page.sees_studio == "away", "the sentence that it is away", AWAY_S)
         away_s = time.monotonic() - cut_at_s
         last = page.text(mover.site)
@@ -126,6 +141,9 @@ def test_after_a_silent_cut_the_newest_is_shown_and_what_was_asked_is_done_once(
         measured(f"all was done {done_s:.2f} s after the cut")
         see_that_all_was_done_once(mover, page, before)
         assert mover.shown_within(page, whole_s, "the newest") < BACK_S
+        with room.student("Dora"):
+            names = [one.name for one in room.served.classroom.members]
+            assert names.count("Dora") == 1
 
 
 def test_what_was_done_before_its_answer_was_lost_is_not_done_again_however_much_others_ask(
@@ -141,9 +159,9 @@ def test_what_was_done_before_its_answer_was_lost_is_not_done_again_however_much
             for number in range(OTHERS_ASK)
         ]
         mover.page.answer(others[-1])
-        wait_until(lambda: page.sees_studio == "away", "the sentence that it is away", AWAY_S)
         assert not any(map(page.answers, numbers))
         line.go_on(resets=True)
+        wait_until(lambda: page.sees_studio == "away", "the sentence that it is away", AWAY_S)
         whole_s = time.monotonic()
         wait_until(lambda: page.sees_studio == "there", "the studio", BACK_S)
         assert {page.answer(one)["type"] for one in numbers} == {"done"}
@@ -179,25 +197,3 @@ def ticks(page: WatchedPage) -> list[float | None]:
     """When each step of the open lesson was done."""
     told = page.of("lesson_state")
     return [one["done_s"] for one in told[-1]["steps"]] if told else []
-
-
-def test_who_joins_while_the_line_is_cut_is_told_and_may_join_when_it_is_back(
-    room: RelayedClass, line: CutLine
-):
-    code = room.served.classroom.admission.code
-    newcomer = Classmate(room.address())
-    try:
-        line.cut()
-        began_s = time.monotonic()
-        answer = newcomer.join("Dora", code)
-        measured(f"who joins in a cut is told after {time.monotonic() - began_s:.2f} s")
-        assert time.monotonic() - began_s < AWAY_S
-        assert answer.status_code < 500
-        assert "studio" in answer.text
-        assert not newcomer.cookie
-        line.go_on(resets=True)
-        wait_until(lambda: newcomer.join("Dora", code).status_code == 303, "joining", BACK_S)
-        names = [one.name for one in room.served.classroom.members]
-        assert names.count("Dora") == 1
-    finally:
-        newcomer.close()

@@ -1,4 +1,4 @@
-"""A relay that does what it likes: at a real port, with a real key, and none of its rules."""
+"""A relay that does what it likes: at a real port, with a real key, and without a relay's rules."""
 
 from __future__ import annotations
 

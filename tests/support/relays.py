@@ -57,9 +57,9 @@ def wait_until(holds: Callable[[], object], what: str, patience_s: float = _PATI
 class RelayProcess:
     """`studio relay`, which can be killed, stopped for a while, and started again where it was."""
 
-    def __init__(self, folder: Path, *prefix: str) -> None:
+    def __init__(self, folder: Path, *prefix: str, name: str = "127.0.0.1") -> None:
         """Choose its ports; `prefix` goes before the command, as `faketime +1h`."""
-        self.folder, self._prefix = folder, prefix
+        self.folder, self._prefix, self.name = folder, prefix, name
         self.port, self.listen_port = free_port(), free_port()
         self.line = self.key = ""
         self.process: subprocess.Popen[str] | WarmProcess | None = None
@@ -67,14 +67,14 @@ class RelayProcess:
     @property
     def address(self) -> str:
         """Of its page, without a room."""
-        return f"http://127.0.0.1:{self.port}/"
+        return f"http://{self.name}:{self.port}/"
 
     def start(self) -> None:
         """Start it, and wait until origins may dial in."""
         command = [
             *(*self._prefix, sys.executable, "-m", "studio", "relay"),
             *("--listen", f"tls/127.0.0.1:{self.listen_port}", "--port", str(self.port)),
-            *("--data-dir", str(self.folder)),
+            *("--data-dir", str(self.folder), "--name", self.name),
         ]
         with (self.folder / "relay.stderr").open("a") as errors:
             self.process = start_python(
@@ -120,10 +120,10 @@ class RelayProcess:
 
 
 @contextmanager
-def relay_process(folder: Path, *prefix: str) -> Generator[RelayProcess]:
-    """A relay in a process of its own."""
+def relay_process(folder: Path, *prefix: str, name: str = "127.0.0.1") -> Generator[RelayProcess]:
+    """A relay in a process of its own, found by a name."""
     folder.mkdir(parents=True, exist_ok=True)
-    made = RelayProcess(folder, *prefix)
+    made = RelayProcess(folder, *prefix, name=name)
     try:
         made.start()
         yield made

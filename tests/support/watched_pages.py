@@ -8,16 +8,16 @@ import threading
 import time
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
+from urllib.parse import urlsplit
 
 from websockets.exceptions import ConnectionClosed
 
 from studio.scene import SUBPROTOCOL
+from tests.support.classmates import Classmate
 from tests.support.relays import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
-
-    from tests.support.classmates import Classmate
 
 PATIENCE_S: Final = 60.0
 
@@ -125,6 +125,22 @@ def watched_page(browser: Classmate, document: str = "rover") -> Generator[Watch
         yield made
     finally:
         made.close()
+
+
+@contextmanager
+def gone_on_at_another(page: WatchedPage) -> Generator[WatchedPage]:
+    """What the page does when its relay is gone: it goes where its relay said that one can."""
+    (address,) = page.newest("relay_state")["others"]
+    parts = urlsplit(str(address))
+    other = Classmate(f"{parts.scheme}://{parts.netloc}{parts.path.removesuffix('join')}")
+    try:
+        answer = other.client.get(f"/join?{parts.query}")
+        assert answer.status_code == 303
+        assert "pass=" not in answer.headers["location"]
+        with watched_page(other) as made:
+            yield made
+    finally:
+        other.close()
 
 
 class Mover:

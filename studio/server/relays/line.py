@@ -98,11 +98,11 @@ class Line:
         self._confirming: asyncio.TimerHandle | None = None
         self.closed = False
         self._sending = threading.Thread(target=self._send_all, name="relay-line", daemon=True)
-        self._sending.start()
 
     def begin(self, ends: Ends) -> None:
-        """Hand over what comes, and what came before."""
+        """Hand over what comes, and what came before; send what waits to be sent."""
         self._ends = ends
+        self._sending.start()
         self._take()
 
     def send(self, message: Up | Down) -> None:

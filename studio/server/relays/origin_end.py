@@ -272,7 +272,7 @@ class OriginEnd:
             case AskDownload():
                 self._start(self._download(message), self._running)
             case Taken():
-                self._hang_up(message.reason[:200] or "Another studio has this room.")
+                self._hang_up(message.reason[:200] or "another studio has this room.")
 
     def _person_of(self, ticket: str) -> Person | None:
         return self._room.person(ticket) if ticket else None

@@ -92,6 +92,10 @@ _ACCESS: Final = {
     "policies": [{"rules": ["claims", "down", "up", "alive", "told"], "subjects": ["studios"]}],
 }
 """Who has the key may claim and send; not answer claims for us, nor hear what others send here."""
+_TAKEN: Final = (
+    "another studio with the key of this room claimed it later: end that one, and start this one "
+    "anew to have it back."
+)
 _BEARER: Final = "bearer "
 _log = logging.getLogger(__name__)
 
@@ -274,8 +278,11 @@ class Relay:
                 return f"it serves {ROOMS_MAX} rooms already."
             room = self.rooms[claim.room] = Room(claim.room, self._blobs, self._end_people)
             room.address = f"{self.address}{claim.room}/"
-        elif room.state is not None and room.is_there and room.state.session != claim.session:
-            room.hang_up("Another studio has the key of this room, and claimed it later.")
+        elif claim.session in room.replaced:
+            return _TAKEN
+        elif room.state is not None and room.state.session != claim.session:
+            room.replaced.append(room.state.session)
+            room.hang_up(_TAKEN)
         else:
             room.hang_up()
         session = self._session
@@ -321,7 +328,9 @@ class Relay:
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1013})
         else:
-            await self._own(scope, path)(scope, receive, send)
+            answer = self._own(scope, path)
+            answer.headers["connection"] = "close"  # nobody is known yet who would come again
+            await answer(scope, receive, send)
 
     def _app_of(self, room: Room) -> ASGIApp:
         """Return the application of a room, made anew for each run of its studio."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import itertools
 import logging
+from collections import deque
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -26,8 +27,7 @@ from studio.errors import (
 from studio.protocol.calls import FollowOperations
 from studio.protocol.changes import FollowChanges
 from studio.protocol.classroom import Follow, You
-from studio.protocol.commands import COMMAND_LIMIT_BYTES
-from studio.protocol.documents import Done, Refused, Watch
+from studio.protocol.documents import Done, Watch
 from studio.protocol.listeners import send
 from studio.protocol.relays import RelayState
 from studio.protocol.roles import Role, owner_of
@@ -37,7 +37,6 @@ from studio.server.relays.messages import (
     NAME_LETTERS_MAX,
     OPERATIONS,
     Arrive,
-    Ask,
     AskDownload,
     AskJoin,
     Blob,
@@ -61,6 +60,7 @@ from studio.server.relays.messages import (
     Viewers,
     decode_down,
 )
+from studio.server.relays.passed_on import PassedOn
 from studio.server.relays.questions import Questions
 from studio.server.relays.relayed_class import RelayedClass, RelayedMember
 from studio.server.relays.relayed_lanes import RelayedLanes
@@ -89,18 +89,9 @@ _GIVE_UP_S: Final = 90.0
 _TICK_S: Final = 1.0
 _GREETING_S: Final = 15.0
 """So long after it claimed its room an origin has time to say what the room is."""
-_PENDING_MAX: Final = 10_000
-_PENDING_BYTES_MAX: Final = 32 << 20
+_REPLACED_MAX: Final = 16
 _YOU: Final = b'{"type":"you"'
 _log = logging.getLogger(__name__)
-
-
-class _Asked:
-    """What was passed on and is not answered yet."""
-
-    def __init__(self, listener: Listener, page: int, request: int, text: bytes) -> None:
-        self.listener, self.page, self.request, self.text = listener, page, request, text
-        self.settled: asyncio.Future[None] = asyncio.get_running_loop().create_future()
 
 
 class Room:
@@ -135,15 +126,17 @@ class Room:
         """Pages that the origin knows one by one."""
         self._by_number: dict[int, Listener] = {}
         self._numbers = itertools.count(1)
-        self._asked: dict[int, _Asked] = {}
+        self._passed_on = PassedOn(self._send)
         self._standing = Standing()
         self._renewing: set[asyncio.Task[None]] = set()
-        self._asked_bytes = 0
         self._reads = SharedReads(self._pass_on, self.detach, lambda: self.lanes.frame_count)
         self._joining = Questions[Joined](self._send, _JOINING_MAX)
         self._downloading = Questions[Downloaded](self._send, _DOWNLOADING_MAX)
         self._sent_viewers = Viewers(0, 0)
         self.away_since_s = self._loop.time()
+        self.replaced: deque[str] = deque(maxlen=_REPLACED_MAX)
+        """Sessions of studios that had the room until another claimed it; they have it no more,
+        also if their line was cut when that one came."""
         self.round_trip_s = 0.0
         self.address = ""
         """Of the room's page here."""
@@ -226,8 +219,7 @@ class Room:
         self.hang_up()
         self._ticking.cancel()
         self.scenes.close()
-        for asked in tuple(self._asked.values()):
-            self._refuse(asked, OriginAwayError())
+        self._passed_on.refuse_all(OriginAwayError())
 
     def take(self, data: bytes) -> None:
         """Take a message of the origin; one that is none ends the line."""
@@ -254,7 +246,7 @@ class Room:
             case Say():
                 self._say(message)
             case Settled():
-                self._settle(message)
+                self._passed_on.settle(message.number)
             case RoomState():
                 self._renew(message)
             case LaneSnapshot():
@@ -280,9 +272,11 @@ class Room:
         member = visitor if isinstance(visitor, RelayedMember) else None
         return member is not None and member.person == person and member.is_of(self.classroom)
 
-    def _send(self, message: Up) -> None:
+    def _send(self, message: Up) -> bool:
+        """Send a message; answers whether there is a line."""
         if self._line is not None:
             self._line.send(message)
+        return self._line is not None
 
     def _renew(self, state: RoomState) -> None:
         """Take what the room is now; on a new line, ask for all anew that is looked at."""
@@ -294,20 +288,17 @@ class Room:
             return
         self._greeted = True
         if before is not None and before.session != state.session:
-            for asked in tuple(self._asked.values()):
-                self._refuse(asked, CommandError(_STARTED_ANEW))
+            self._passed_on.refuse_sent()
             # As after any restart of a studio, pages come again, and ask anew for what they show.
-            people = {one.person for one in self._pages}
-            self._end_people(lambda one: one.person in people)
+            for person in {one.person for one in self._pages}:
+                self._end_people(partial(self._is_ours, person))
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
         self.lanes.renew()
         self.scenes.renew()
         self.browser_topics.renew()
-        for number, asked in self._asked.items():
-            self._arrive(asked.listener)
-            self._send(Ask(asked.page, number, asked.text))
+        self._passed_on.ask_again(self._arrive)
         for listener in tuple(self._pages):
             task = self._loop.create_task(self._ask_standing(listener))
             self._renewing.add(task)
@@ -350,10 +341,7 @@ class Room:
             return
         self._by_number.pop(page, None)
         self._standing.forget(listener)
-        for number in [one for one, asked in self._asked.items() if asked.page == page]:
-            asked = self._asked.pop(number)
-            if not asked.settled.done():
-                asked.settled.set_result(None)
+        self._passed_on.leave(page)
         if page in self._arrived:
             self._arrived.discard(page)
             self._send(Leave(page))
@@ -433,24 +421,7 @@ class Room:
     async def _pass_on(self, command: Command, listener: Listener) -> None:
         """Ask the origin, which answers to the page itself."""
         self._check_there()
-        if len(self._asked) >= _PENDING_MAX or self._asked_bytes > _PENDING_BYTES_MAX:
-            raise CommandError("Too much is asked for here at once: try again in a moment.")
-        number = next(self._numbers)
-        if not command.id:
-            # Asked again on the next line, if this one ends before the answer; it runs once.
-            command = command.model_copy(update={"id": f"{self._loop.time():.6f}-{number}"})
-        page = self._arrive(listener)
-        text = command.model_dump_json().encode()
-        if len(text) > COMMAND_LIMIT_BYTES:
-            raise CommandError(f"A command of more than {COMMAND_LIMIT_BYTES} bytes is not read.")
-        self._asked_bytes += len(text)
-        asked = self._asked[number] = _Asked(listener, page, command.request, text)
-        self._send(Ask(page, number, text))
-        try:
-            await asked.settled
-        finally:
-            self._asked.pop(number, None)
-            self._asked_bytes -= len(text)
+        await self._passed_on.ask(next(self._numbers), self._arrive(listener), command, listener)
 
     def _check_there(self) -> None:
         """Pass if the origin is there, or went only just now.
@@ -460,17 +431,6 @@ class Room:
         """
         if not self.is_there and self._loop.time() - self.away_since_s > PATIENCE_S:
             raise OriginAwayError
-
-    def _settle(self, message: Settled) -> None:
-        asked = self._asked.pop(message.number, None)
-        if asked is not None and not asked.settled.done():
-            asked.settled.set_result(None)
-
-    def _refuse(self, asked: _Asked, error: StudioError) -> None:
-        refusal = Refused(request=asked.request, kind=type(error).__name__, reason=str(error))
-        send(asked.listener, refusal)
-        if not asked.settled.done():
-            asked.settled.set_result(None)
 
     # Joining and downloads
 
@@ -580,8 +540,7 @@ class Room:
                 self._send(Ping(self._now_ns()))
                 self._tell_viewers()
             elif self._loop.time() - self.away_since_s > _GIVE_UP_S:
-                for asked in tuple(self._asked.values()):
-                    self._refuse(asked, OriginAwayError())
+                self._passed_on.refuse_all(OriginAwayError())
                 self.lanes.give_up(str(OriginAwayError()))
 
     def _tell_viewers(self) -> None:
@@ -595,7 +554,3 @@ class Room:
 _JOINING_MAX, _DOWNLOADING_MAX = 200, 8
 """So many ask the origin at once."""
 _NOWHERE: Final = Path("/nonexistent")
-_STARTED_ANEW: Final = (
-    "The studio was started anew before it answered: see whether this was done, and do it again "
-    "if it was not."
-)

@@ -26,10 +26,13 @@ def is_shared(command: Command, listener: Listener) -> bool:
 
 
 class _Reader:
-    """A Listener that keeps what comes, for all who asked."""
+    """A Listener that keeps what answers a command, for all who asked.
 
-    def __init__(self, first: Listener) -> None:
-        self._first = first
+    What else it is sent is for the person who asked first: who they are, what they control.
+    """
+
+    def __init__(self, first: Listener, request: int) -> None:
+        self._first, self._request = first, request
         self.role, self.person = first.role, first.person
         self.events: list[dict[str, Any]] = []
 
@@ -38,10 +41,10 @@ class _Reader:
         return self._first.sees(document)
 
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
-        """Keep one event."""
+        """Keep one event, if it is of the answer."""
         del key
-        if not binary:
-            self.events.append(json.loads(data))
+        if not binary and (event := json.loads(data)).get("request") == self._request:
+            self.events.append(event)
 
 
 class _Read(NamedTuple):
@@ -85,11 +88,11 @@ class SharedReads:
             while len(self._reads) > _KEPT_MAX:
                 del self._reads[next(iter(self._reads))]
         for event in await asyncio.shield(found.events):
-            own = {**event, "request": command.request} if "request" in event else event
+            own = {**event, "request": command.request}
             listener.post(json.dumps(own, separators=(",", ":")).encode())
 
     async def _asked(self, command: Command, first: Listener) -> list[dict[str, Any]]:
-        reader = _Reader(first)
+        reader = _Reader(first, command.request)
         try:
             await self._ask(command, reader)
         finally:

@@ -148,7 +148,7 @@ class Uplink:
     def hang_up(self, reason: str = "", *, refused: bool = False) -> None:
         """End the line as it is; it is dialled again, unless the relay `refused` us."""
         if refused:
-            self._set("refused", reason)
+            self._set("refused", str(RelayRefusedError(self.relay.endpoint, reason)))
         self._ended.set()
 
     async def _run(self) -> None:

@@ -43,7 +43,10 @@ class AnOrigin:
         text = f"text {self.version}"
         await self.answers.wait()
         listener.post(b"bytes", binary=True)
-        listener.post(json.dumps({"type": "text", "request": 77, "text": text}).encode())
+        listener.post(json.dumps({"type": "you", "person": listener.person}).encode())
+        listener.post(
+            json.dumps({"type": "text", "request": command.request, "text": text}).encode()
+        )
         listener.post(json.dumps({"type": "done", "request": command.request}).encode())
 
     def reads(self) -> SharedReads:
@@ -54,7 +57,7 @@ def text(request: int, file: str = "a.xacro") -> GetText:
     return GetText(request=request, document="rover", file=file)
 
 
-def test_pages_that_ask_the_same_at_once_each_get_their_own_answer_of_one_question():
+def test_pages_that_ask_the_same_at_once_get_their_own_answer_and_nothing_that_is_for_the_first():
     async def story() -> None:
         origin = AnOrigin()
         reads = origin.reads()
