@@ -42,10 +42,10 @@ VIEWERS: Final = (0, 1, 25, 100, 200)
 """Of all relays together; with 1 there is one at each relay."""
 ROOMS: Final = 4
 WINDOWS: Final = 3
-WINDOW_S: Final = 5.0
+WINDOW_S: Final = 4.0
 _SETTLE_S: Final = 2.0
 _QUIET: Final = 0.4
-_QUIET_WITHIN_S: Final = 30.0
+_QUIET_WITHIN_S: Final = 10.0
 _TOPIC: Final = "/marked"
 _TOPIC_HZ: Final = 50
 
