@@ -44,6 +44,7 @@ ROOMS: Final = 4
 WINDOWS: Final = 3
 WINDOW_S: Final = 4.0
 _SETTLE_S: Final = 2.0
+_TRIES: Final = 2
 _QUIET: Final = 0.4
 _QUIET_WITHIN_S: Final = 10.0
 _TOPIC: Final = "/marked"
@@ -115,9 +116,7 @@ def _measured(router: str, found: Sequence[Place]) -> Generator[Seen]:
         lane.send("animate_joints", running=True)
         held.enter_context(classroom.read_lanes(lane))
         for viewers in VIEWERS:
-            seen = _watched(studio, lane, doors, viewers)
-            seen.tell()
-            yield seen
+            yield _quietest(studio, lane, doors, viewers)
 
 
 def _doors(studio: RunningStudio, relays: Sequence[MeasuredRelay]) -> list[Door]:
@@ -136,6 +135,15 @@ def _doors(studio: RunningStudio, relays: Sequence[MeasuredRelay]) -> list[Door]
 
 def _room(studio: RunningStudio) -> str:
     return studio.next_line("Relay: ").removeprefix("Relay: ").split()[0]
+
+
+def _quietest(studio: RunningStudio, lane: Lane, doors: list[Door], viewers: int) -> Seen:
+    """Measure, and again where others kept the machine busy."""
+    tries: list[Seen] = []
+    while not tries or (tries[-1].is_disturbed and len(tries) < _TRIES):
+        tries.append(_watched(studio, lane, doors, viewers))
+        tries[-1].tell()
+    return min(tries, key=lambda one: one.cost.machine)
 
 
 def _watched(studio: RunningStudio, lane: Lane, doors: list[Door], viewers: int) -> Seen:
