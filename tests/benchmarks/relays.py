@@ -42,8 +42,11 @@ VIEWERS: Final = (0, 1, 25, 100, 200)
 """Of all relays together; with 1 there is one at each relay."""
 ROOMS: Final = 4
 WINDOWS: Final = 3
-WINDOW_S: Final = 5.0
+WINDOW_S: Final = 4.0
 _SETTLE_S: Final = 2.0
+_TRIES: Final = 2
+_QUIET: Final = 0.4
+_QUIET_WITHIN_S: Final = 10.0
 _TOPIC: Final = "/marked"
 _TOPIC_HZ: Final = 50
 
@@ -109,12 +112,11 @@ def _measured(router: str, found: Sequence[Place]) -> Generator[Seen]:
         doors = _doors(studio, relays)
         lane = Lane(studio)
         held.callback(lane.close)
+        lane.control.send(json.dumps({"type": "connect_wire", "request": 1}))
         lane.send("animate_joints", running=True)
         held.enter_context(classroom.read_lanes(lane))
         for viewers in VIEWERS:
-            seen = _watched(studio, lane, doors, viewers)
-            seen.tell()
-            yield seen
+            yield _quietest(studio, lane, doors, viewers)
 
 
 def _doors(studio: RunningStudio, relays: Sequence[MeasuredRelay]) -> list[Door]:
@@ -135,12 +137,22 @@ def _room(studio: RunningStudio) -> str:
     return studio.next_line("Relay: ").removeprefix("Relay: ").split()[0]
 
 
+def _quietest(studio: RunningStudio, lane: Lane, doors: list[Door], viewers: int) -> Seen:
+    """Measure, and again where others kept the machine busy."""
+    tries: list[Seen] = []
+    while not tries or (tries[-1].is_disturbed and len(tries) < _TRIES):
+        tries.append(_watched(studio, lane, doors, viewers))
+        tries[-1].tell()
+    return min(tries, key=lambda one: one.cost.machine)
+
+
 def _watched(studio: RunningStudio, lane: Lane, doors: list[Door], viewers: int) -> Seen:
     relays = [one.relay for one in doors if one.relay]
     busy = doors[1:] or doors
     each = viewers // len(busy) if viewers > 1 else 0
     done = threading.Event()
     acting = threading.Thread(target=classroom.present, args=(lane, done))
+    _wait_quiet()
     with ExitStack() as held:
         loads = [held.enter_context(_Load.of(one, lane.document, each)) for one in busy if each]
         sampler = held.enter_context(_Load.sampler(doors, lane.document)) if viewers else None
@@ -186,6 +198,17 @@ def _window(pid: int, relays: list[MeasuredRelay]) -> Window:
         rss_bytes_of(pid),
         statistics.mean(memory) if memory else 0.0,
     )
+
+
+def _wait_quiet() -> None:
+    """Wait for a while until others on this machine rest: beside them everything costs more."""
+    end_s = time.monotonic() + _QUIET_WITHIN_S
+    while time.monotonic() < end_s:
+        before = classroom.machine_s()
+        time.sleep(1.0)
+        busy, whole = (new - old for new, old in zip(classroom.machine_s(), before, strict=True))
+        if busy < _QUIET * whole:
+            return
 
 
 class _Load:

@@ -94,6 +94,11 @@ class Seen:
         load = sum(one["cpu_s"] for one in loads)
         return cls(relays, viewers, cost, mean("bytes_per_s"), mean("hz"), load, ages)
 
+    @property
+    def is_disturbed(self) -> bool:
+        """Whether the machine was so busy that ages say more about it than about the studio."""
+        return self.cost.machine > _BUSY
+
     def tell(self) -> None:
         """One line of costs, and one of the ages of each kind."""
         cost = self.cost
@@ -112,7 +117,8 @@ class Seen:
                 for name, ages in seen.items()
                 if ages
             ]
-            say(f"    {kind:<6} {'; '.join(parts)}")
+            if parts:
+                say(f"    {kind:<6} {'; '.join(parts)}")
 
 
 def judge_all(seen: Sequence[Seen], rooms: Rooms) -> None:
@@ -133,8 +139,8 @@ def judge_all(seen: Sequence[Seen], rooms: Rooms) -> None:
 def _judge_ages(one: Seen) -> None:
     for kind, ages in one.ages.items():
         what = f"{one.relays} relays, {one.viewers} browsers: {kind}, added at p95"
-        if one.cost.machine > _BUSY:
-            say(f"  {what}: {p95(ages['added_ms']):.1f} ms; the machine is busy, it is told only")
+        if one.is_disturbed:
+            say(f"  {what}: {p95(ages['added_ms']):.1f} ms; the machine is busy: told only")
         else:
             judge(what, p95(ages["added_ms"]), at_most=ADDED_MS)
 
