@@ -366,7 +366,7 @@ def test_nodes_that_come_and_go_leave_nothing_behind():
 @pytest.mark.parametrize("is_first", [True, False])
 def test_nothing_is_shown_that_would_act_in_the_page_of_who_looks(
     fields: dict[str, Any],
-    is_first: bool,  # noqa: FBT001 - a case
+    is_first: bool,
 ):
     async def scenario(view: RelayedView) -> None:
         await view.connect()
