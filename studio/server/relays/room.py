@@ -470,6 +470,13 @@ class Room:
         except OriginAwayError as error:
             raise NotJoiningError("away", str(error)) from None
 
+    async def knows(self, code: str) -> bool:
+        """Return whether this is the code of the class: it is told before what else is missing."""
+        try:
+            return (await self._join("", code, "", "")).why not in _NOT_KNOWN
+        except NotJoiningError:
+            return False
+
     async def download(
         self, document: str, what: str, options: Sequence[tuple[str, str]]
     ) -> Download:
@@ -588,6 +595,6 @@ class Room:
             self._send(viewers)
 
 
-_JOINING_MAX, _DOWNLOADING_MAX = 200, 8
-"""So many ask the origin at once."""
+_JOINING_MAX, _DOWNLOADING_MAX = 200, 8  # ask the origin at once
+_NOT_KNOWN: Final = frozenset({"code", "closed", "tries", "away"})
 _NOWHERE: Final = Path("/nonexistent")
