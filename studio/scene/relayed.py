@@ -22,10 +22,17 @@ from studio.scene.wire import Packer, message_type
 
 if TYPE_CHECKING:
     import asyncio
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
-    from studio.scene.opened_frames import OpenedFrame
+    from studio.scene.opened_frames import Message, OpenedFrame
 
+_NOT_SHOWN: Final = (
+    *("Gui", "RunJavascript", "FileTransfer", "LocalStorage", "Notification", "ShareUrl"),
+    *("RegisterCommand", "CommandUpdate", "GetRender"),
+)
+"""Beginnings of kinds of messages by which another host would act in the page of who looks."""
+_PANEL: Final = "GuiSetPanel"
+_THEME: Final = "ThemeConfigurationMessage"
 _REMOVALS_AT_ONCE: Final = 64
 """So many nodes are removed before those are forgotten that no page has any more."""
 
@@ -69,6 +76,7 @@ class RelayedScene:
         if not is_first and self._seats.published < 0:
             raise SceneError("A frame of the 3D view came before the first one with all of it.")
         frame_opened = opened(frame)
+        _demand_views(frame_opened.messages)
         self._stamp_s = frame_opened.stamp_s
         if not is_first:
             for message in frame_opened.messages:
@@ -149,6 +157,19 @@ class RelayedScene:
             return b"", True
         frame = closed(missed, self._stamp_s, self._packer, ends_replay=not seat.replayed)
         return frame, True
+
+
+def _demand_views(messages: Iterable[Message]) -> None:
+    """Pass if messages only show something.
+
+    Raises:
+        SceneError: One of them does more in a page.
+    """
+    for message in messages:
+        kind = message.kind
+        does_more = kind.startswith(_NOT_SHOWN) and not kind.startswith(_PANEL)
+        if does_more or (kind == _THEME and message.fields().get("titlebar_content")):
+            raise SceneError(f"{kind} is no part of a 3D view that is shown to others.")
 
 
 def _overhear(raw: bytes) -> None:

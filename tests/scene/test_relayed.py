@@ -3,6 +3,7 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,7 +11,9 @@ from hypothesis import strategies as st
 
 from studio.displays.drawing import Placed, Points, Text
 from studio.errors import SceneError
+from studio.scene.opened_frames import Message, Slot, closed
 from studio.scene.relayed import RelayedScene
+from studio.scene.wire import Packer
 from tests.support.live_shapes import UPRIGHT, at, every_shape
 from tests.support.page_state import WatchingPeer, content_of
 from tests.support.relayed_view import RelayedView, relayed
@@ -345,5 +348,32 @@ def test_nodes_that_come_and_go_leave_nothing_behind():
         view.scene.flush()
         assert view.relay.message_count < before + 150
         assert "RemoveSceneNodeMessage" not in types_of(content_of((await view.seated()).frames[0]))
+
+    relayed(scenario)
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"type": "RunJavascriptMessage", "source": "alert(1)"},
+        {"type": "GuiHtmlMessage", "uuid": "a", "container_uuid": "root"},
+        {"type": "GuiPlotlyMessage", "uuid": "a", "container_uuid": "root"},
+        {"type": "LocalStorageClearMessage"},
+        {"type": "FileTransferStartDownload"},
+        {"type": "ThemeConfigurationMessage", "titlebar_content": {"buttons": []}},
+    ],
+)
+@pytest.mark.parametrize("is_first", [True, False])
+def test_nothing_is_shown_that_would_act_in_the_page_of_who_looks(
+    fields: dict[str, Any],
+    is_first: bool,
+):
+    async def scenario(view: RelayedView) -> None:
+        await view.connect()
+        kept = len(view.relay)
+        message = Message(fields["type"], Slot("k", None, None), msgspec.msgpack.encode(fields))
+        with pytest.raises(SceneError, match="is no part of a 3D view"):
+            view.relay.take(closed([message], 0.0, Packer()), is_first=is_first)
+        assert len(view.relay) == kept
 
     relayed(scenario)
