@@ -199,12 +199,11 @@ class Room:
         line.begin(self)
 
     def hang_up(self, reason: str = "") -> None:
-        """End the line; `reason` tells the origin not to come again."""
+        """End the line; `reason` tells the origin not to come again, and none to dial anew."""
         line, self._line = self._line, None
         if line is None:
             return
-        if reason:
-            line.send(Taken(reason))
+        line.send(Taken(reason))
         self.away_since_s = self._loop.time()
         for at, count in enumerate((line.received_bytes, line.sent_bytes, line.refused)):
             self._before_bytes[at] += count

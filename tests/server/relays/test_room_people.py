@@ -248,6 +248,16 @@ def test_a_relay_that_is_dialled_twice_at_once_has_one_line(
     assert len(relay.relay.rooms) == 1
 
 
+def test_a_line_that_the_relay_has_ended_is_dialled_again(
+    room: RelayedClass, relay: ServedRelay, presenter: Lane
+):
+    with at_work(room, "Ada") as lane:
+        relay.look(relay.room().hang_up)
+        wait_until(lambda: relay.room().is_there, "the studio")
+        edited(room, presenter, "0.75")
+        until_text(lane, "0.75")
+
+
 def test_who_has_control_keeps_it_while_their_page_moves_to_another_relay_and_not_for_ever(
     room: RelayedClass, presenter: Lane, monkeypatch: pytest.MonkeyPatch
 ):
