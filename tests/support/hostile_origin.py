@@ -22,9 +22,11 @@ from studio.ros.wire.zenoh import (
 )
 from studio.server.relays.keys import parse_relay_line
 from studio.server.relays.messages import (
+    AskDownload,
     Claim,
     ClaimAnswer,
     Down,
+    Downloaded,
     Frame,
     LaneSnapshot,
     OpenLane,
@@ -60,6 +62,8 @@ class HostileOrigin:
         self.issuer = TicketIssuer(b"t" * 32, self.identity.id)
         self.heard: list[Up] = []
         self.address = self.line_name = ""
+        self.downloaded: Downloaded | None = None
+        """What is given out, whatever is asked for."""
         self.now: HostileLine
         self._threads: list[ReadingThread[Sample]] = []
         self._tokens: list[Declaration] = []
@@ -153,6 +157,8 @@ class HostileOrigin:
                 continue
             told = decode_up(message[1:])
             self.heard.append(told)
+            if isinstance(told, AskDownload) and self.downloaded is not None:
+                self.say(msgspec.structs.replace(self.downloaded, number=told.number))
             if isinstance(told, OpenLane):
                 shown = Frame(b'{"type":"documents","documents":[]}', key="documents")
                 self.say(LaneSnapshot(told.lane, 1, (shown,)))

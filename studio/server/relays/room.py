@@ -85,6 +85,8 @@ if TYPE_CHECKING:
 
 PATIENCE_S: Final = 3.0
 """So long after the origin went, what is asked waits for its return; then it is refused at once."""
+_MEDIA_TYPES: Final = frozenset({"text/html; charset=utf-8", "text/csv"})
+_ANY_BYTES: Final = "application/octet-stream"
 _GIVE_UP_S: Final = 90.0
 """So long an answer is waited for that was asked for before the origin went."""
 _TICK_S: Final = 1.0
@@ -494,7 +496,9 @@ class Room:
         found = await self._downloading.ask(number, asked)
         if found.kind:
             raise CommandError(found.reason)
-        return Download(found.name, found.media_type, (found.data,))
+        # It goes into a header: another would be one more header to the browser.
+        media_type = found.media_type if found.media_type in _MEDIA_TYPES else _ANY_BYTES
+        return Download(found.name, media_type, (found.data,))
 
     def _ticket_of(self, lane: DataLaneEnd) -> str:
         """Return the ticket of a data lane's person."""

@@ -338,6 +338,19 @@ def test_a_studio_ends_nobody_of_another_room(room: RelayedClass, origin: Hostil
     goes_on(ada)
 
 
+def test_what_a_studio_gives_out_has_no_power_over_the_pages_of_other_rooms(origin: HostileOrigin):
+    origin.open()
+    origin.downloaded = Downloaded(
+        *(0, 'a"\r\nset-cookie: a=b', "text/html\r\nset-cookie: a=b"), data=b"<script>"
+    )
+    with origin.page() as vic:
+        found = vic.client.get("/api/documents/rover/export/page")
+        assert found.status_code == 200
+        assert "set-cookie" not in found.headers
+        assert found.headers["content-type"] == "application/octet-stream"
+        assert found.headers["content-security-policy"] == "sandbox"
+
+
 # What is no message of a studio
 
 
