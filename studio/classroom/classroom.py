@@ -474,8 +474,8 @@ class Classroom:
 
     @property
     def link(self) -> str:
-        """The first address with the longer code in it; empty: nobody is told of any."""
-        addresses = self.addresses
+        """The first page with the longer code in its address; empty: nobody is told of any."""
+        addresses = (*self.relays.rooms(), *self.reach.addresses)
         return f"{addresses[0]}join?code={self.admission.link}" if addresses else ""
 
     def _state(self) -> ClassState:

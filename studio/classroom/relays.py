@@ -30,7 +30,11 @@ class Relays(Protocol):
         ...
 
     def addresses(self) -> tuple[str, ...]:
-        """Return where people join at those that are there."""
+        """Return where people type the code, of those that are there."""
+        ...
+
+    def rooms(self) -> tuple[str, ...]:
+        """Return the addresses of the class's page at those that are there."""
         ...
 
     def guests(self) -> int:
@@ -55,6 +59,10 @@ class NoRelays:
         raise CommandError(f"This studio has no relay {endpoint}: it cannot use any.")
 
     def addresses(self) -> tuple[str, ...]:
+        """Return none."""
+        return ()
+
+    def rooms(self) -> tuple[str, ...]:
         """Return none."""
         return ()
 

@@ -118,7 +118,7 @@ class Tries:
         return max(own.spend(count, now_s), self._in_all.spend(count, now_s))
 
 
-_GUESSES: Final = Rate(30.0, 0.5), Rate(300.0, 3.0)
+GUESSES: Final = Rate(30.0, 0.5), Rate(300.0, 3.0)
 """Wrong codes and passwords of an address, which thirty students may share, and of all together:
 the code of six letters is guessed within a year, then."""
 _JOINS: Final = Rate(400.0, 1.0), Rate(1_000.0, 5.0)
@@ -134,7 +134,7 @@ class Joining:
         """Take the class and its surroundings; `words` gives the page's texts in a language."""
         self._classroom, self._cookies, self._front = classroom, cookies, front
         self._words = words
-        self._tries, self._joins = Tries(*_GUESSES), Tries(*_JOINS)
+        self._tries, self._joins = Tries(*GUESSES), Tries(*_JOINS)
 
     def router(self) -> APIRouter:
         """Return the one address, with its form and what becomes of it."""
@@ -160,7 +160,7 @@ class Joining:
     async def join(self, request: Request) -> Response:
         """Make the browser a member, and send it to the robot."""
         caller: Caller = request.scope["state"]["caller"]
-        given = _fields(await _body(request))
+        given = fields_of(await body_of(request))
         code = given.get("code", "") or self._cookies.code(request.headers, caller)
         try:
             member = await self._joined(request, caller, given, code)
@@ -206,7 +206,7 @@ class Joining:
         return join_page(form, self._words(language), language, needs_password=needs_password)
 
 
-async def _body(request: Request) -> bytes:
+async def body_of(request: Request) -> bytes:
     """Return the body of the form; one that is too long is none."""
     body = bytearray()
     async for part in request.stream():
@@ -216,7 +216,8 @@ async def _body(request: Request) -> bytes:
     return bytes(body)
 
 
-def _fields(body: bytes) -> dict[str, str]:
+def fields_of(body: bytes) -> dict[str, str]:
+    """Return what was filled in; nothing of what is no form."""
     try:
         found = parse_qs(body.decode(), max_num_fields=8)
     except ValueError:

@@ -337,7 +337,7 @@ class _Visit:
     def _joined(self, address: str) -> None:
         """Tell where others join by a relay."""
         admission = self._classroom.admission
-        _print(f"Relay: {address}  Code: {admission.code}")
+        _print(f"Relay: {address.rstrip('/').rpartition('/')[0]}/  Code: {admission.code}")
         _print(f"   or: {address}join?code={admission.link}")
 
     def _end_pages(self, person: str) -> None:

@@ -102,6 +102,8 @@ class Form:
     code: str = ""
     name: str = ""
     trouble: str = ""
+    asks_name: bool = True
+    """Whether there is a field for the name; a relay asks for the code first."""
 
 
 def join_page(
@@ -129,11 +131,12 @@ def join_page(
             '<input name="code" required maxlength="32" autocomplete="off" '
             f'autocapitalize="characters" spellcheck="false" value="{escape(form.code)}"></label>'
         )
-    fields.append(
-        f"<label>{word('name')} <small>{word('name.hint')}</small>"
-        f'<input name="name" required maxlength="{NAME_MAX}" autocomplete="nickname" '
-        f'value="{escape(form.name)}"></label>'
-    )
+    if form.asks_name:
+        fields.append(
+            f"<label>{word('name')} <small>{word('name.hint')}</small>"
+            f'<input name="name" required maxlength="{NAME_MAX}" autocomplete="nickname" '
+            f'value="{escape(form.name)}"></label>'
+        )
     if needs_password:
         fields.append(
             f'<label>{word("password")}<input name="password" type="password" required '
@@ -141,7 +144,7 @@ def join_page(
         )
     body = (
         f'<form method="post">{"".join(fields)}<button>{word("join")}</button></form>'
-        f"<p><small>{word('kept')}</small></p>"
+        f"<p><small>{word('kept') if form.asks_name else ''}</small></p>"
     )
     # A form that was filled in wrongly is an answer like another: a browser reports no error.
     status = 429 if form.trouble == "tries" else 200
@@ -151,13 +154,8 @@ def join_page(
     return response
 
 
-def waiting_page(*, is_room: bool) -> HTMLResponse:
-    """Return a relay's page where no room is; of one that may come, it looks again by itself."""
-    if not is_room:
-        body = (
-            "<p>This is a relay. Open the link that you were given by whoever leads the class.</p>"
-        )
-        return _plain_page("Which class?", body, 404)
+def waiting_page() -> HTMLResponse:
+    """Return a relay's page of a room that may come; it looks again by itself."""
     body = "<p>The class is not here at the moment. This page looks for it every few seconds.</p>"
     refresh = '<meta http-equiv="refresh" content="3">\n'
     return _plain_page("The class is on its way", body, 503, refresh)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import subprocess
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -75,7 +75,8 @@ def places(count: int) -> Generator[list[Place]]:
             yield made
     finally:
         for place in made:  # the pair of devices ends with it
-            _ip("netns", "del", place.namespace, check=False)
+            with suppress(OSError):
+                _ip("netns", "del", place.namespace, check=False)
 
 
 def _make(place: Place, near: str) -> None:

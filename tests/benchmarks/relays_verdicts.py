@@ -133,7 +133,7 @@ def judge_all(seen: Sequence[Seen], rooms: Rooms) -> None:
     for one in seen:
         if one.relays and one.ages:
             _judge_ages(one)
-    _note(by, rooms, counts, most)
+    _note(by, rooms, counts)
 
 
 def _judge_ages(one: Seen) -> None:
@@ -145,12 +145,18 @@ def _judge_ages(one: Seen) -> None:
             judge(what, p95(ages["added_ms"]), at_most=ADDED_MS)
 
 
-def _note(by: dict[tuple[int, int], Seen], rooms: Rooms, counts: list[int], most: int) -> None:
-    one, full = by[1, 1], by[1, most]
-    viewer = (full.cost.relay - one.cost.relay) / (most - 1)
-    direct = (by[0, most].cost.studio - by[0, 1].cost.studio) / (most - 1)
-    relay = (by[counts[-1], 1].cost.studio - one.cost.studio) / (counts[-1] - 1)
-    memory = (full.cost.relay_bytes - one.cost.relay_bytes) / (most - 1)
+def _fullest(by: dict[tuple[int, int], Seen], relays: int) -> Seen:
+    """The most browsers that were measured while the machine was not too busy, or at all."""
+    found = [one for one in by.values() if one.relays == relays and one.viewers > 1]
+    return max(found, key=lambda one: (not one.is_disturbed, one.viewers))
+
+
+def _note(by: dict[tuple[int, int], Seen], rooms: Rooms, counts: list[int]) -> None:
+    one, full, own = by[1, 1], _fullest(by, 1), _fullest(by, 0)
+    viewer = (full.cost.relay - one.cost.relay) / (full.viewers - 1)
+    direct = (own.cost.studio - by[0, 1].cost.studio) / (own.viewers - 1)
+    relay = (by[counts[-1], 1].cost.studio - one.cost.studio) / (counts[-1] - counts[0])
+    memory = (full.cost.relay_bytes - one.cost.relay_bytes) / (full.viewers - 1)
     note("a browser at a relay: CPU of the relay, a minute", f"{60e3 * viewer:.0f} ms")
     note("a browser at the studio: CPU of the studio, a minute", f"{60e3 * direct:.0f} ms")
     note("a relay more: CPU of the studio, a minute", f"{60 * relay:.2f} s")

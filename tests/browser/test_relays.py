@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.classroom.relays import NoRelays
 from studio.errors import CommandError
 from studio.protocol.listeners import Audience, send
 from studio.protocol.relays import Relays, RelayState, RelayView
-from studio.protocol.roles import Role
 from tests.support.served_class import ServedClass, served_class
 from tests.support.studio_page import StudioPage, studio_context, wait_until
 
@@ -29,7 +29,7 @@ STORED = "JSON.stringify([{...localStorage}, {...sessionStorage}])"
 ENDPOINT = LINE.partition("#")[0]
 
 
-class Told:
+class Told(NoRelays):
     """A relay, or a studio with relays, as far as its pages know."""
 
     def __init__(self, served: ServedClass) -> None:
@@ -47,8 +47,6 @@ class Told:
         self._pages.add(listener)
         if self.state is not None:
             send(listener, self.state)
-        if listener.role is Role.PRESENTER:
-            send(listener, Relays(relays=self.relays))
 
     def detach(self, listener: Listener) -> None:
         self._pages.remove(listener)
@@ -65,7 +63,10 @@ class Told:
     def _show(self) -> None:
         self._pages.send(Relays(relays=self.relays))
 
-    async def add(self, line: str) -> None:
+    def event(self) -> Relays:
+        return Relays(relays=self.relays)
+
+    async def add(self, line: str, /) -> None:
         if "#" not in line:
             raise CommandError("This is no line of a relay: copy the whole line.")
         self.lines.append(line)
@@ -73,7 +74,7 @@ class Told:
         self.relays = (*self.relays, one)
         self._show()
 
-    async def remove(self, endpoint: str) -> None:
+    async def remove(self, endpoint: str, /) -> None:
         self.relays = tuple(one for one in self.relays if one.endpoint != endpoint)
         self._show()
 

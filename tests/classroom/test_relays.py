@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.classroom.relays import NoRelays
 from studio.errors import CommandError
 from studio.protocol.relays import AddRelay, RemoveRelay
 from tests.support.class_room import Room, run
@@ -26,16 +27,16 @@ def test_a_studio_without_relays_refuses_them_in_a_sentence_without_the_key(tmp_
 
 
 def test_the_presenter_adds_and_removes_relays(tmp_path: Path):
-    class Kept:
+    class Kept(NoRelays):
         """Those that were added."""
 
         def __init__(self) -> None:
             self.lines: list[str] = []
 
-        async def add(self, line: str) -> None:
+        async def add(self, line: str, /) -> None:
             self.lines.append(line)
 
-        async def remove(self, endpoint: str) -> None:
+        async def remove(self, endpoint: str, /) -> None:
             self.lines = [one for one in self.lines if not one.startswith(endpoint)]
 
     async def changed(room: Room) -> None:

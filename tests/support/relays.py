@@ -263,3 +263,14 @@ def relayed_class(folder: Path, lines: Sequence[str]) -> Generator[RelayedClass]
             yield made
         finally:
             made.close()
+
+
+@contextmanager
+def line_cut(relay: ServedRelay, room: RelayedClass) -> Generator[None]:
+    """No line between the class and its one relay, until the block ends."""
+    endpoint = room.uplink().relay.endpoint
+    room.served.run(room.origin.remove(endpoint))
+    wait_until(lambda: not relay.room().is_there, "the relay's notice of it")
+    yield
+    room.dial(relay.line)
+    wait_until(lambda: relay.room().is_there, "the studio")

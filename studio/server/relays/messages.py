@@ -181,9 +181,12 @@ class Ping(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
 
 class Taken(msgspec.Struct, frozen=True, tag=True, array_like=True):
-    """The relay serves this room for another studio that came later and proved that it is its."""
+    """The relay has ended this line, and takes nothing more of it."""
 
     reason: str
+    """Why it is not to be dialled again: another studio came later and proved that the room is its;
+    empty: it may be.
+    """
 
 
 # From the origin to the relay

@@ -140,7 +140,11 @@ class Origin:
         await asyncio.gather(*(self._drop(one) for one in tuple(self.uplinks)))
 
     def addresses(self) -> tuple[str, ...]:
-        """Return where people join at relays that are there."""
+        """Return where people type the code, of relays that are there."""
+        return tuple(one.rpartition("/")[0] + "/" for one in map(_without_slash, self.rooms()))
+
+    def rooms(self) -> tuple[str, ...]:
+        """Return the addresses of the class's page at relays that are there."""
         return tuple(one.address for one in self.uplinks.values() if one.state == "there")
 
     def guests(self) -> int:
@@ -177,7 +181,7 @@ class Origin:
 
     def _changed(self) -> None:
         self._shown = self.event()
-        for address in self.addresses():
+        for address in self.rooms():
             if address not in self._told:
                 self._told.add(address)
                 self._joined(address)
@@ -297,6 +301,10 @@ class Origin:
             return ""
         member = self._classroom.members.find(person)
         return self._classroom.members.cookie_of(member) if member else ""
+
+
+def _without_slash(address: str) -> str:
+    return address.rstrip("/")
 
 
 def _is_at(line: str, endpoint: str) -> bool:

@@ -273,7 +273,7 @@ class OriginEnd:
             case AskDownload():
                 self._start(self._download(message), self._running)
             case Taken():
-                self._hang_up(message.reason[:200] or "another studio has this room.")
+                self._hang_up(message.reason[:200])
 
     def _person_of(self, ticket: str) -> Person | None:
         """Return whose ticket it is: nobody's that is not valid, who sees what all may see."""

@@ -33,6 +33,7 @@ from studio.server.app import make_app
 from studio.server.credentials import Credentials
 from studio.server.front import Front
 from studio.server.pages import waiting_page
+from studio.server.relays.door import PATHS, Door
 from studio.server.relays.inbox import Inbox
 from studio.server.relays.line import Line
 from studio.server.relays.messages import Claim, ClaimAnswer, Signed
@@ -132,6 +133,8 @@ class Relay:
         self._assets, self._base = assets, base
         self._on_listening = on_listening
         self._front = hosts, port, proxies
+        front = Front(hosts, port, base, proxies)
+        self._door = Door(lambda: tuple(self.rooms.values()), front, assets.words)
         self.rooms: dict[str, Room] = {}
         self._apps: dict[str, tuple[str, ASGIApp]] = {}
         self._lines: dict[str, tuple[Room, Inbox]] = {}
@@ -328,6 +331,8 @@ class Relay:
             await self._app_of(room)(scope, receive, send)
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1013})
+        elif path in PATHS:
+            await self._door(scope, receive, send)
         else:
             answer = self._own(scope, path)
             answer.headers["connection"] = "close"  # nobody is known yet who would come again
@@ -369,4 +374,4 @@ class Relay:
                     "Send the relay's key: Authorization: Bearer KEY\n", HTTPStatus.UNAUTHORIZED
                 )
             return PlainTextResponse(metrics(self), media_type="text/plain; version=0.0.4")
-        return waiting_page(is_room=len(path.strip("/")) > 0)
+        return waiting_page()

@@ -130,6 +130,16 @@ class RelayedClass:
             return False
         return self._people.get(member.person) is member
 
+    def is_person(self, person: str, visitor: Person) -> bool:
+        """Whether somebody is this person of this class; another's may have the same id."""
+        member = visitor if isinstance(visitor, RelayedMember) else None
+        return member is not None and member.person == person and member.is_of(self)
+
+    def is_out(self, visitor: Person) -> bool:
+        """Whether somebody is of this class, and may not be here any more."""
+        member = visitor if isinstance(visitor, RelayedMember) else None
+        return member is not None and member.is_of(self) and not self.admits(member)
+
     def is_sent_out(self, given: str) -> bool:
         """Whether this is the ticket of somebody who was sent out."""
         member = self._member(given)

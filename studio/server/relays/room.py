@@ -201,12 +201,11 @@ class Room:
         line.begin(self)
 
     def hang_up(self, reason: str = "") -> None:
-        """End the line; `reason` tells the origin not to come again."""
+        """End the line; `reason` tells the origin not to come again, and none to dial anew."""
         line, self._line = self._line, None
         if line is None:
             return
-        if reason:
-            line.send(Taken(reason))
+        line.send(Taken(reason))
         self.away_since_s = self._loop.time()
         for at, count in enumerate((line.received_bytes, line.sent_bytes, line.refused)):
             self._before_bytes[at] += count
@@ -265,15 +264,11 @@ class Room:
             case Pong():
                 self.round_trip_s = (self._now_ns() - message.sent_ns) / 1e9
             case EndPerson():
-                self._end_people(partial(self._is_ours, message.person))
+                self._end_people(partial(self.classroom.is_person, message.person))
             case Joined():
                 self._joining.answer(message)
             case Downloaded():
                 self._downloading.answer(message)
-
-    def _is_ours(self, person: str, visitor: Person) -> bool:
-        member = visitor if isinstance(visitor, RelayedMember) else None
-        return member is not None and member.person == person and member.is_of(self.classroom)
 
     def _send(self, message: Up) -> bool:
         """Send a message; answers whether there is a line."""
@@ -296,7 +291,7 @@ class Room:
             self._passed_on.refuse_sent()
             # As after any restart of a studio, pages come again, and ask anew for what they show.
             for person in {one.person for one in self._pages}:
-                self._end_people(partial(self._is_ours, person))
+                self._end_people(partial(self.classroom.is_person, person))
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
@@ -317,17 +312,9 @@ class Room:
             return
         here = (before.is_open, before.sent_out, before.tickets)
         if here != (state.is_open, state.sent_out, state.tickets):
-            self._end_people(self._is_out)
+            self._end_people(self.classroom.is_out)
         if before.shown != state.shown:
             self.lanes.review()
-
-    def _is_out(self, visitor: Person) -> bool:
-        member = visitor if isinstance(visitor, RelayedMember) else None
-        return (
-            member is not None
-            and member.is_of(self.classroom)
-            and not self.classroom.admits(member)
-        )
 
     async def _ask_standing(self, listener: Listener) -> None:
         """Ask again for what lasts, one after the other: a lesson before the panels seen in it."""
@@ -472,6 +459,13 @@ class Room:
         except OriginAwayError as error:
             raise NotJoiningError("away", str(error)) from None
 
+    async def knows(self, code: str) -> bool:
+        """Return whether this is the code of the class: it is told before what else is missing."""
+        try:
+            return (await self._join("", code, "", "")).why not in _NOT_KNOWN
+        except NotJoiningError:
+            return False
+
     async def download(
         self, document: str, what: str, options: Sequence[tuple[str, str]]
     ) -> Download:
@@ -592,6 +586,6 @@ class Room:
             self._send(viewers)
 
 
-_JOINING_MAX, _DOWNLOADING_MAX = 200, 8
-"""So many ask the origin at once."""
+_JOINING_MAX, _DOWNLOADING_MAX = 200, 8  # ask the origin at once
+_NOT_KNOWN: Final = frozenset({"code", "closed", "tries", "away"})
 _NOWHERE: Final = Path("/nonexistent")
