@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -103,7 +104,7 @@ class HostileOrigin:
         up, down, alive = line_keys(answer.line)
         incoming = declare_subscription(self.session, up, 65_536, reliable=True)
         self.now = HostileLine(declare_stream(self.session, down, _PATIENCE_S), keys)
-        self._threads.append(ReadingThread("hostile-up", incoming, self._take))
+        self._threads.append(ReadingThread("hostile-up", incoming, partial(self._take, self.now)))
         self._tokens.append(declare_token(self.session, alive))
         self.address, self.line_name = answer.address, answer.line
         if greets:
@@ -150,9 +151,9 @@ class HostileOrigin:
         finally:
             made.close()
 
-    def _take(self, samples: list[Sample]) -> None:
+    def _take(self, line: HostileLine, samples: list[Sample]) -> None:
         for sample in samples:
-            message = self.now.open(sample.payload.to_bytes())
+            message = line.open(sample.payload.to_bytes())
             if message is None or message[:1] != b"m":
                 continue
             told = decode_up(message[1:])

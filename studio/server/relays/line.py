@@ -259,6 +259,6 @@ class Line:
         except (ZError, RelayLineError) as error:
             # Nobody came, the session has ended, or a message was too large to be sent at all.
             if not (self.closed or self._loop.is_closed()):
-                _log.warning("A relay's line ends: %s", error)
+                _log.info("A relay's line ends: %s", error)
                 with suppress(RuntimeError):  # the loop was closed just now
                     self._loop.call_soon_threadsafe(self._missed)
