@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import secrets
 import threading
+import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -29,6 +30,7 @@ from studio.server.relays.messages import (
     Claim,
     ClaimAnswer,
     Down,
+    Downloaded,
     Joined,
     Ping,
     Pong,
@@ -104,13 +106,14 @@ class HostileRelay:
         self.claims: list[Claim] = []
         self.lines: dict[str, HostileLine] = {}
         self.heard: list[Down] = []
-        self.heard_bytes = bytearray()
-        """Of every message, opened."""
+        self.heard_bytes: bytearray | None = None
+        """Of every message, opened, where they are wanted."""
         self.confirms: Literal["honestly", "never", "everything"] = "honestly"
         self.answers: dict[str, str] = {}
         """Of claims, instead of what is true."""
         self._numbers = iter(range(1, 1 << 40))
-        down = declare_subscription(session, line_keys("*")[1], 65_536, reliable=True)
+        # Each sample that waits holds as much as Zenoh receives at once.
+        down = declare_subscription(session, line_keys("*")[1], 4_096, reliable=True)
         self._threads = (
             ReadingThread("hostile-down", down, self._take),
             ReadingThread("hostile-claims", declare_queryable(session, CLAIM_KEY, 64), self._claim),
@@ -200,8 +203,12 @@ class HostileRelay:
                 continue
             if message is None or message[:1] != b"m":
                 continue
-            self.heard_bytes += message[1:]
-            self.heard.append(decode_down(message[1:]))
+            if self.heard_bytes is not None:
+                self.heard_bytes += message[1:]
+            told = decode_down(message[1:])
+            if isinstance(told, Downloaded):
+                told = msgspec.structs.replace(told, data=b"")
+            self.heard.append(told)
             if self.confirms != "never":
                 line.confirm(line.heard_bytes if self.confirms == "honestly" else (1 << 64) - 1)
 
@@ -266,10 +273,19 @@ class HostileClass:
         return next(one for one in reversed(events) if one["type"] in {"done", "refused"})
 
     def answers(self) -> None:
-        """Wait until all that was said before was taken."""
-        number = self.relay.number()
-        self.relay.say(Ping(number))
-        self.relay.until(Pong, lambda one: one.sent_ns == number)
+        """Wait until all that was said before was taken, or ended the line and there is another."""
+        numbers, since, asked_s = set[int](), len(self.relay.heard), 0.0
+
+        def has_answered() -> bool:
+            nonlocal asked_s
+            if time.monotonic() > asked_s + 2:
+                asked_s = time.monotonic()
+                numbers.add(self.relay.number())
+                self.relay.say(Ping(max(numbers)))
+            told = self.relay.heard[since:]
+            return any(isinstance(one, Pong) and one.sent_ns in numbers for one in told)
+
+        wait_until(has_answered, "an answer")
 
     def copy_of(self, name: str) -> tuple[int, str, str]:
         """A page, its ticket, and the copy that its person has made."""

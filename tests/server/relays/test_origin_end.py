@@ -277,7 +277,7 @@ def test_a_claim_names_the_relay_that_it_is_for(hostile: HostileClass):
 
 def test_nothing_that_a_relay_is_sent_holds_a_secret_of_the_studio(tmp_path: Path):
     with hostile_relay() as bad, relayed_class(tmp_path, [bad.line]) as room:
-        hostile = HostileClass(room, bad)
+        hostile, bad.heard_bytes = HostileClass(room, bad), bytearray()
         served, classroom = room.served, room.served.classroom
         served.run(classroom.admission.set_password("pass-word-of-the-class"))
         with served.presenting() as presenter:
