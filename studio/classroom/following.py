@@ -97,7 +97,7 @@ class Following:
         if self._focus is not None and not listener.sees(self._focus.document):
             return is_new
         if self._focus is not None:
-            send(listener, self._focus)
+            listener.post(encode(self._focus), key=_FOCUS_KEY)
         if self._view:
             listener.post(self._view, binary=True, key=_KEY)
         return is_new

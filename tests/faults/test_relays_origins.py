@@ -95,8 +95,8 @@ def site_of(page: WatchedPage, name: str) -> str:
 @contextmanager
 def student_of(studio: RunningStudio, name: str) -> Generator[WatchedPage]:
     """The page of somebody who joins at the studio's relay."""
-    _, address, _, code = studio.next_line("Relay: ").split()
-    browser = Classmate(address)
+    *_, code = studio.next_line("Relay: ").split()
+    browser = Classmate(studio.next_line("   or: ").split()[1].partition("join?")[0])
     try:
         wait_until(lambda: browser.client.get("/join").status_code == 200, "the form")
         assert browser.join(name, code).status_code == 303

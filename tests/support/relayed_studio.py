@@ -53,7 +53,8 @@ class RelayedStudio:
     def __init__(self, studio: RunningStudio, first: RelayProcess, second: RelayProcess) -> None:
         self.studio, self.first, self.second = studio, first, second
         _ = studio.class_code  # printed before, and kept
-        said = [studio.next_line("Relay: ").split()[1] for _ in range(2)]
+        links = [studio.next_line("   or: ").split()[1] for _ in range(2)]
+        said = [one.partition("join?")[0] for one in links]
         self.addresses = Addresses(
             *(
                 next(one for one in said if one.startswith(relay.address))

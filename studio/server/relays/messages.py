@@ -46,6 +46,8 @@ class Claim(msgspec.Struct, frozen=True):
     session: str
     relay: bytes = b""
     """Digest of the relay's key: another relay that was shown the claim could pass it on."""
+    dial: str = ""
+    """The address that was dialled; by two of them a studio does not come at once."""
 
 
 class ClaimAnswer(msgspec.Struct, frozen=True):

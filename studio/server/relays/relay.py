@@ -285,6 +285,8 @@ class Relay:
             room.address = f"{self.address}{claim.room}/"
         elif claim.session in room.replaced:
             return _TAKEN
+        elif room.is_there and room.dial != claim.dial and room.session == claim.session:
+            return f"this studio is here by {room.dial[:200]} already: remove one of the two."
         elif room.state is not None and room.state.session != claim.session:
             room.replaced.append(room.state.session)
             room.hang_up(_TAKEN)
@@ -300,6 +302,7 @@ class Relay:
         line = Line(self._loop, publisher, keys)
         self._forget_lines()
         self._lines[name] = (room, Inbox(line))
+        room.dial = claim.dial
         room.connect(line)
         return ""
 

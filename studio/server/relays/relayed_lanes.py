@@ -90,6 +90,7 @@ class LaneCopy:
         if before := self._since.pop(key, None):
             self._since_bytes -= len(before.data)
         if not frame.data:  # what had this key holds no more
+            self._snapshot = tuple(one for one in self._snapshot if one.key != key)
             return False
         self._since[key] = frame
         self._since_bytes += len(frame.data)

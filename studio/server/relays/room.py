@@ -140,6 +140,8 @@ class Room:
         self.replaced: deque[str] = deque(maxlen=_REPLACED_MAX)
         """Sessions of studios that had the room until another claimed it; they have it no more,
         also if their line was cut when that one came."""
+        self.dial = ""
+        """By which address of this relay its studio came."""
         self.round_trip_s = 0.0
         self.address = ""
         """Of the room's page here."""
@@ -186,6 +188,11 @@ class Room:
     def refused(self) -> int:
         """Messages that were forged, sent again or out of their order."""
         return self._before_bytes[2] + (self._line.refused if self._line else 0)
+
+    @property
+    def session(self) -> str:
+        """Of the run of the studio; empty: it has not said it."""
+        return self.state.session if self.state else ""
 
     @property
     def state(self) -> RoomState | None:

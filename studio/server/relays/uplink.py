@@ -238,7 +238,7 @@ class Uplink:
         handshake, identity = Handshake(), self._identity()
         claim = Claim(
             *(studio.__version__, identity.id, identity.public, handshake.public, self._session),
-            key_digest(self.relay.key),
+            *(key_digest(self.relay.key), self.relay.endpoint),
         )
         body = msgspec.msgpack.encode(claim)
         signed = msgspec.msgpack.encode(Signed(body, identity.sign(body)))

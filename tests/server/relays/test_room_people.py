@@ -28,6 +28,7 @@ from tests.support.watched_pages import watched_page
 
 if TYPE_CHECKING:
     from collections.abc import Generator
+    from pathlib import Path
 
     from websockets.sync.connection import Connection
 
@@ -295,3 +296,15 @@ def others_of(lane: Lane) -> list[str]:
     """The addresses at other relays that a page was told last."""
     lane.ask("raise_hand", raised=True)
     return list(lane.newest("relay_state")["others"])
+
+
+def test_a_studio_that_dials_two_addresses_of_one_relay_is_told_and_stays_by_the_first(
+    tmp_path: Path,
+):
+    with served_relay() as relay, relayed_class(tmp_path, [relay.line]) as room:
+        other = relay.line.replace("127.0.0.1", "localhost")
+        dialled = room.served.run(room.origin.dial(other))
+        second = room.uplink(dialled.endpoint)
+        wait_until(lambda: second.state == "refused", "the refusal")
+        assert "already" in second.reason
+        assert room.uplink(relay.line.partition("#")[0]).state == "there"
