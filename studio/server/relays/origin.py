@@ -17,7 +17,6 @@ from studio.server.relays.origin_end import OriginEnd
 from studio.server.relays.origin_topics import AllowedTopics
 from studio.server.relays.relayed_class import link_digest
 from studio.server.relays.tickets import RoomIdentity, TicketIssuer, read_ticket
-from studio.server.relays.uplink import Uplink
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from studio.server.relays.line import Line
     from studio.server.relays.messages import AskJoin
     from studio.server.relays.origin_end import SharedStudio
+    from studio.server.relays.uplink import Uplink
 
 RELAYS_MAX: Final = 16
 _SEEN_EVERY_S: Final = 1.0
@@ -105,6 +105,8 @@ class Origin:
             RelayKeyError: It is no line of a relay.
             CommandError: There are as many as can be.
         """
+        from studio.server.relays.uplink import Uplink  # noqa: PLC0415 - it imports Zenoh
+
         relay = parse_relay_line(line)
         if relay.endpoint not in self.uplinks and len(self.uplinks) >= RELAYS_MAX:
             raise CommandError(f"{RELAYS_MAX} relays are in use: remove one first.")
