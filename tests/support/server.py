@@ -19,6 +19,7 @@ import httpx2
 from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
+from tests.support.classmates import CLOSE_S
 from tests.support.patience import Stopwatch, ended_within
 from tests.support.warm_python import STUDIO, start_python
 
@@ -109,6 +110,7 @@ class RunningStudio:
             proxy=None,
             open_timeout=60,
             max_size=None,
+            close_timeout=CLOSE_S,
         )
 
     def hear_sites(self, document: str) -> None:

@@ -20,6 +20,7 @@ from studio.server.origin import KnownHosts
 from studio.server.ports import bind, port_of
 from studio.server.server import Server
 from studio.server.websocket import StudioSocket
+from tests.support.classmates import CLOSE_S
 from tests.support.small_engine import SmallEngine
 
 if TYPE_CHECKING:
@@ -119,6 +120,7 @@ class RunningWeb:
             proxy=None,
             open_timeout=60,
             max_size=None,
+            close_timeout=CLOSE_S,
         )
 
 
