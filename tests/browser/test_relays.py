@@ -125,6 +125,7 @@ def is_ready_to_look(page: StudioPage) -> bool:
     return bool(probes) and probes[0].evaluate("typeof onmessage") == "function"
 
 
+@pytest.mark.sweep  # the story of a class at two relays moves on, too
 def test_when_a_relay_goes_its_people_go_on_at_another_as_who_they_are(
     browser: Browser, told: Told, tmp_path: Path
 ):

@@ -15,6 +15,7 @@ from studio.packages.roots import ServedRoots
 from tests.support.descriptions import policy_for
 from tests.support.open_documents import engine, opened
 from tests.support.studio_page import changed_bytes
+from tests.support.sweep import some_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -62,7 +63,7 @@ def what_is_wrong(document: Document) -> str:
     return ""
 
 
-@pytest.mark.parametrize("share", range(_SHARES))
+@pytest.mark.parametrize("share", some_of(range(_SHARES)))
 def test_every_robot_that_stock_expands_is_drawn(
     share: int, robots: list[Path], corpus: Path, tmp_path: Path
 ):
