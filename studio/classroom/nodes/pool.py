@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import hmac
 import secrets
-from datetime import UTC, datetime, timedelta
+from datetime import timedelta
 from typing import TYPE_CHECKING, Final
 
+from studio.ros.wire.certificates import certificate_pem, derived_key, key_pem
 from studio.ros.wire.credentials import Credentials
 
 if TYPE_CHECKING:
@@ -17,7 +17,6 @@ POOL_SIZE: Final = 60
 _FIRST: Final = 41
 """Up to 101 a domain is usable on every system by every middleware of ROS 2."""
 _LIFE: Final = timedelta(days=120)
-_CLOCKS_APART: Final = timedelta(days=1)
 _AUTHORITY: Final = "Nodes of a class"
 _ROUTER: Final = "Router of a class"
 _STUDIO: Final = "studio"
@@ -45,7 +44,6 @@ class Pool:
 
     def __init__(self, secret: str, domains: tuple[int, ...]) -> None:
         self.secret, self.domains = secret, domains
-        self._now = datetime.now(UTC)
         self._authority = self._signed(_AUTHORITY)
 
     @property
@@ -72,54 +70,21 @@ class Pool:
         return self._credentials(self.name_of(domain))
 
     def _credentials(self, name: str) -> Credentials:
-        return Credentials(self._authority, self._signed(name), self._key_text(name))
+        return Credentials(self._authority, self._signed(name), key_pem(self._key(name)))
 
     def _key(self, name: str) -> EllipticCurvePrivateKey:
-        from cryptography.hazmat.primitives.asymmetric import ec  # noqa: PLC0415 - takes its time
-
-        made = hmac.new(bytes.fromhex(self.secret), name.encode(), "sha512").digest()
-        order = ec.SECP256R1().group_order
-        return ec.derive_private_key(int.from_bytes(made) % (order - 1) + 1, ec.SECP256R1())
-
-    def _key_text(self, name: str) -> str:
-        from cryptography.hazmat.primitives import serialization  # noqa: PLC0415
-
-        return (
-            self._key(name)
-            .private_bytes(
-                serialization.Encoding.PEM,
-                serialization.PrivateFormat.PKCS8,
-                serialization.NoEncryption(),
-            )
-            .decode()
-        )
+        return derived_key(bytes.fromhex(self.secret), name)
 
     def _signed(self, name: str) -> str:
         """Return the certificate of a name in PEM, signed by the authority."""
-        from cryptography import x509  # noqa: PLC0415
-        from cryptography.hazmat.primitives import hashes, serialization  # noqa: PLC0415
-        from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID  # noqa: PLC0415
-
-        def named(text: str) -> x509.Name:
-            return x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, text)])
-
-        made = (
-            x509.CertificateBuilder()
-            .subject_name(named(name))
-            .issuer_name(named(_AUTHORITY))
-            .public_key(self._key(name).public_key())
-            .serial_number(x509.random_serial_number())
-            .not_valid_before(self._now - _CLOCKS_APART)
-            .not_valid_after(self._now + _LIFE)
-            .add_extension(x509.BasicConstraints(name == _AUTHORITY, None), critical=True)
+        return certificate_pem(
+            name,
+            self._key(name).public_key(),
+            _AUTHORITY,
+            self._key(_AUTHORITY),
+            life=_LIFE,
+            serves=None if name == _AUTHORITY else name == _ROUTER,
         )
-        if name != _AUTHORITY:
-            # Else a student could pass for the router.
-            usages = ExtendedKeyUsageOID
-            usage = usages.SERVER_AUTH if name == _ROUTER else usages.CLIENT_AUTH
-            made = made.add_extension(x509.ExtendedKeyUsage([usage]), critical=False)
-        signed = made.sign(self._key(_AUTHORITY), hashes.SHA256())
-        return signed.public_bytes(serialization.Encoding.PEM).decode()
 
 
 def environment_of(endpoint: str, domain: int, credentials: Credentials) -> dict[str, str]:

@@ -12,10 +12,11 @@ import hmac
 import re
 import secrets
 from dataclasses import dataclass, field
-from datetime import UTC, datetime, timedelta
+from datetime import timedelta
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import RelayKeyError, RelayLineError, SettingsError, WireSettingsError
+from studio.ros.wire.certificates import certificate_pem, derived_key, key_pem
 from studio.ros.wire.credentials import Credentials
 from studio.ros.wire.endpoints import parse_endpoint
 
@@ -34,7 +35,6 @@ _POINT_BYTES: Final = 33
 _SEED_BYTES: Final = 18
 _LIFE: Final = timedelta(days=3650)
 """Who has the key makes certificates anew: the end of one would only stop a relay that runs on."""
-_CLOCKS_APART: Final = timedelta(days=1)
 _AUTHORITY: Final = "Authority of a relay"
 _RELAY: Final = "Relay"
 _STUDIOS: Final = "Authority of the studios of a relay"
@@ -64,7 +64,7 @@ class RelayIdentity:
         self._secret = bytes.fromhex(secret)
         if len(self._secret) != _SECRET_BYTES:
             raise ValueError(f"A relay's secret has {_SECRET_BYTES} bytes, in hex: make a new one.")
-        self._authority = _derived(self._secret, _AUTHORITY)
+        self._authority = derived_key(self._secret, _AUTHORITY)
         self._seed = hmac.digest(self._secret, _SEED.encode(), "sha256")[:_SEED_BYTES]
         self.key = _key_text(_point(self._authority.public_key()) + self._seed)
         """What the relay prints; who has it can connect."""
@@ -72,11 +72,11 @@ class RelayIdentity:
     @property
     def credentials(self) -> Credentials:
         """To listen by."""
-        own = _derived(self._secret, _RELAY)
+        own = derived_key(self._secret, _RELAY)
         return Credentials(
             _studios(self._seed)[1],
             _certificate(_RELAY, own.public_key(), _AUTHORITY, self._authority, serves=True),
-            _private_text(own),
+            key_pem(own),
         )
 
     def sign(self, data: bytes) -> bytes:
@@ -113,7 +113,7 @@ class RelayAddress:
         return Credentials(
             _anchor(public),
             _certificate(_STUDIO, own.public_key(), _STUDIOS, authority, serves=False),
-            _private_text(own),
+            key_pem(own),
         )
 
     def verify(self, data: bytes, signature: bytes) -> None:
@@ -190,17 +190,9 @@ def _read_key(key: str) -> tuple[EllipticCurvePublicKey, bytes]:
     return public, data[_POINT_BYTES:]
 
 
-def _derived(secret: bytes, name: str) -> EllipticCurvePrivateKey:
-    from cryptography.hazmat.primitives.asymmetric import ec  # noqa: PLC0415 - takes its time
-
-    made = hmac.digest(secret, name.encode(), "sha512")
-    order = ec.SECP256R1().group_order
-    return ec.derive_private_key(int.from_bytes(made) % (order - 1) + 1, ec.SECP256R1())
-
-
 def _studios(seed: bytes) -> tuple[EllipticCurvePrivateKey, str]:
     """Return the authority of the studios, and its certificate."""
-    authority = _derived(seed, _STUDIOS)
+    authority = derived_key(seed, _STUDIOS)
     return authority, _certificate(_STUDIOS, authority.public_key(), _STUDIOS, authority)
 
 
@@ -223,41 +215,7 @@ def _certificate(
     *,
     serves: bool | None = None,
 ) -> str:
-    """Return a certificate in PEM: of who serves, who connects, or (None) an authority."""
-    from cryptography import x509  # noqa: PLC0415 - takes its time
-    from cryptography.hazmat.primitives import hashes, serialization  # noqa: PLC0415
-    from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID  # noqa: PLC0415
-
-    def named(text: str) -> x509.Name:
-        return x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, text)])
-
-    now = datetime.now(UTC)
-    made = (
-        x509.CertificateBuilder()
-        .subject_name(named(name))
-        .issuer_name(named(issuer))
-        .public_key(public)
-        .serial_number(x509.random_serial_number())
-        .not_valid_before(now - _CLOCKS_APART)
-        .not_valid_after(now + _LIFE)
-        .add_extension(x509.BasicConstraints(serves is None, None), critical=True)
-    )
-    if serves is not None:
-        usages = ExtendedKeyUsageOID
-        usage = usages.SERVER_AUTH if serves else usages.CLIENT_AUTH
-        made = made.add_extension(x509.ExtendedKeyUsage([usage]), critical=False)
-    signed = made.sign(authority, hashes.SHA256())
-    return signed.public_bytes(serialization.Encoding.PEM).decode()
-
-
-def _private_text(key: EllipticCurvePrivateKey) -> str:
-    from cryptography.hazmat.primitives import serialization  # noqa: PLC0415 - takes its time
-
-    return key.private_bytes(
-        serialization.Encoding.PEM,
-        serialization.PrivateFormat.PKCS8,
-        serialization.NoEncryption(),
-    ).decode()
+    return certificate_pem(name, public, issuer, authority, life=_LIFE, serves=serves)
 
 
 def _point(public: EllipticCurvePublicKey) -> bytes:

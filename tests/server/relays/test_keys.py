@@ -18,6 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import RelayKeyError, RelayLineError
+from studio.ros.wire.certificates import derived_key, key_pem
 from studio.ros.wire.credentials import Credentials
 from studio.ros.wire.zenoh import ZError, close, insert, open_zenoh, read_config
 from studio.server.relays import keys
@@ -143,7 +144,7 @@ def impostors() -> dict[str, Credentials]:
     public, seed = keys._read_key(RELAY.key)
     studios, known = keys._studios(seed)
     own = ec.generate_private_key(ec.SECP256R1())
-    private = keys._private_text(own)
+    private = key_pem(own)
 
     def signed(issuer: str, by: ec.EllipticCurvePrivateKey) -> str:
         return keys._certificate(keys._RELAY, own.public_key(), issuer, by, serves=True)
@@ -199,7 +200,7 @@ def test_the_key_holds_no_private_key_of_the_relay():
     public, seed = keys._read_key(RELAY.key)
     loaded = serialization.load_pem_private_key(RELAY.credentials.key.encode(), None)
     assert isinstance(loaded, ec.EllipticCurvePrivateKey)
-    derived = {name: keys._derived(seed, name) for name in (keys._AUTHORITY, keys._RELAY)}
+    derived = {name: derived_key(seed, name) for name in (keys._AUTHORITY, keys._RELAY)}
     assert keys._point(public) not in {keys._point(one.public_key()) for one in derived.values()}
     assert keys._point(loaded.public_key()) != keys._point(derived[keys._RELAY].public_key())
 
