@@ -77,7 +77,7 @@ class Door:
                 # By its path: a form may not lead to another name of this machine.
                 way = f"{self._front.base}/{room.name}/join?{query}"
                 return RedirectResponse(way, HTTPStatus.SEE_OTHER)
-        return self._page(request, "code", code)
+        return self._page(request, "nobody", code)
 
     def _page(self, request: Request, trouble: str, code: str = "") -> Response:
         is_german = request.headers.get("accept-language", "").lower().startswith("de")
