@@ -201,7 +201,7 @@ class Classroom:
         """Show presenters the relays, and where people join now."""
         for page in self._leaders():
             if page.role is Role.PRESENTER:
-                send(page, self.relays.event())
+                page.post(encode(self.relays.event()), key="relays")
         self._changed()
 
     def detach(self, listener: Listener) -> None:

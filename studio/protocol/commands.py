@@ -15,7 +15,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import OrderedDict
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
 from inspect import isawaitable
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeAlias, TypeVar
@@ -174,8 +174,9 @@ class Commands(Generic[_Target]):
         """Add a command that everybody may send who sees the page."""
         permission = Permission(type_of(message), Role.GUEST, self._scope)
         limits = limits or Limits()
-        entry = CommandEntry(permission, message, work, needs_router, limits)
-        self._put(replace(entry, same_for_all=same_for_all))
+        self._put(
+            CommandEntry(permission, message, work, needs_router, limits, same_for_all=same_for_all)
+        )
 
     def student(
         self,

@@ -26,13 +26,16 @@ class RemoveRelay(Command):
     endpoint: RelayLine
 
 
+RelayStatus: TypeAlias = Literal["connecting", "there", "lost", "refused"]
+"""`lost` and `connecting` are tried again by themselves, `refused` is not."""
+
+
 class RelayView(Message):
     """One relay as the presenter sees it."""
 
     endpoint: str
     """Where it is dialled, without its key."""
-    state: Literal["connecting", "there", "lost", "refused"]
-    """`lost` and `connecting` are tried again by themselves, `refused` is not."""
+    state: RelayStatus
     reason: str = ""
     """Why it is not there, in a sentence."""
     address: str = ""

@@ -173,7 +173,7 @@ def _demand_views(messages: Iterable[Message]) -> None:
 
 
 def _overhear(raw: bytes) -> None:
-    """Forget what a page said, unless no page of viser's says it.
+    """Check that a page speaks viser's protocol; what it says is not used.
 
     Raises:
         SceneError: It does not.

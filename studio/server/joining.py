@@ -200,10 +200,14 @@ class Joining:
         return member
 
     def _page(self, request: Request, form: Form) -> Response:
-        is_german = request.headers.get("accept-language", "").lower().startswith("de")
-        language = "de" if is_german else "en"
+        language = language_of(request.headers)
         needs_password = bool(self._classroom.admission.password)
         return join_page(form, self._words(language), language, needs_password=needs_password)
+
+
+def language_of(headers: Mapping[str, str]) -> str:
+    """Return the language of the plain pages that a browser prefers."""
+    return "de" if headers.get("accept-language", "").lower().startswith("de") else "en"
 
 
 async def body_of(request: Request) -> bytes:

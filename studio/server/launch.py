@@ -47,7 +47,7 @@ from studio.server.ports import (
     with_token,
 )
 from studio.server.progress_bar import ProgressBar
-from studio.server.relays.origin import Origin
+from studio.server.relays.origin import Origin, door_of
 from studio.server.server import Server
 from studio.settings import DEFAULT_PORT, LOOPBACK_HOSTS, Settings, repository_or_wheel
 from studio.system import raise_descriptor_limit
@@ -304,7 +304,6 @@ class _Visit:
         self._opening, self._links, self._place = opening, links, place
         self._opens: asyncio.Task[None] | None = None
         self._failure: Exception | None = None
-        self._origin: Origin | None = None
 
     def run(self, settings: Settings, credentials: Credentials, listener: socket.socket) -> None:
         """Serve until the end.
@@ -326,9 +325,11 @@ class _Visit:
                 CHECK_TEXTS: lambda: check_texts(whys(robot_checks, text_checks, package_checks)),
             },
         )
-        self._session = secrets.token_hex(8)
-        app = make_app(self._engine, assets, credentials, self._session, place.front)
+        session = secrets.token_hex(8)
+        app = make_app(self._engine, assets, credentials, session, place.front)
         self._server = Server(app, self, place.tls)
+        topics = settings.via_topics
+        self._origin = Origin(self._engine, self._classroom, session, topics, self._joined)
         self._classroom.end_pages = self._end_pages
         self._server.run(sockets=[listener])
         if self._failure is not None:
@@ -337,20 +338,19 @@ class _Visit:
     def _joined(self, address: str) -> None:
         """Tell where others join by a relay."""
         admission = self._classroom.admission
-        _print(f"Relay: {address.rstrip('/').rpartition('/')[0]}/  Code: {admission.code}")
+        if not admission.open:  # a code of a class that is paused opens nothing
+            _print(f"Relay: {door_of(address)}")
+            return
+        _print(f"Relay: {door_of(address)}  Code: {admission.code}")
         _print(f"   or: {address}join?code={admission.link}")
 
     def _end_pages(self, person: str) -> None:
         self._server.server_state.crowd.end_person(person)
-        if self._origin is not None:
-            self._origin.end_person(person)
+        self._origin.end_person(person)
 
     async def begin(self) -> None:
         """Start the engine."""
         await self._engine.start()
-        self._origin = Origin(
-            self._engine, self._classroom, self._session, self._settings.via_topics, self._joined
-        )
 
     async def answering(self) -> None:
         """Open the first document beside the server, which must handle signals meanwhile."""
@@ -363,8 +363,7 @@ class _Visit:
             with suppress(asyncio.CancelledError):
                 await self._opens
         self._window.close()
-        if self._origin is not None:
-            await self._origin.close()
+        await self._origin.close()
         await self._engine.close()
 
     async def _open(self) -> None:
@@ -385,8 +384,7 @@ class _Visit:
             _print(f"{name}: {link}")
         if self._settings.shared:
             await self._share()
-        if self._origin is not None:
-            await self._origin.begin(self._settings.via, _warn)
+        await self._origin.begin(self._settings.via, _warn)
         if self._settings.open_browser and has_display():
             self._open_browser()
         if opening.then is not None:

@@ -175,7 +175,7 @@ def see_that_it_has_the_room(
     began_s = time.monotonic()
     for one in earlier:
         wait_until(lambda one=one: relays_of(one)["state"] == "refused", "the earlier to be told")
-        assert "claimed it later: end that one" in relays_of(one)["reason"]
+        assert "has taken it over: stop that one" in relays_of(one)["reason"]
     wait_until(lambda: relays_of(later)["state"] == "there", "the later to have it")
     later.shown_within(page, began_s, "a move of the later")
     session = relay.look(lambda: session_at(relay))

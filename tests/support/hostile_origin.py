@@ -162,7 +162,7 @@ class HostileOrigin:
                 self.say(msgspec.structs.replace(self.downloaded, number=told.number))
             if isinstance(told, OpenLane):
                 shown = Frame(b'{"type":"documents","documents":[]}', key="documents")
-                self.say(LaneSnapshot(told.lane, 1, (shown,)))
+                self.say(LaneSnapshot(told.lane, (shown,)))
 
 
 @contextmanager

@@ -16,13 +16,13 @@ from studio.server.relays.messages import (
     decode_up,
     encode,
 )
-from studio.server.relays.origin_topics import AllowedTopics, TopicsOfRelay
+from studio.server.relays.origin_topics import TopicsOfRelay, allowed_topics
 from studio.server.relays.relayed_topics import RelayedTopics
 from tests.support.hearers import KeepingHearer
 from tests.support.topic_worlds import text_of
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncGenerator
+    from collections.abc import AsyncGenerator, Callable
 
     from studio.live.topics.browsers import DataLaneEnd
     from studio.live.topics.source import TopicSource
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from studio.protocol.subscriptions import SubscriptionCommand
     from studio.server.relays.messages import Down
     from studio.server.surface import SubscribesTopics
+_ALL = allowed_topics(())
 
 
 class Line:
@@ -43,8 +44,8 @@ class Line:
         told: What the origin said.
     """
 
-    def __init__(self, topics: SubscribesTopics, allows: AllowedTopics | None = None) -> None:
-        self._topics, self._allows = topics, allows or AllowedTopics()
+    def __init__(self, topics: SubscribesTopics, allows: Callable[[str], bool] = _ALL) -> None:
+        self._topics, self._allows = topics, allows
         self.pending = 0
         self.is_held = False
         self.persons: dict[str, Person] = {}
@@ -132,7 +133,7 @@ class Line:
 
 @asynccontextmanager
 async def line_to(
-    source: TopicSource, allows: AllowedTopics | None = None
+    source: TopicSource, allows: Callable[[str], bool] = _ALL
 ) -> AsyncGenerator[tuple[BrowserTopics, Line]]:
     """The topics of a source, and a line by which a relay has them."""
     topics = BrowserTopics(source)

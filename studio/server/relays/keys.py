@@ -103,6 +103,11 @@ class RelayAddress:
         return self.endpoint
 
     @property
+    def line(self) -> str:
+        """What `studio relay` prints of it, with the key."""
+        return f"{self.endpoint}#{self.key}"
+
+    @property
     def credentials(self) -> Credentials:
         """To connect by; each time with another certificate."""
         from cryptography.hazmat.primitives.asymmetric import ec  # noqa: PLC0415 - takes its time

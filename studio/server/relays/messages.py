@@ -221,10 +221,9 @@ class RoomState(msgspec.Struct, frozen=True, tag=True, array_like=True):
 
 
 class LaneSnapshot(msgspec.Struct, frozen=True, tag=True, array_like=True):
-    """The whole state of a lane; frames of it follow from `number` on."""
+    """The whole state of a lane; its frames follow, and the stream numbers them all."""
 
     lane: str
-    number: int
     frames: tuple[Frame, ...]
 
 
@@ -232,7 +231,6 @@ class LaneFrame(msgspec.Struct, frozen=True, tag=True, array_like=True):
     """What is new on a lane."""
 
     lane: str
-    number: int
     frame: Frame
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import hmac
 import secrets
+from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import CommandError, NotJoiningError, StudioError, TicketError
@@ -14,7 +15,7 @@ from studio.server.joining import Rate, Tries
 from studio.server.relays.keys import parse_relay_line
 from studio.server.relays.messages import VIEWER, RoomState
 from studio.server.relays.origin_end import OriginEnd
-from studio.server.relays.origin_topics import AllowedTopics
+from studio.server.relays.origin_topics import allowed_topics
 from studio.server.relays.relayed_class import link_digest
 from studio.server.relays.tickets import RoomIdentity, TicketIssuer, read_ticket
 
@@ -59,7 +60,7 @@ class Origin:
         joined: Callable[[str], object] = lambda _: None,
     ) -> None:
         self._engine, self._classroom, self._session = engine, classroom, session
-        self._allowed = AllowedTopics(tuple(topics) or ("*",))
+        self._allows = allowed_topics(topics)
         self._joined, self._told = joined, set[str]()
         self.uplinks: dict[str, Uplink] = {}
         self._issuer: tuple[bytes, TicketIssuer] | None = None
@@ -74,16 +75,19 @@ class Origin:
 
     async def begin(self, lines: Sequence[str], warn: Callable[[str], object]) -> None:
         """Dial the relays that were named, and those of before; what cannot be is told."""
-        kept = self._classroom.relay_lines
-        for line in (*lines, *kept):
+        for line in lines:
             try:
-                endpoint = parse_relay_line(line).endpoint
-                if endpoint not in self.uplinks:
-                    await self.dial(line)
-                if line in lines:  # it may have another key now
-                    kept[:] = [line if _is_at(one, endpoint) else one for one in kept]
+                relay = await self.dial(line)
+                if any(_is_at(one, relay.endpoint) for one in self._classroom.relay_lines):
+                    await self._keep(relay.endpoint, relay.line)  # it may have another key now
             except StudioError as error:
                 warn(str(error))
+        for line in tuple(self._classroom.relay_lines):
+            if not any(_is_at(line, one) for one in self.uplinks):
+                try:
+                    await self.dial(line)
+                except StudioError as error:
+                    warn(str(error))
 
     async def add(self, line: str) -> None:
         """Share the class by one relay more, also after the studio was started anew.
@@ -93,10 +97,7 @@ class Origin:
             CommandError: There are as many as can be.
         """
         relay = await self.dial(line)
-        kept = self._classroom.relay_lines
-        kept[:] = [one for one in kept if parse_relay_line(one).endpoint != relay.endpoint]
-        kept.append(f"{relay.endpoint}#{relay.key}")
-        await self._classroom.keep()
+        await self._keep(relay.endpoint, relay.line)
 
     async def dial(self, line: str) -> RelayAddress:
         """Share the class by one relay more, from now on.
@@ -131,8 +132,14 @@ class Origin:
         if not was_there:
             raise CommandError(f"{endpoint} is no relay of this studio.")
         self._changed()
+        await self._keep(endpoint)
+
+    async def _keep(self, endpoint: str, line: str = "") -> None:
+        """Keep this line of a relay in the place of the one before; empty: none."""
         kept = self._classroom.relay_lines
-        kept[:] = [one for one in kept if parse_relay_line(one).endpoint != endpoint]
+        kept[:] = [one for one in kept if not _is_at(one, endpoint)]
+        if line:
+            kept.append(line)
         await self._classroom.keep()
 
     async def close(self) -> None:
@@ -143,7 +150,7 @@ class Origin:
 
     def addresses(self) -> tuple[str, ...]:
         """Return where people type the code, of relays that are there."""
-        return tuple(one.rpartition("/")[0] + "/" for one in map(_without_slash, self.rooms()))
+        return tuple(map(door_of, self.rooms()))
 
     def rooms(self) -> tuple[str, ...]:
         """Return the addresses of the class's page at relays that are there."""
@@ -151,8 +158,7 @@ class Origin:
 
     def guests(self) -> int:
         """Return how many pages of people outside of the class are open at relays."""
-        ends = (one.end for one in self.uplinks.values())
-        return sum(end.guests for end in ends if isinstance(end, OriginEnd))
+        return sum(one.end.guests for one in self.uplinks.values() if one.end)
 
     def event(self) -> Relays:
         """Return the relays, for presenters."""
@@ -161,7 +167,7 @@ class Origin:
     def end_person(self, person: str) -> None:
         """End a person's pages at all relays."""
         for one in self.uplinks.values():
-            if isinstance(one.end, OriginEnd):
+            if one.end:
                 one.end.end_person(person)
 
     async def _drop(self, endpoint: str) -> bool:
@@ -178,7 +184,7 @@ class Origin:
             line,
             relay=uplink.relay.endpoint,
             hang_up=lambda reason: uplink.hang_up(reason, refused=bool(reason)),
-            allows=self._allowed,
+            allows=self._allows,
         )
 
     def _changed(self) -> None:
@@ -189,7 +195,7 @@ class Origin:
                 self._joined(address)
         self._classroom.relays_changed()
         for one in self.uplinks.values():
-            if isinstance(one.end, OriginEnd):
+            if one.end:
                 one.end.tell_state()
 
     async def _watch(self) -> None:
@@ -201,7 +207,7 @@ class Origin:
 
     # The room, for the lines
 
-    @property
+    @cached_property
     def identity(self) -> RoomIdentity:
         """Of the room; the same after a restart."""
         return RoomIdentity(bytes.fromhex(self._classroom.room_seed))
@@ -251,6 +257,11 @@ class Origin:
         if member is None or member.removed:
             raise TicketError("they are not in the class.")
         return member
+
+    @property
+    def shown(self) -> str:
+        """The copy that everybody may see; empty: none."""
+        return self._classroom.control.shown
 
     def tickets(self) -> bytes:
         """Return the public key of those who sign tickets."""
@@ -305,8 +316,9 @@ class Origin:
         return self._classroom.members.cookie_of(member) if member else ""
 
 
-def _without_slash(address: str) -> str:
-    return address.rstrip("/")
+def door_of(room: str) -> str:
+    """Return the address of a relay's own page, by that of a room there."""
+    return room.rstrip("/").rpartition("/")[0] + "/"
 
 
 def _is_at(line: str, endpoint: str) -> bool:

@@ -102,8 +102,13 @@ class SharedStudio(OpenDocuments, Protocol):
         ...
 
 
-class Room(Protocol):
+class OwnRoom(Protocol):
     """The room of the origin, which all its relays serve."""
+
+    @property
+    def shown(self) -> str:
+        """The copy that everybody may see; empty: none."""
+        ...
 
     def state(self, relay: str, /) -> RoomState:
         """Return what a relay must know of it."""
@@ -149,7 +154,7 @@ class OriginEnd:
     def __init__(
         self,
         engine: SharedStudio,
-        room: Room,
+        room: OwnRoom,
         line: Line,
         *,
         relay: str,
@@ -184,8 +189,6 @@ class OriginEnd:
         try:
             message = decode_up(data)
             self._carry_out(message)
-        except TicketError as error:
-            _log.info("A relay asked with a ticket that is not valid: %s", error)
         except StudioError as error:
             _log.warning("%s", error)
             self._hang_up("")
@@ -410,7 +413,7 @@ class OriginEnd:
         tickets = self._room.tickets()
 
         def sees(document: str) -> bool:
-            if not owner_of(document) or document == self._room.state(self._relay).shown:
+            if not owner_of(document) or document == self._room.shown:
                 return True
             if person is None:
                 return False
@@ -458,7 +461,8 @@ class OriginEnd:
     def _arrive(self, message: Arrive) -> None:
         if message.page in self._pages or len(self._pages) >= PAGES_MAX:
             raise RelayLineError("the relay opens a page twice, or too many.")
-        person = self._room.person(message.ticket)
+        if (person := self._person_of(message.ticket)) is None:
+            return
         page = RelayedPage(message.page, person, self.outlet, self.tell_state)
         self._pages[message.page] = page
         self._engine.arrive(page)

@@ -54,7 +54,6 @@ class OriginLane:
         self.lane, self._sees, self._ended = lane, sees, ended
         self.role, self.person = Role.GUEST, RELAY
         self._outlet, self._before = outlet, before
-        self._number = 0
         self._collected: list[Frame] | None = None
 
     def controls(self, document: str) -> bool:
@@ -75,10 +74,10 @@ class OriginLane:
             return
         if kind == _GONE:
             self._ended(self)
-        self._before()
-        self._number += 1
+        if not binary:  # what depends on it is text; joints and views come sixty times a second
+            self._before()
         place = f"{self.lane}\0{key}" if key else None
-        self._outlet.post(encode(LaneFrame(self.lane, self._number, frame)), place)
+        self._outlet.post(encode(LaneFrame(self.lane, frame)), place)
 
     def begin_snapshot(self) -> None:
         """Collect the whole state, which is posted now."""
@@ -88,7 +87,7 @@ class OriginLane:
         """Send it."""
         frames, self._collected = self._collected or [], None
         self._before()
-        self._outlet.post(encode(LaneSnapshot(self.lane, self._number + 1, tuple(frames))))
+        self._outlet.post(encode(LaneSnapshot(self.lane, tuple(frames))))
 
 
 class RelayedPage:

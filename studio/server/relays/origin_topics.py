@@ -43,18 +43,12 @@ _LATE_FRAME_BYTES: Final = 256 << 10
 _NOTHING: Final = frame_of((), 0)
 
 
-class AllowedTopics:
-    """The topics that an origin sends through a relay, by patterns as `/tf*`."""
+def allowed_topics(patterns: Sequence[str]) -> Callable[[str], bool]:
+    """Return what tells the topics that an origin sends to relays, by patterns as `/tf*`.
 
-    def __init__(self, patterns: tuple[str, ...] = ("*",)) -> None:
-        self.patterns = patterns
-
-    def __call__(self, topic: str) -> bool:
-        """Whether it is one of them."""
-        return any(fnmatchcase(topic, one) for one in self.patterns)
-
-
-_EVERY_TOPIC: Final = AllowedTopics()
+    Without patterns these are all.
+    """
+    return lambda topic: not patterns or any(fnmatchcase(topic, one) for one in patterns)
 
 
 class LineLevel(Protocol):
@@ -77,7 +71,6 @@ class TopicsOfRelay:
         send: Puts a message on the line.
         line: Whoever gives it calls `resume` when bytes were confirmed.
         allows: Tells the topics that may be sent.
-        gate_bytes: No messages are sent while the line holds more than this.
     """
 
     def __init__(
@@ -85,11 +78,10 @@ class TopicsOfRelay:
         topics: SubscribesTopics,
         send: Callable[[TopicState | TopicTick], object],
         line: LineLevel,
-        allows: Callable[[str], bool] = _EVERY_TOPIC,
-        gate_bytes: int = GATE_BYTES,
+        allows: Callable[[str], bool],
     ) -> None:
         self._topics, self._send, self._line = topics, send, line
-        self._allows, self._gate_bytes = allows, gate_bytes
+        self._allows = allows
         self._given_up = Counter[int]()
         """Messages by channel."""
         self._backlog = Backlog(self._count_given_up)
@@ -102,11 +94,6 @@ class TopicsOfRelay:
         """Whose command is carried out."""
         self._is_answered = self._is_serving = False
         topics.attach(self, most=RELAY_SUBSCRIPTIONS_MAX)
-
-    @property
-    def dropped(self) -> int:
-        """Messages that were given up since the beginning, for the line was too slow."""
-        return self._backlog.dropped
 
     def carry_out(self, ask: AskTopic, person: Person | None) -> None:
         """Subscribe or unsubscribe.
@@ -238,7 +225,7 @@ class TopicsOfRelay:
         self._given_up[chunk.channel] += chunk.count
 
     def _is_open(self) -> bool:
-        return self._line.pending_bytes() <= self._gate_bytes
+        return self._line.pending_bytes() <= GATE_BYTES
 
     def _forget(self, subscription: int) -> None:
         self._commands.pop(subscription, None)

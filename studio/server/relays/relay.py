@@ -94,8 +94,8 @@ _ACCESS: Final = {
 }
 """Who has the key may claim and send; not answer claims for us, nor hear what others send here."""
 _TAKEN: Final = (
-    "another studio with the key of this room claimed it later: end that one, and start this one "
-    "anew to have it back."
+    "another studio with this room's key has taken it over: stop that one, and start this one "
+    "again to get it back."
 )
 _BEARER: Final = "bearer "
 _log = logging.getLogger(__name__)
@@ -282,11 +282,10 @@ class Relay:
             if len(self.rooms) >= ROOMS_MAX:
                 return f"it serves {ROOMS_MAX} rooms already."
             room = self.rooms[claim.room] = Room(claim.room, self._blobs, self._end_people)
-            room.address = f"{self.address}{claim.room}/"
         elif claim.session in room.replaced:
             return _TAKEN
         elif room.is_there and room.dial != claim.dial and room.session == claim.session:
-            return f"this studio is here by {room.dial[:200]} already: remove one of the two."
+            return f"this studio is already connected by {room.dial[:200]}: remove one of the two."
         elif room.state is not None and room.state.session != claim.session:
             room.replaced.append(room.state.session)
             room.hang_up(_TAKEN)
@@ -366,8 +365,9 @@ class Relay:
         if path.endswith("/health"):
             name = path.strip("/").partition("/")[0]
             is_known = path == "/health" or name in self.rooms
-            said = ("ok", HTTPStatus.OK) if is_known else ("?", HTTPStatus.SERVICE_UNAVAILABLE)
-            return PlainTextResponse(f"{said[0]}\n", said[1], {"cache-control": "no-store"})
+            said = "ok\n" if is_known else "no such room\n"
+            status = HTTPStatus.OK if is_known else HTTPStatus.SERVICE_UNAVAILABLE
+            return PlainTextResponse(said, status, {"cache-control": "no-store"})
         if path == "/metrics":
             given = Headers(scope=scope).get("authorization", "")
             if not given.lower().startswith(_BEARER) or not self.identity.proves(

@@ -36,11 +36,12 @@ class RelayedMember:
 
     def controls(self, document: str) -> bool:
         """Whether they have control, as far as the relay was told: the origin asks again."""
-        state = self._room.state
         if owner := owner_of(document):
             return owner == self.person
-        holds = state is not None and state.holder == self.person
-        return holds and (not document or state.controlled == document)  # type: ignore[union-attr]
+        state = self._room.state
+        if state is None or state.holder != self.person:
+            return False
+        return not document or state.controlled == document
 
     def sees(self, document: str) -> bool:
         """Whether they may look at a document."""
@@ -132,20 +133,21 @@ class RelayedClass:
 
     def is_person(self, person: str, visitor: Person) -> bool:
         """Whether somebody is this person of this class; another's may have the same id."""
-        member = visitor if isinstance(visitor, RelayedMember) else None
-        return member is not None and member.person == person and member.is_of(self)
+        return visitor.person == person and self.is_here(visitor)
+
+    def is_here(self, visitor: Person) -> bool:
+        """Whether somebody is of this class."""
+        return isinstance(visitor, RelayedMember) and visitor.is_of(self)
 
     def is_out(self, visitor: Person) -> bool:
         """Whether somebody is of this class, and may not be here any more."""
-        member = visitor if isinstance(visitor, RelayedMember) else None
-        return member is not None and member.is_of(self) and not self.admits(member)
+        known = visitor if isinstance(visitor, RelayedMember) else None
+        return known is not None and known.is_of(self) and not self.admits(known)
 
     def is_sent_out(self, given: str) -> bool:
         """Whether this is the ticket of somebody who was sent out."""
-        member = self._member(given)
-        return (
-            member is not None and self.state is not None and member.person in self.state.sent_out
-        )
+        member, state = self._member(given), self.state
+        return member is not None and state is not None and member.person in state.sent_out
 
     async def join(self, name: str, code: str, password: str, cookie: str) -> RelayedMember:
         """Add a person, whom the origin lets in.

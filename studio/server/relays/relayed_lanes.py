@@ -37,6 +37,8 @@ _EACH_BYTES: Final = 300
 _LANES_MAX: Final = 2_000
 _OPENING_S: Final = 30.0
 _IDLE_S: Final = 60.0
+_FOLLOW: Final = "!"
+"""Before the names of what pages follow; others are documents."""
 
 
 class LaneCopy:
@@ -45,6 +47,8 @@ class LaneCopy:
     def __init__(self, name: str) -> None:
         self.name = name
         self.listeners: dict[Listener, None] = {}
+        self.waiting: dict[Listener, None] = {}
+        """Those who want it once it is there; who leaves meanwhile is not among them."""
         self.followers: dict[Listener, None] = {}
         """Those of them who follow the presenter."""
         self.is_there = asyncio.Event()
@@ -91,6 +95,7 @@ class LaneCopy:
             self._since_bytes -= len(before.data)
         if not frame.data:  # what had this key holds no more
             self._snapshot = tuple(one for one in self._snapshot if one.key != key)
+            self._snapshot_bytes = sum(len(one.data) for one in self._snapshot)
             return False
         self._since[key] = frame
         self._since_bytes += len(frame.data)
@@ -112,6 +117,7 @@ class LaneCopy:
     def remove(self, listener: Listener) -> None:
         """Send a page no more."""
         self.followers.pop(listener, None)
+        self.waiting.pop(listener, None)
         if self.listeners.pop(listener, self) is None and not self.listeners:
             self.idle_since_s = asyncio.get_running_loop().time()
 
@@ -161,21 +167,30 @@ class RelayedLanes:
             self._ask_for(lane)
         elif not lane.ticket and self._ticket_for(name):
             self._ask_for(lane)  # it was shown to all so far, and is this person's own
+        lane.waiting[listener] = None
         try:
             await asyncio.wait_for(lane.is_there.wait(), _OPENING_S)
         except TimeoutError:
             if self._lanes.get(name) is lane:
                 self.close(name, str(OriginAwayError()))
             raise OriginAwayError from None
+        finally:
+            is_wanted = lane.waiting.pop(listener, lane) is None
         if lane.trouble:
             raise CommandError(lane.trouble)
-        lane.add(listener)
+        if is_wanted:
+            lane.add(listener)
 
-    def leave(self, listener: Listener, *, kind: str = "") -> None:
-        """Send a page no more of documents; or of what it follows, whose names begin with that."""
+    def leave(self, listener: Listener) -> None:
+        """Send a page no more of documents."""
         for name, lane in self._lanes.items():
-            if lane is not self.studio and (name.startswith(kind) if kind else name[:1] != "!"):
+            if lane is not self.studio and not name.startswith(_FOLLOW):
                 lane.remove(listener)
+
+    def unfollow(self, name: str, listener: Listener) -> None:
+        """Send a page no more of what it follows."""
+        if lane := self._lanes.get(name):
+            lane.remove(listener)
 
     def forget(self, listener: Listener) -> None:
         """A page was closed."""

@@ -97,8 +97,7 @@ class RelayedScenes:
             return
         if len(message.parts) != len(message.is_digest):
             raise SceneError("It is not said of each part of a frame what it is.")
-        parts = zip(message.parts, message.is_digest, strict=True)
-        digests = {part for part, is_digest in parts if is_digest}
+        digests = set(itertools.compress(message.parts, message.is_digest))
         if digests:
             lacking = {one for one in digests if self._blobs.get(one) is None}
             here.missing |= lacking
@@ -116,13 +115,13 @@ class RelayedScenes:
         Raises:
             SceneError: It is not what its digest says.
         """
-        if not any(blob.digest in here.missing for here in self._scenes.values()):
+        wanting = [here for here in self._scenes.values() if blob.digest in here.missing]
+        if not wanting:
             return  # nobody asked for it: it would only take the place of others'
         self._blobs.put(blob.digest, blob.data)
-        for here in self._scenes.values():
-            if blob.digest in here.missing:
-                here.missing.discard(blob.digest)
-                self._show(here)
+        for here in wanting:
+            here.missing.discard(blob.digest)
+            self._show(here)
 
     def end(self, document: str) -> None:
         """There is no such view, or no more: its pages are let go."""

@@ -9,7 +9,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from studio.errors import RelayLineError
 from studio.live.topics.browsers import SUBSCRIPTIONS_MAX
-from studio.live.topics.frames import FRAME_HEAD, Tick
+from studio.live.topics.frames import Tick
 from studio.protocol.roles import owner_of
 from studio.protocol.subscriptions import (
     NotSubscribed,
@@ -50,9 +50,6 @@ class RelayedTopics:
     Args:
         ask: Puts a message on the line.
         ticket_of: Gives the ticket of a lane's person.
-
-    Attributes:
-        dropped: Messages that the origin gave up, for the line was too slow.
     """
 
     def __init__(
@@ -61,7 +58,6 @@ class RelayedTopics:
         ticket_of: Callable[[DataLaneEnd], str] = lambda _: "",
     ) -> None:
         self._ask, self._ticket_of = ask, ticket_of
-        self.dropped = 0
         self._browsers: dict[DataLaneEnd, RelayBrowser] = {}
         self._topics: dict[TopicKey, SharedTopic] = {}
         self._numbers = itertools.count(1)
@@ -150,7 +146,6 @@ class RelayedTopics:
             RelayLineError: It is no frame.
         """
         chunks = chunks_of_frame(tick.frame, self._keeps_all)
-        self.dropped = max(self.dropped, FRAME_HEAD.unpack_from(tick.frame)[2])
         if tick.kept_for >= 0:
             self._take_kept(tick.kept_for, chunks)
             return
@@ -190,6 +185,7 @@ class RelayedTopics:
         else:
             topic.is_answered = True
         self._keep(topic, chunk)
+        self._again_later.pop(topic, None)
         self._let_in(topic, users, chunk)
 
     def _let_in(
@@ -200,7 +196,6 @@ class RelayedTopics:
         for browser, subscription in users:
             browser.waiting.discard(subscription)
             lanes[browser.lane] = None
-        self._again_later.pop(topic, None)
         self._groups = None
         if chunk is not None:
             tick = Tick((chunk,))
@@ -251,16 +246,10 @@ class RelayedTopics:
         if topic.view is None or not topic.is_answered:
             return  # the latched messages are on their way
         if topic.has_kept or not topic.view.latched:
-            self._let_in_one(topic, browser, subscription)
+            self._let_in(topic, ((browser, subscription),), topic.kept)
         elif topic.again < 0:
             self._again_later[topic] = None
             self._ask_again()
-
-    def _let_in_one(self, topic: SharedTopic, browser: RelayBrowser, subscription: int) -> None:
-        browser.waiting.discard(subscription)
-        self._groups = None
-        if topic.kept is not None:
-            browser.lane.take(Tick((topic.kept,)))
 
     def _leave(
         self, browser: RelayBrowser, subscription: int, but: SharedTopic | None = None

@@ -143,8 +143,6 @@ class Room:
         self.dial = ""
         """By which address of this relay its studio came."""
         self.round_trip_s = 0.0
-        self.address = ""
-        """Of the room's page here."""
         self._ticking = self._loop.create_task(self._tick())
 
     # The origin
@@ -286,7 +284,7 @@ class Room:
 
     def _renew(self, state: RoomState) -> None:
         """Take what the room is now; on a new line, ask for all anew that is looked at."""
-        before, self.classroom.state = self.classroom.state, self.classroom.state
+        before = self.classroom.state
         self.classroom.renew(state)
         self._review(before)
         if self._greeted:
@@ -297,8 +295,7 @@ class Room:
         if before is not None and before.session != state.session:
             self._passed_on.refuse_sent()
             # As after any restart of a studio, pages come again, and ask anew for what they show.
-            for person in {one.person for one in self._pages}:
-                self._end_people(partial(self.classroom.is_person, person))
+            self._end_people(self.classroom.is_here)
         for listener in tuple(self._pages):
             if self._is_known(listener):
                 self._arrive(listener)
@@ -333,8 +330,7 @@ class Room:
 
     def attach(self, listener: Listener) -> None:
         """Show a new page what every page is shown, and who it is."""
-        page = self._pages[listener] = next(self._numbers)
-        self._by_number[page] = listener
+        self._number_of(listener)
         send(listener, self._relay_state(listener))
         self.lanes.studio.add(listener)
         if member := self.classroom.person(listener.person):
@@ -368,12 +364,17 @@ class Room:
         """Whether the origin keeps a list of such people: all but those beyond its places."""
         return not listener.person.startswith(VIEWER)
 
-    def _arrive(self, listener: Listener) -> int:
-        """Have the origin know a page; answers its number."""
+    def _number_of(self, listener: Listener) -> int:
+        """Return a page's number, which it is given if it has none."""
         page = self._pages.get(listener)
         if page is None:
             page = self._pages[listener] = next(self._numbers)
             self._by_number[page] = listener
+        return page
+
+    def _arrive(self, listener: Listener) -> int:
+        """Have the origin know a page; answers its number."""
+        page = self._number_of(listener)
         member = self.classroom.person(listener.person)
         if page not in self._arrived and member is not None and self._line is not None:
             self._arrived.add(page)
@@ -382,10 +383,11 @@ class Room:
 
     def _relay_state(self, listener: Listener) -> RelayState:
         state, member = self.classroom.state, self.classroom.person(listener.person)
-        others = state.others if state is not None and member is not None else ()
         return RelayState(
             studio="there" if self.is_there else "away",
-            others=tuple(f"{one}join?pass={member.ticket}" for one in others if member),
+            others=tuple(f"{one}join?pass={member.ticket}" for one in state.others)
+            if state and member
+            else (),
         )
 
     def _tell_all(self) -> None:
@@ -433,7 +435,7 @@ class Room:
         send(listener, Done(request=command.request))
 
     async def _follow(self, name: str, listener: Listener, *, following: bool) -> None:
-        self.lanes.leave(listener, kind=name)
+        self.lanes.unfollow(name, listener)
         if following:
             await self.lanes.watch(name, listener)
 
@@ -505,11 +507,11 @@ class Room:
         owner = owner_of(document)
         if not owner:
             return ""
-        members = [one for one in self._members() if one.sees(document)]
-        return next(
-            (one.ticket for one in members if one.person == owner),
-            next((one.ticket for one in members if one.role.includes(Role.HELPER)), ""),
-        )
+        member = self.classroom.person(owner)
+        if member is not None and self.classroom.admits(member):
+            return member.ticket
+        members = self._members()
+        return next((one.ticket for one in members if one.role.includes(Role.HELPER)), "")
 
     def _members(self) -> Iterator[RelayedMember]:
         """Give the people who have pages open here, and may."""

@@ -1,4 +1,4 @@
-"""A document of a room at a relay, as the server's routes use one; and what no relay does."""
+"""A document of a room at a relay, as the routes use one; and the parts that a relay has not."""
 
 from __future__ import annotations
 
@@ -43,12 +43,14 @@ class RoomDocument:
         await self._room.scenes.serve(self._name, connection, allowed, subprotocol)
 
     async def urdf(self, meshes: MeshNames) -> Download:
-        """Refuse it: routes give it to presenters only."""
-        return await self._room.download(self._name, "urdf", [("meshes", meshes)])
+        """Refuse it."""
+        del meshes
+        raise CommandError(_ONLY_THERE)
 
     async def package(self, *, all_used: bool) -> Download:
-        """Refuse it, as `urdf`."""
-        return await self._room.download(self._name, "package", [("all", str(all_used))])
+        """Refuse it."""
+        del all_used
+        raise CommandError(_ONLY_THERE)
 
     async def page(self, *, dark: bool) -> Download:
         """Return the 3D view as a page of its own."""
@@ -56,7 +58,7 @@ class RoomDocument:
         return await self._room.download(self._name, "page", [("theme", theme)])
 
     async def table(self, lines: Sequence[tuple[str, str]]) -> Iterator[bytes]:
-        """Return all samples of numbers over a recording, as CSV."""
+        """Return plotted numbers over a recording, as CSV."""
         return iter((await self._room.download(self._name, "series", lines)).chunks)
 
 

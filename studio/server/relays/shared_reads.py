@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-import json
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
+
+import msgspec
 
 from studio.documents.engine import COMMANDS
 from studio.protocol.roles import Role, owner_of
@@ -15,6 +16,10 @@ if TYPE_CHECKING:
     from studio.protocol import Command
     from studio.protocol.listeners import Listener
 
+_Event: TypeAlias = dict[str, msgspec.Raw]
+"""Its fields as they came: they may be long, and go to many."""
+_DECODER: Final = msgspec.json.Decoder(_Event)
+_NO_NUMBER: Final = msgspec.Raw(b"")
 _FRESH_S: Final = 1.0
 _KEPT_MAX: Final = 256
 
@@ -32,9 +37,9 @@ class _Reader:
     """
 
     def __init__(self, first: Listener, request: int) -> None:
-        self._first, self._request = first, request
+        self._first, self._request = first, str(request).encode()
         self.role, self.person = first.role, first.person
-        self.events: list[dict[str, Any]] = []
+        self.events: list[_Event] = []
 
     def sees(self, document: str) -> bool:
         """Whether who asked first may look at a document."""
@@ -43,14 +48,16 @@ class _Reader:
     def post(self, data: bytes, *, binary: bool = False, key: str | None = None) -> None:
         """Keep one event, if it is of the answer."""
         del key
-        if not binary and (event := json.loads(data)).get("request") == self._request:
-            self.events.append(event)
+        if not binary:
+            event = _DECODER.decode(data)
+            if bytes(event.get("request", _NO_NUMBER)) == self._request:
+                self.events.append(event)
 
 
 class _Read(NamedTuple):
     version: int
     since_s: float
-    events: asyncio.Future[list[dict[str, Any]]]
+    events: asyncio.Future[list[_Event]]
 
 
 class SharedReads:
@@ -91,11 +98,11 @@ class SharedReads:
             found = self._reads[key] = _Read(self._version(), now_s, events)
             while len(self._reads) > _KEPT_MAX:
                 del self._reads[next(iter(self._reads))]
+        own = msgspec.Raw(str(command.request).encode())
         for event in await asyncio.shield(found.events):
-            own = {**event, "request": command.request}
-            listener.post(json.dumps(own, separators=(",", ":")).encode())
+            listener.post(msgspec.json.encode({**event, "request": own}))
 
-    async def _asked(self, command: Command, first: Listener) -> list[dict[str, Any]]:
+    async def _asked(self, command: Command, first: Listener) -> list[_Event]:
         reader = _Reader(first, command.request)
         try:
             await self._ask(command, reader)
@@ -104,7 +111,7 @@ class SharedReads:
         return reader.events
 
 
-def _noticed(events: asyncio.Future[list[dict[str, Any]]]) -> None:
+def _noticed(events: asyncio.Future[list[_Event]]) -> None:
     """Look at a failure, for who asked may have left."""
     if not events.cancelled():
         events.exception()

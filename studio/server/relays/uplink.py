@@ -7,7 +7,8 @@ import hashlib
 import json
 import logging
 import re
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol
+from contextlib import suppress
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import msgspec
 
@@ -36,8 +37,10 @@ from studio.server.relays.sealing import Handshake
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from studio.ros.wire.zenoh import Config, Declaration, Sample, Session, TransportEvent
+    from studio.protocol.relays import RelayStatus
+    from studio.ros.wire.zenoh import Config, Sample, Session, TransportEvent
     from studio.server.relays.keys import RelayAddress
+    from studio.server.relays.origin_end import OriginEnd
     from studio.server.relays.tickets import RoomIdentity
 
 CLAIM_KEY: Final = "studio-relay/claim"
@@ -76,37 +79,11 @@ def key_digest(key: str) -> bytes:
     return hashlib.blake2b(key.encode(), digest_size=16, person=b"relay of a claim").digest()
 
 
-class OriginEnd(Protocol):
-    """What speaks on the line, once it is there."""
-
-    def take(self, data: bytes, /) -> None:
-        """Take a message."""
-        ...
-
-    def missed(self) -> None:
-        """Messages are missing."""
-        ...
-
-    def close(self) -> None:
-        """The line has ended."""
-        ...
-
-    def people(self) -> int:
-        """Return how many pages are open at the relay."""
-        ...
-
-
-State = Literal["connecting", "there", "lost", "refused"]
-
-
 class Claimed(NamedTuple):
     """An open line."""
 
-    session: Session
     line: Line
     address: str
-    token: Declaration
-    """It shows the relay that we are there, for as long as it is kept."""
     close: Callable[[], None]
 
 
@@ -131,7 +108,7 @@ class Uplink:
     ) -> None:
         self.relay, self._identity, self._session = relay, identity, session
         self._make_end, self._changed = make_end, changed
-        self.state: State = "connecting"
+        self.state: RelayStatus = "connecting"
         self.reason = ""
         self.address = ""
         """Of the room's page at the relay; kept while the line is lost."""
@@ -202,7 +179,7 @@ class Uplink:
             if self.state != "refused":
                 self._set("lost", "The line to the relay is cut: it is dialled again.")
 
-    def _set(self, state: State, reason: str) -> None:
+    def _set(self, state: RelayStatus, reason: str) -> None:
         if (state, reason) != (self.state, self.reason):
             self.state, self.reason = state, reason
             self._changed()
@@ -216,10 +193,10 @@ class Uplink:
         """
         endpoint = self.relay.endpoint
         try:
-            session = open_zenoh(_config(self.relay, patience_ms))
+            session = open_zenoh(session_config(self.relay, patience_ms))
         except ZError as error:
             raise RelayError(
-                f"No relay answers at {endpoint}: see that `studio relay` runs there, that its "
+                f"No relay answers at {endpoint}: check that `studio relay` runs there, that its "
                 "port is open, and that the key is its own."
             ) from error
         watch: ReadingThread[TransportEvent] | None = None
@@ -259,11 +236,13 @@ class Uplink:
         token = declare_token(session, alive)
 
         def end() -> None:
+            with suppress(ZError):  # the session has ended already
+                token.undeclare()
             watch.close()
             reading.close()
             close(session)
 
-        return Claimed(session, line, answer.address, token, end)
+        return Claimed(line, answer.address, end)
 
     def _checked(self, found: bytes, body: bytes) -> ClaimAnswer:
         try:
@@ -300,7 +279,8 @@ def _watch_router(
     return ReadingThread("relay-watch", watch_transports(session), take)
 
 
-def _config(relay: RelayAddress, open_ms: int) -> Config:
+def session_config(relay: RelayAddress, open_ms: int) -> Config:
+    """Return Zenoh's configuration of who dials a relay, and gives an attempt so long."""
     config = read_config()
     insert(config, "mode", '"client"')
     insert(config, "connect/endpoints", json.dumps([relay.endpoint]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import TYPE_CHECKING
 
 import httpx2
@@ -79,6 +80,25 @@ def test_nobody_joins_by_it(browser: httpx2.Client, rooms: tuple[RelayedClass, R
     assert browser.post("/", data={"code": code_of(rooms[0])}).status_code == 303
     assert len(rooms[0].served.classroom.members) == before
     assert not browser.cookies
+
+
+def test_a_studio_that_does_not_answer_keeps_nobody_elses_people_out(
+    browser: httpx2.Client,
+    relay: ServedRelay,
+    rooms: tuple[RelayedClass, RelayedClass],
+    monkeypatch: pytest.MonkeyPatch,
+):
+    slow = relay.relay.rooms[rooms[0].origin.identity.id]
+
+    async def never(_code: str) -> bool:
+        await asyncio.sleep(3600)
+        return False
+
+    monkeypatch.setattr(slow, "knows", never)
+    answer = browser.post("/", data={"code": code_of(rooms[1])})
+    assert rooms[1].origin.identity.id in answer.headers["location"]
+    monkeypatch.setattr("studio.server.relays.door._PATIENCE_S", 0.1)
+    assert browser.post("/", data={"code": "QQQQQQ"}).status_code == 200
 
 
 @pytest.mark.usefixtures("rooms")

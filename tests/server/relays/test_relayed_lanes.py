@@ -49,14 +49,12 @@ class Lanes:
     def __init__(self) -> None:
         self.asked: list[Up] = []
         self.lanes = RelayedLanes(self.asked.append, lambda lane: f"ticket of {lane}")
-        self._number = 0
 
     def snapshot(self, *data: bytes, lane: str = "rover") -> None:
-        self.lanes.take_snapshot(LaneSnapshot(lane, 1, tuple(map(Frame, data))))
+        self.lanes.take_snapshot(LaneSnapshot(lane, tuple(map(Frame, data))))
 
     def frame(self, data: bytes, key: str = "", lane: str = "rover") -> None:
-        self._number += 1
-        self.lanes.take_frame(LaneFrame(lane, self._number, Frame(data, False, key)))
+        self.lanes.take_frame(LaneFrame(lane, Frame(data, False, key)))
 
     async def page(self, lane: str = "rover") -> Page:
         page = Page()
@@ -159,6 +157,23 @@ def test_what_the_presenter_looks_at_goes_to_who_follows_and_is_forgotten_when_t
         studio.add(later)
         studio.follow(later, following=True)
         assert later.came == [b"lobby"]
+
+    in_loop(story)
+
+
+def test_who_leaves_a_lane_before_it_is_there_is_sent_nothing_of_it():
+    async def story(lanes: Lanes) -> None:
+        page = Page()
+        opening = asyncio.create_task(lanes.lanes.watch("rover", page))
+        following = asyncio.create_task(lanes.lanes.watch("!changes graph", page))
+        await asyncio.sleep(0)
+        lanes.lanes.leave(page)
+        lanes.lanes.unfollow("!changes graph", page)
+        for name in ("rover", "!changes graph"):
+            lanes.snapshot(b"state", lane=name)
+        await asyncio.gather(opening, following)
+        lanes.frame(b"change")
+        assert page.came == []
 
     in_loop(story)
 

@@ -381,8 +381,8 @@ def well_formed() -> st.SearchStrategy[Down]:
     some = st.lists(st.binary(max_size=20), max_size=3).map(tuple)
     state = b'{"type":"subscription","subscription":1,"channel":7,"state":"live"}'
     return st.one_of(
-        st.builds(LaneSnapshot, name, number, st.lists(frame, max_size=3).map(tuple)),
-        st.builds(LaneFrame, name, number, frame),
+        st.builds(LaneSnapshot, name, st.lists(frame, max_size=3).map(tuple)),
+        st.builds(LaneFrame, name, frame),
         st.builds(Say, number, frame),
         st.builds(Settled, number, number),
         st.builds(
@@ -447,5 +447,5 @@ def test_changes_without_end_end_the_line_and_not_the_relay(
         while not line.closed:
             assert time.monotonic() < end_s
             number += 1
-            origin.say(LaneFrame("", number, Frame(bytes(4 << 20), key=f"k{number}")))
+            origin.say(LaneFrame("", Frame(bytes(4 << 20), key=f"k{number}")))
     goes_on(ada)

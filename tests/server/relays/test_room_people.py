@@ -308,3 +308,19 @@ def test_a_studio_that_dials_two_addresses_of_one_relay_is_told_and_stays_by_the
         wait_until(lambda: second.state == "refused", "the refusal")
         assert "already" in second.reason
         assert room.uplink(relay.line.partition("#")[0]).state == "there"
+
+
+def test_relays_are_kept_and_forgotten_beside_a_line_that_cannot_be_read(tmp_path: Path):
+    with served_relay() as relay, relayed_class(tmp_path, []) as room:
+        kept = room.served.classroom.relay_lines
+        kept += ["tls/192.0.2.1:7448#damaged", relay.line.partition("#")[0] + "#old"]
+        told: list[str] = []
+        room.served.run(room.origin.begin([f" {relay.line} "], told.append))
+        assert kept == ["tls/192.0.2.1:7448#damaged", relay.line]
+        assert len(told) == 1
+        assert "damaged" not in told[0]
+        endpoint = relay.line.partition("#")[0]
+        room.served.run(room.origin.remove(endpoint))
+        assert kept == ["tls/192.0.2.1:7448#damaged"]
+        room.served.run(room.origin.add(relay.line))
+        assert kept == ["tls/192.0.2.1:7448#damaged", relay.line]
