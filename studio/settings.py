@@ -12,6 +12,9 @@ from studio.errors import DataFolderError
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 8765
 LOOPBACK_HOSTS = frozenset({"127.0.0.1", "localhost", "::1"})
+ANY_HOST = "0.0.0.0"
+ANY_HOSTS = frozenset({ANY_HOST, "::"})
+"""To listen at all addresses of this machine."""
 
 XACRO_MEMORY_BYTES = 1 << 30
 SHARED_MEMORY_BYTES = 256 << 20

@@ -38,7 +38,8 @@ export function Relays() {
 
 /** @param {string} text */
 const copying = (text) => async () => {
-  if (await copyText(text)) notify(t("copied"));
+  const done = await copyText(text);
+  notify(t(done ? "copied" : "copy.failed"), { bad: !done });
 };
 
 /** @param {{relay: RelayView}} props */

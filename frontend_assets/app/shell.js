@@ -81,10 +81,10 @@ function useLasting(holds) {
       lasts.value = false;
       return undefined;
     }
-    const later = setTimeout(() => {
+    const timer = setTimeout(() => {
       lasts.value = true;
     }, SAY_AFTER_MS);
-    return () => clearTimeout(later);
+    return () => clearTimeout(timer);
   }, [holds]);
   return lasts.value;
 }

@@ -98,8 +98,9 @@ function findOther() {
 
 /** @param {number} patience_ms @returns {Promise<boolean>} our own relay answers */
 async function isOwnThere(patience_ms) {
-  const signal = AbortSignal.timeout(patience_ms);
-  const answer = await fetch(address("/health"), { cache: "no-store", signal }).catch(() => null);
+  const patience = AbortSignal.timeout(patience_ms);
+  const asked = fetch(address("/health"), { cache: "no-store", signal: patience });
+  const answer = await asked.catch(() => null);
   return answer?.ok ?? false;
 }
 

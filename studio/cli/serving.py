@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 
 from studio.cli.joining import JOINING, add_joining_options
 from studio.errors import SettingsError
-from studio.settings import DEFAULT_HOST, DEFAULT_PORT, REWIND_BYTES
+from studio.settings import ANY_HOST, DEFAULT_HOST, DEFAULT_PORT, REWIND_BYTES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 _HIGHEST_PORT = 65535
 _REWIND_MB_MAX = 65536
-_EVERYWHERE = "0.0.0.0"
 _NEW_OBJECTS_MAX = 5_000
 """Between two garbage collections: an edit makes up to a thousand objects, which are collected
 afterwards, when nobody waits."""
@@ -232,7 +231,7 @@ def server_settings(options: argparse.Namespace) -> Settings:
             raise SettingsError("--via shares a class by a relay: give --share, too.")
     public_url = _public_url(options.public_url)
     return Settings(
-        host=options.host or (_EVERYWHERE if options.share else DEFAULT_HOST),
+        host=options.host or (ANY_HOST if options.share else DEFAULT_HOST),
         port=options.port,
         token=new_token(),
         guests=options.no_token,

@@ -7,10 +7,9 @@ import socket
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
-from studio.settings import LOOPBACK_HOSTS
+from studio.settings import ANY_HOSTS, LOOPBACK_HOSTS
 
 _DEFAULT_PORTS = {"http": 80, "https": 443}
-_WILDCARDS = frozenset({"0.0.0.0", "::"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +60,7 @@ class KnownHosts:
             public: Another name by which others come; empty: there is none.
         """
         names = {*LOOPBACK_HOSTS, bound_host.lower(), public.lower() or bound_host.lower()}
-        if bound_host in _WILDCARDS:
+        if bound_host in ANY_HOSTS:
             machine = socket.gethostname().lower()
             names |= {machine, f"{machine}.local"}
         return cls(frozenset(names), any_address=not is_loopback(bound_host))

@@ -8,7 +8,7 @@ import socket
 from typing import Final
 
 from studio.errors import PortTakenError, SettingsError
-from studio.settings import DEFAULT_PORT, LOOPBACK_HOSTS
+from studio.settings import ANY_HOST, ANY_HOSTS, DEFAULT_PORT, LOOPBACK_HOSTS
 
 CODE: Final = "code"
 """The part of an address that holds a one-time code."""
@@ -69,7 +69,7 @@ def bracketed(host: str) -> str:
 
 def page_address(host: str, port: int, base: str = "", *, tls: bool = False) -> str:
     """Return the address of the page for a browser on this machine."""
-    name = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
+    name = {ANY_HOST: "127.0.0.1", "::": "::1"}.get(host, host)
     return _address(name, port, base, tls=tls)
 
 
@@ -85,10 +85,10 @@ def with_code(address: str, code: str) -> str:
 
 def lan_addresses(host: str, port: int, base: str = "", *, tls: bool = False) -> tuple[str, ...]:
     """Return where other machines find the page, the likeliest first; nowhere on loopback."""
-    if host not in {"0.0.0.0", "::"}:
+    if host not in ANY_HOSTS:
         return () if host in LOOPBACK_HOSTS else (_address(host, port, base, tls=tls),)
     names = [own for family, far in _FAR if (own := _own_address(family, far))]
-    if host == "0.0.0.0":
+    if host == ANY_HOST:
         names = [name for name in names if ":" not in name]
     names.append(f"{socket.gethostname().lower().removesuffix('.local')}.local")
     return tuple(_address(name, port, base, tls=tls) for name in dict.fromkeys(names))

@@ -164,7 +164,7 @@ def test_the_presenter_adds_a_relay_by_its_line_sees_how_it_is_and_removes_it(
     with tab(browser, told.served.url) as presenter:
         part = relays_of(presenter)
         part.get_by_text("studio relay", exact=True).wait_for()
-        line = part.get_by_label("Line of a relay")
+        line = part.get_by_label("The relay's line")
         assert line.get_attribute("type") == "password"
         line.fill(" not a line ")
         line.press("Enter")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from studio.classroom import control as control_module
-from studio.server.relays.uplink import LEASE_MS
+from studio.server.relays.wire import LEASE_MS
 from tests.support.classmates import Classmate
 from tests.support.cut_lines import cut_line
 from tests.support.relays import RelayedClass, relay_process, relayed_class, wait_until

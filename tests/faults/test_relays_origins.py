@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from studio.server.relays.line import Line
-    from studio.server.relays.uplink import OriginEnd
+    from studio.server.relays.origin_end import OriginEnd
     from tests.support.relays import ServedRelay
     from tests.support.server import RunningStudio
     from tests.support.watched_pages import WatchedPage

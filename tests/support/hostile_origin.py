@@ -38,7 +38,7 @@ from studio.server.relays.messages import (
 )
 from studio.server.relays.sealing import Handshake
 from studio.server.relays.tickets import RoomIdentity, TicketIssuer
-from studio.server.relays.uplink import CLAIM_KEY, key_digest, line_keys
+from studio.server.relays.wire import CLAIM_KEY, key_digest, line_keys
 from tests.support.classmates import Classmate
 from tests.support.hostile_relay import HostileLine
 from tests.support.relays import wait_until

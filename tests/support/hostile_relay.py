@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import msgspec
 
 from studio.errors import RelayLineError
+from studio.ros.wire.certificates import new_secret
 from studio.ros.wire.zenoh import (
     ReadingThread,
     close,
@@ -22,7 +23,7 @@ from studio.ros.wire.zenoh import (
     open_zenoh,
     read_config,
 )
-from studio.server.relays.keys import RelayIdentity, new_secret
+from studio.server.relays.keys import RelayIdentity
 from studio.server.relays.messages import (
     Arrive,
     Ask,
@@ -42,7 +43,7 @@ from studio.server.relays.messages import (
     encode,
 )
 from studio.server.relays.sealing import Handshake, Joiner, split
-from studio.server.relays.uplink import CLAIM_KEY, line_keys
+from studio.server.relays.wire import CLAIM_KEY, line_keys
 from tests.support.relays import free_port, wait_until
 
 if TYPE_CHECKING:

@@ -14,11 +14,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from studio.ros.wire.certificates import new_secret
 from studio.scene import CLIENT_PATH, viser_client
 from studio.server.assets import Assets
 from studio.server.origin import KnownHosts
 from studio.server.ports import bind, port_of
-from studio.server.relays.keys import RelayIdentity, new_secret
+from studio.server.relays.keys import RelayIdentity
 from studio.server.relays.origin import Origin
 from studio.server.relays.relay import Relay
 from studio.server.server import Server

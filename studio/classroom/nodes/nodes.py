@@ -12,7 +12,6 @@ from studio.classroom.nodes.pool import (
     POOL_SIZE,
     Pool,
     environment_of,
-    new_secret,
     pool_domains,
     powershell_line,
     shell_line,
@@ -35,6 +34,7 @@ from studio.protocol.student_nodes import (
     StopNodes,
     StudentNodesState,
 )
+from studio.ros.wire.certificates import new_secret
 from studio.ros.wire.settings import WireSettings
 from studio.settings import LOOPBACK_HOSTS, WireChoice
 from studio.workers import Worker

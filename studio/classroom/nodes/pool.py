@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import secrets
 from datetime import timedelta
 from typing import TYPE_CHECKING, Final
 
@@ -20,11 +19,6 @@ _LIFE: Final = timedelta(days=120)
 _AUTHORITY: Final = "Nodes of a class"
 _ROUTER: Final = "Router of a class"
 _STUDIO: Final = "studio"
-
-
-def new_secret() -> str:
-    """Return what a pool is made from, in hex."""
-    return secrets.token_hex(32)
 
 
 def pool_domains(taken: int) -> tuple[int, ...]:

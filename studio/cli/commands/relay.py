@@ -25,13 +25,15 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="name or address by which studios and browsers find this machine",
     )
     parser.add_argument(
-        "--new-key", action="store_true", help="make another key: studios with the old one go away"
+        "--new-key",
+        action="store_true",
+        help="make a new key; studios with the old one can no longer connect",
     )
     parser.add_argument(
         "--print",
         dest="printed",
         choices=("systemd", "compose", "nginx"),
-        help="print a unit, a compose file or nginx's part that runs this relay, and end",
+        help="print a systemd unit, compose file or nginx site for this relay, and exit",
     )
     parser.set_defaults(run=run)
     add_page_options(parser)

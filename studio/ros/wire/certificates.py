@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hmac
+import secrets
 from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING, Final
 
@@ -13,6 +14,11 @@ if TYPE_CHECKING:
     )
 
 _CLOCKS_APART: Final = timedelta(days=1)
+
+
+def new_secret() -> str:
+    """Return what keys are made from: 32 bytes, in hex."""
+    return secrets.token_hex(32)
 
 
 def derived_key(secret: bytes, name: str) -> EllipticCurvePrivateKey:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import base64
 import hmac
 import re
-import secrets
 from dataclasses import dataclass, field
 from datetime import timedelta
 from typing import TYPE_CHECKING, Final
@@ -19,6 +18,7 @@ from studio.errors import RelayKeyError, RelayLineError, SettingsError, WireSett
 from studio.ros.wire.certificates import certificate_pem, derived_key, key_pem
 from studio.ros.wire.credentials import Credentials
 from studio.ros.wire.endpoints import parse_endpoint
+from studio.server.ports import bracketed
 
 if TYPE_CHECKING:
     from cryptography.hazmat.primitives.asymmetric.ec import (
@@ -43,11 +43,6 @@ _SEED: Final = "Seed of the studios of a relay"
 _SAYS: Final = b"studio relay says\0"
 """Before what is signed; no certificate begins so."""
 _HOST: Final = re.compile(r"[a-z0-9._:%-]+")
-
-
-def new_secret() -> str:
-    """Return what a relay's key is made from, in hex."""
-    return secrets.token_hex(_SECRET_BYTES)
 
 
 class RelayIdentity:
@@ -157,7 +152,7 @@ def parse_relay_line(text: str) -> RelayAddress:
     if not _HOST.fullmatch(host) or "?" in address:
         raise RelayKeyError("what is before its # is more than tls/, a host and a port")
     _read_key(key)
-    return RelayAddress(f"tls/{f'[{host}]' if ':' in host else host}:{endpoint.port}", key)
+    return RelayAddress(f"tls/{bracketed(host)}:{endpoint.port}", key)
 
 
 def listening_endpoint(text: str) -> Endpoint:

@@ -13,13 +13,18 @@ from urllib.parse import urlsplit
 import studio
 from studio.server.ports import bracketed, page_address
 from studio.server.relays.keys import listening_endpoint
-from studio.settings import DEFAULT_HOST, DEFAULT_PORT, LOOPBACK_HOSTS, TlsChoice
+from studio.settings import (
+    ANY_HOST,
+    ANY_HOSTS,
+    DEFAULT_HOST,
+    DEFAULT_PORT,
+    LOOPBACK_HOSTS,
+    TlsChoice,
+)
 
 if TYPE_CHECKING:
     from studio.settings import Settings
 
-_EVERYWHERE: Final = "0.0.0.0"
-_ANYWHERE: Final = frozenset({_EVERYWHERE, "::"})
 _HOST_THERE: Final = "relay.example.org"
 """In the place of a name that was not given."""
 _STATE: Final = "/var/lib/"
@@ -87,7 +92,7 @@ def _lacks(kind: str, settings: Settings, listen: str, name: str) -> str:
     name = name or _HOST_THERE
     seen = replace(
         settings,
-        host=_EVERYWHERE if is_loopback else settings.host,
+        host=ANY_HOST if is_loopback else settings.host,
         tls=settings.tls or TlsChoice(),
     )
     public = settings.public_url or f"https://{bracketed(name)}{settings.base_path}/"
@@ -247,14 +252,14 @@ def _compose(settings: Settings, listen: str, name: str) -> str:
     mounts = [f"{data or 'data'}:/data"]
     made = replace(
         settings,
-        host=_EVERYWHERE,
+        host=ANY_HOST,
         data_folder=Path("/data"),
         proxies=(settings.proxies - here) | frozenset({f"{_SUBNET}.1"} if here else ()),
     )
     if files:
         mounts += [f"{files[0]}:/tls/cert.pem:ro", f"{files[1]}:/tls/key.pem:ro"]
         made = replace(made, tls=TlsChoice(Path("/tls/cert.pem"), Path("/tls/key.pem")))
-    words = _words(made, f"tls/{_EVERYWHERE}:{endpoint.port}", name)
+    words = _words(made, f"tls/{ANY_HOST}:{endpoint.port}", name)
     checked = page_address(DEFAULT_HOST, port, tls=settings.tls is not None) + "health"
     asks = "import ssl, urllib.request as r; "
     asks += f"r.urlopen('{checked}', timeout=4, context=ssl._create_unverified_context())"
@@ -275,7 +280,7 @@ def _compose(settings: Settings, listen: str, name: str) -> str:
 
 
 def _publish(host: str, port: int) -> str:
-    shown = "" if host in _ANYWHERE else f"{bracketed(host)}:"
+    shown = "" if host in ANY_HOSTS else f"{bracketed(host)}:"
     return f"{shown}{port}:{port}"
 
 

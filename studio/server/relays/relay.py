@@ -41,14 +41,7 @@ from studio.server.relays.metrics import metrics
 from studio.server.relays.room import Room
 from studio.server.relays.sealing import Handshake
 from studio.server.relays.tickets import verify_room
-from studio.server.relays.uplink import (
-    CLAIM_KEY,
-    LEASE_MS,
-    PIECES_BYTES_MAX,
-    SAMPLES_MAX,
-    key_digest,
-    line_keys,
-)
+from studio.server.relays.wire import CLAIM_KEY, SAMPLES_MAX, key_digest, line_keys, set_limits
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -69,6 +62,7 @@ _CLAIMS_WAITING: Final = 64
 _MATCHING_S: Final = 10.0
 _FORGOTTEN_S: Final = 24 * 3600.0
 """After so long a room is forgotten whose origin is away, and that nobody looks at."""
+_UP: Final = "studio-relay/*/up"
 _, _DOWN, _ALIVE = line_keys("*")
 _ACCESS: Final = {
     "enabled": True,
@@ -84,7 +78,7 @@ _ACCESS: Final = {
         for name, flows, messages, key in (
             ("claims", ["ingress"], ["query"], CLAIM_KEY),
             ("down", ["ingress"], ["put"], _DOWN),
-            ("up", ["ingress"], ["declare_subscriber"], "studio-relay/*/up"),
+            ("up", ["ingress"], ["declare_subscriber"], _UP),
             ("alive", ["ingress"], ["liveliness_token"], _ALIVE),
             ("told", ["egress"], ["put", "reply", "declare_subscriber", "declare_queryable"], "**"),
         )
@@ -161,9 +155,9 @@ class Relay:
                 f"The relay cannot listen at {self.endpoint} ({reason}): choose another --listen."
             ) from None
         self._session = session
-        down = declare_subscription(session, line_keys("*")[1], SAMPLES_MAX, reliable=True)
+        down = declare_subscription(session, _DOWN, SAMPLES_MAX, reliable=True)
         claims = declare_queryable(session, CLAIM_KEY, _CLAIMS_WAITING)
-        alive = watch_tokens(session, line_keys("*")[2])
+        alive = watch_tokens(session, _ALIVE)
         self._threads = (
             ReadingThread("relay-down", down, self._feed),
             ReadingThread("relay-claims", claims, self._claims),
@@ -186,12 +180,10 @@ class Relay:
         config = read_config()
         insert(config, "mode", '"router"')
         insert(config, "listen/endpoints", json.dumps([self.endpoint]))
-        insert(config, "scouting/multicast/enabled", "false")
         insert(config, "scouting/gossip/enabled", "false")
         insert(config, "transport/unicast/accept_timeout", "5000")
         insert(config, "transport/unicast/max_sessions", str(4 * ROOMS_MAX))
-        insert(config, "transport/link/tx/lease", str(LEASE_MS))
-        insert(config, "transport/link/rx/max_message_size", str(PIECES_BYTES_MAX))
+        set_limits(config)
         insert(config, "access_control", json.dumps(_ACCESS))
         for key, json5 in self.identity.credentials.of_router().items():
             insert(config, key, json5)

@@ -15,16 +15,17 @@ from studio.files import write_whole
 from studio.packages import lint as package_checks
 from studio.problems import whys
 from studio.robot import checks as robot_checks
+from studio.ros.wire.certificates import new_secret
 from studio.ros.wire.zenoh import use_few_threads
 from studio.scene import CLIENT_PATH, viser_client
 from studio.server.assets import CHECK_TEXTS, Assets, check_texts
 from studio.server.launch import place_of, remarks
 from studio.server.origin import KnownHosts, is_loopback
 from studio.server.ports import bind, bracketed, port_of
-from studio.server.relays.keys import RelayIdentity, listening_endpoint, new_secret
+from studio.server.relays.keys import RelayIdentity, listening_endpoint
 from studio.server.relays.relay import Relay
 from studio.server.server import Server
-from studio.settings import DEFAULT_HOST, repository_or_wheel
+from studio.settings import ANY_HOSTS, DEFAULT_HOST, repository_or_wheel
 from studio.system import raise_descriptor_limit
 
 if TYPE_CHECKING:
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
     from studio.settings import Settings
 
 _KEY_FILE: Final = "relay.key"
-_ANYWHERE: Final = frozenset({"0.0.0.0", "::"})
 
 
 def serve_relay(settings: Settings, listen: str, name: str, *, new_key: bool) -> None:
@@ -134,7 +134,7 @@ def _address(settings: Settings, place: Place, name: str) -> str:
 
 
 def _print_lines(endpoint: Endpoint, identity: RelayIdentity, address: str, name: str) -> None:
-    own = "" if endpoint.host in _ANYWHERE else endpoint.host
+    own = "" if endpoint.host in ANY_HOSTS else endpoint.host
     shown = bracketed(name or own or urlsplit(address).hostname or "")
     line = f"tls/{shown}:{endpoint.port}#{identity.key}"
     began = datetime.now(UTC).strftime("%H:%M UTC")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import hashlib
 import json
 import logging
 import re
@@ -33,6 +32,7 @@ from studio.ros.wire.zenoh import (
 from studio.server.relays.line import Line
 from studio.server.relays.messages import UP_BYTES_MAX, Claim, ClaimAnswer, Signed
 from studio.server.relays.sealing import Handshake
+from studio.server.relays.wire import CLAIM_KEY, SAMPLES_MAX, key_digest, line_keys, set_limits
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,13 +43,6 @@ if TYPE_CHECKING:
     from studio.server.relays.origin_end import OriginEnd
     from studio.server.relays.tickets import RoomIdentity
 
-CLAIM_KEY: Final = "studio-relay/claim"
-LEASE_MS: Final = 5_000
-"""A relay or an origin that is silent for so long is gone: a cut cable tells nobody."""
-SAMPLES_MAX: Final = 4_096
-"""Of a line that are not read yet; of more the oldest are lost, which ends the line."""
-PIECES_BYTES_MAX: Final = 128 << 10
-"""Of what either side takes of the other at once; a piece of a message is half as large."""
 _REASON_MAX: Final = 200
 _ADDRESS: Final = re.compile(r"https?://[A-Za-z0-9.:\[\]-]{1,260}/[A-Za-z0-9._~%/-]{0,260}")
 """Of a page; it is shown to people, and other relays send theirs there."""
@@ -62,21 +55,6 @@ _OPEN_MS: Final = (3_000, 3_000, 3_000, 6_000)
 """So long an attempt is given, in turn: one that was begun while the cable was cut may never be
 answered, and a slow line is to be reached as well."""
 _log = logging.getLogger(__name__)
-
-
-def line_keys(line: str) -> tuple[str, str, str]:
-    """Return the keys of a line's two streams, to the origin and to the relay, and of its token.
-
-    Others who have the relay's key may read the first: it does not tell them the name of the line,
-    by which they could send something to the second, or end the token.
-    """
-    shown = hashlib.blake2b(line.encode(), digest_size=8).hexdigest()
-    return f"studio-relay/{shown}/up", f"studio-relay/{line}/down", f"studio-relay/{line}/alive"
-
-
-def key_digest(key: str) -> bytes:
-    """Return what names a relay's key to those who have it."""
-    return hashlib.blake2b(key.encode(), digest_size=16, person=b"relay of a claim").digest()
 
 
 class Claimed(NamedTuple):
@@ -284,10 +262,8 @@ def session_config(relay: RelayAddress, open_ms: int) -> Config:
     config = read_config()
     insert(config, "mode", '"client"')
     insert(config, "connect/endpoints", json.dumps([relay.endpoint]))
-    insert(config, "scouting/multicast/enabled", "false")
-    insert(config, "transport/link/tx/lease", str(LEASE_MS))
     insert(config, "transport/unicast/open_timeout", str(open_ms))
-    insert(config, "transport/link/rx/max_message_size", str(PIECES_BYTES_MAX))
+    set_limits(config)
     for key, json5 in relay.credentials.of_session().items():
         insert(config, key, json5)
     return config

@@ -4,8 +4,9 @@ import asyncio
 import subprocess
 import sys
 
-from studio.classroom.nodes.pool import Pool, new_secret
+from studio.classroom.nodes.pool import Pool
 from studio.classroom.nodes.router_process import CODEC, AskWell, OpenRouter, RouterOpen, Well
+from studio.ros.wire.certificates import new_secret
 from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 from studio.workers import Worker
 from tests.support.wire import free_endpoint, wait_until

@@ -18,7 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import RelayKeyError, RelayLineError
-from studio.ros.wire.certificates import derived_key, key_pem
+from studio.ros.wire.certificates import derived_key, key_pem, new_secret
 from studio.ros.wire.credentials import Credentials
 from studio.ros.wire.zenoh import ZError, close, insert, open_zenoh, read_config
 from studio.server.relays import keys
@@ -26,7 +26,6 @@ from studio.server.relays.keys import (
     KEY_LETTERS,
     RelayAddress,
     RelayIdentity,
-    new_secret,
     parse_relay_line,
 )
 from tests.support.wire import free_endpoint

@@ -44,7 +44,7 @@ from studio.server.relays.messages import (
 )
 from studio.server.relays.sealing import Handshake
 from studio.server.relays.tickets import RoomIdentity, TicketIssuer
-from studio.server.relays.uplink import CLAIM_KEY, line_keys
+from studio.server.relays.wire import CLAIM_KEY, line_keys
 from tests.support.classmates import Classmate
 from tests.support.hostile_origin import HostileOrigin, hostile_origin
 from tests.support.relays import RelayedClass, ServedRelay, relayed_class, served_relay, wait_until
