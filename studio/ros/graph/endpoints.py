@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from enum import Enum, auto
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
     from studio.ros.qos import QoSProfile
     from studio.ros.tokens import EndpointToken
+    from studio.ros.wire.bridges.bridges import Bridge, BridgedEnd
 
 TOKENS_MAX = 200_000
 """Limit: more is an attack and no robot; tokens beyond it are counted."""
@@ -28,8 +30,9 @@ class GraphNode:
     """A node; two of one name are two values.
 
     Attributes:
-        zid: Its Zenoh session, that is its process.
+        zid: Its Zenoh session, that is its process, or the bridge's.
         nid: Its number therein.
+        bridge: The name of the bridge to DDS that it is behind; empty: it speaks rmw_zenoh.
     """
 
     zid: str
@@ -38,11 +41,19 @@ class GraphNode:
     name: str
     enclave: str
     path: str
+    bridge: str = ""
 
     @classmethod
     def of(cls, token: NodeToken) -> GraphNode:
         """Make one of its token."""
         return cls(token.zid, token.nid, token.namespace, token.name, token.enclave, token.path)
+
+    @classmethod
+    def behind(cls, bridge: Bridge, participant: str, path: str) -> GraphNode:
+        """Make one of a node on DDS that a bridge shows."""
+        namespace, _, name = path.rpartition("/")
+        number = zlib.crc32(f"{participant}{path}".encode())
+        return cls(bridge.zid, number, namespace or "/", name, "/", path, bridge.name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +63,8 @@ class GraphEndpoint:
     Attributes:
         token: Its whole token, by which it is known.
         name: Fully qualified.
-        type_hash: As keys carry it: copy it from here rather than guess it.
+        type_hash: As keys carry it: copy it from here rather than guess it. Empty where a node on
+            DDS does not tell it.
         extra: Chunks after the QoS; `backends:...` marks a buffer-aware topic of Lyrical.
     """
 
@@ -99,6 +111,11 @@ class GraphEndpoint:
     def qos_profile(self) -> QoSProfile:
         """The QoS that it offers or requests."""
         return self.qos
+
+    @classmethod
+    def behind(cls, end: BridgedEnd, node: GraphNode) -> GraphEndpoint:
+        """Make one of an end of a DDS node that a bridge passes on."""
+        return cls(end.identity, node, end.kind, end.name, end.type_name, end.type_hash, end.qos)
 
     @classmethod
     def of(cls, text: str, token: EndpointToken, node: GraphNode) -> GraphEndpoint:
@@ -156,6 +173,7 @@ class GraphTable:
         self._gone: OrderedDict[str, None] = OrderedDict()
         self._gone_first: OrderedDict[str, None] = OrderedDict()
         self._refused: OrderedDict[str, None] = OrderedDict()
+        self._bridged: dict[_Key, _NodeEntry] = {}
 
     def __contains__(self, token: str) -> bool:
         return token in self._tokens
@@ -211,6 +229,25 @@ class GraphTable:
             del self._entries[key]
         return Taken.CHANGED
 
+    def set_bridged(self, bridges: Iterable[Bridge]) -> None:
+        """Replace all nodes on DDS by those that bridges show now."""
+        for entry in self._bridged.values():
+            for endpoint in entry.endpoints.values():
+                self._forget(endpoint)
+        self._bridged = {}
+        for bridge in bridges:
+            for participant, path in bridge.nodes:
+                self._bridged_entry(bridge, participant, path)
+            for end in bridge.ends:
+                entry = self._bridged_entry(bridge, end.participant, end.node)
+                endpoint = GraphEndpoint.behind(end, entry.node)
+                entry.endpoints[endpoint.token] = endpoint
+                self._remember_endpoint(endpoint)
+
+    def _bridged_entry(self, bridge: Bridge, participant: str, path: str) -> _NodeEntry:
+        node = GraphNode.behind(bridge, participant, path)
+        return self._bridged.setdefault((node.zid, node.nid, node.path), _NodeEntry(node))
+
     def was_seen(self, token: str) -> bool:
         """Whether a token came, whatever became of it, or went recently."""
         return any(
@@ -227,12 +264,13 @@ class GraphTable:
 
     def nodes(self) -> list[GraphNode]:
         """Return every node, in the order of their paths, then sessions and numbers."""
-        found = (entry.node for entry in self._entries.values())
+        found = (entry.node for entry in (*self._entries.values(), *self._bridged.values()))
         return sorted(found, key=lambda node: (node.path, node.zid, node.nid))
 
     def endpoints_of(self, node: GraphNode) -> list[GraphEndpoint]:
         """Return the endpoints of a node, in the order of their names."""
-        entry = self._entries.get((node.zid, node.nid, node.path))
+        key = (node.zid, node.nid, node.path)
+        entry = (self._bridged if node.bridge else self._entries).get(key)
         return _by_name(entry.endpoints.values()) if entry else []
 
     def named(self, kind: EndpointKind) -> Mapping[str, Mapping[str, GraphEndpoint]]:
@@ -261,8 +299,11 @@ class GraphTable:
         endpoint = GraphEndpoint.of(text, token, entry.node)
         entry.endpoints[text] = endpoint
         self._tokens[text] = _key(token.node)
-        self._named[endpoint.kind].setdefault(endpoint.name, {})[text] = endpoint
-        self._by_gid[gid_of(text)] = endpoint
+        self._remember_endpoint(endpoint)
+
+    def _remember_endpoint(self, endpoint: GraphEndpoint) -> None:
+        self._named[endpoint.kind].setdefault(endpoint.name, {})[endpoint.token] = endpoint
+        self._by_gid[gid_of(endpoint.token)] = endpoint
 
     def _entry_of(self, token: NodeToken) -> _NodeEntry:
         key = _key(token)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
+    from studio.ros.wire.bridges.bridges import Bridge
     from studio.ros.wire.session import WireSession
 
 _GOAL = "/_action/send_goal"
@@ -47,10 +48,13 @@ class Graph:
         self._leave_own = wire.own_tokens.follow(self._take_own)
         tokens = watch_tokens(wire.zenoh, tokens_of_domain(wire.domain))
         self._thread = ReadingThread("ros-graph", tokens, self._take)
+        self._leave_bridges = wire.bridges.on_change(self._take_bridges)
+        self._take_bridges()
 
     def close(self) -> None:
         """Stop watching; again is harmless."""
         self._leave_own()
+        self._leave_bridges()
         self._thread.close()
 
     def __enter__(self) -> Self:
@@ -90,12 +94,14 @@ class Graph:
             return self._changed.wait_for(condition, timeout_s)
 
     def settle(self, timeout_s: float = SETTLE_TIMEOUT_S) -> bool:
-        """Wait until all tokens alive now are in the graph; False when that takes too long."""
+        """Wait until all that is alive now is in the graph; False when that takes too long."""
         end_s = time.monotonic() + timeout_s
+        is_bridged = self._wire.bridges.settle(timeout_s)
+        self._take_bridges()  # their thread may not have come to this graph yet
         alive = set(live_tokens(self._wire.zenoh, tokens_of_domain(self._wire.domain), timeout_s))
         with self._changed:
-            return self._changed.wait_for(
-                lambda: all(map(self._table.was_seen, alive)), end_s - time.monotonic()
+            return is_bridged and self._changed.wait_for(
+                lambda: all(map(self._table.was_seen, alive)), max(0.0, end_s - time.monotonic())
             )
 
     def nodes(self) -> list[GraphNode]:
@@ -211,6 +217,22 @@ class Graph:
             listeners = list(self._listeners)
         for listener in listeners:
             listener()
+
+    def _take_bridges(self) -> None:
+        """Take in what bridges to DDS show, in their thread."""
+        bridges = [one for one in self._wire.bridges.current if one.is_used]
+        with self._changed:
+            self._table.set_bridged(bridges)
+            self._version += 1
+            self._changed.notify_all()
+            listeners = list(self._listeners)
+        for listener in listeners:
+            listener()
+
+    @property
+    def bridges(self) -> tuple[Bridge, ...]:
+        """The bridges to DDS that the session meets, also those of other domains."""
+        return self._wire.bridges.current
 
     def _take_own(self, token: str, is_alive: bool) -> None:  # noqa: FBT001
         """Take in what the session itself shows; listeners are called when it comes by the wire."""

@@ -15,6 +15,7 @@ from studio.ros.node.logger import Logger, get_logger
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
 from studio.ros.qos import as_profile
 from studio.ros.tokens import DataKey, EndpointKind, EndpointToken, NodeToken, gid_of
+from studio.ros.wire.bridges.side import BridgeSide, DeclaredT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -396,10 +397,18 @@ class Endpoint:
 
     def __init__(self, wire: WireSession, token: EndpointToken, graph: Callable[[], Graph]) -> None:
         self.wire, self.graph = wire, graph
+        self._side: BridgeSide[Any] | None = None
         self.token = token
         self.gid = gid_of(str(token))
         self.key = str(DataKey(wire.domain, token.name, token.type_name, token.type_hash))
         self._shown: Declaration | None = None
+
+    def for_bridges(self, declare: Callable[[str], DeclaredT]) -> BridgeSide[DeclaredT]:
+        """Make the half of this end that bridges to DDS meet; it ends when this one is hidden."""
+        bridges = self.wire.bridges
+        side = BridgeSide(self.wire.zenoh, bridges, self.token, self.token.name, declare)
+        self._side = side
+        return side
 
     def show(self) -> None:
         """Show the token, after what it stands for was declared."""
@@ -407,6 +416,9 @@ class Endpoint:
 
     def hide(self, *declared: Declaration) -> None:
         """Take back the token, then what it stands for; nothing when the session is closed."""
+        side, self._side = self._side, None
+        if side is not None:
+            side.close()
         shown, self._shown = self._shown, None
         if shown is None or self.wire.zenoh.is_closed():
             return

@@ -30,7 +30,10 @@ class RawPublisher:
         self._lock = threading.Lock()
         self._sequence = 0
         self._gid = endpoint.gid
-        self._outgoing: Outgoing | None = _declared(endpoint)
+        self._outgoing: Outgoing | None = _declared(endpoint, endpoint.key)
+        self._for_bridges = endpoint.for_bridges(
+            lambda key: _declared(endpoint, key, is_for_others=True)
+        )
         endpoint.show()
 
     @property
@@ -56,7 +59,12 @@ class RawPublisher:
             if outgoing is None:
                 raise DestroyedError(f"publisher of {self.topic_name}")
             self._sequence = number = self._sequence + 1
-            outgoing.put(payload, attachment=packed(number, time.time_ns(), self._gid))
+            attachment = packed(number, time.time_ns(), self._gid)
+            outgoing.put(payload, attachment=attachment)
+            bridged = self._for_bridges.declared
+            if bridged is not None:
+                # Nodes of rmw_zenoh know by the attachment that it came to them already.
+                bridged.put(payload, attachment=attachment)
 
     def get_subscription_count(self) -> int:
         """Count the subscriptions of the topic that have its type."""
@@ -113,14 +121,15 @@ class Publisher(RawPublisher):
         return self._codec.encode(check_kind(self._definition, msg))
 
 
-def _declared(endpoint: Endpoint) -> Outgoing:
+def _declared(endpoint: Endpoint, key: str, *, is_for_others: bool = False) -> Outgoing:
     qos = endpoint.token.qos
     reliable = qos.reliability is not ReliabilityPolicy.BEST_EFFORT
     latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
     return declare_publisher(
         endpoint.wire.zenoh,
-        endpoint.key,
+        key,
         blocking=reliable and qos.history is HistoryPolicy.KEEP_ALL,
         reliable=reliable,
         kept=(qos.depth or DEPTH_DEFAULT) if latched else None,
+        is_for_others=is_for_others,
     )

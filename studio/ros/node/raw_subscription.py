@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.errors import AttachmentError
 from studio.ros.attachment import unpack
-from studio.ros.node.samples import Gaps, RawSample
+from studio.ros.node.samples import Gaps, RawSample, bridged_sample
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
 from studio.ros.wire.zenoh import declare_subscription
 
 if TYPE_CHECKING:
     from studio.ros.node.base import Endpoint, NodeBase
+    from studio.ros.wire.bridges.side import BridgeSide
     from studio.ros.wire.zenoh import Incoming, Sample
 
 RING: Final = 4_096
@@ -67,7 +68,7 @@ class RawSubscription:
         """Held while its depth grows, and while it closes."""
         self._swapping = threading.Lock()
         self._newest_only = False
-        self._endpoint, self._incoming = self._declared(qos)
+        self._endpoint, self._incoming, self._bridged = self._declared(qos)
         node.context.drain.add(self)
         node.on_destroy(self.close)
 
@@ -125,10 +126,15 @@ class RawSubscription:
         """Hand over what came; of the drain's thread."""
         samples = self._incoming.take(RING)
         if samples:
-            self._hand_over(samples)
+            self._hand_over(samples, self._received)
+        count = len(samples)
+        bridged = self._bridged.declared
+        if bridged is not None and (samples := bridged.take(RING)):
+            self._hand_over(samples, self._received_bridged)
+            count += len(samples)
         if self._next is not None:
             self._swap()
-        return len(samples)
+        return count
 
     def _swap(self) -> None:
         with self._swapping:
@@ -137,11 +143,14 @@ class RawSubscription:
             self._next = None
             self._endpoint, swap.endpoint = swap.endpoint, self._endpoint
             self._incoming, swap.incoming = swap.incoming, self._incoming
+            self._bridged, swap.bridged = swap.bridged, self._bridged
             self._gaps.begin_anew()
             swap.swapped()
             swap.is_done.set()
 
-    def _hand_over(self, samples: list[Sample]) -> None:
+    def _hand_over(
+        self, samples: list[Sample], read: Callable[[Sample, int], RawSample | None]
+    ) -> None:
         now_ns = time.time_ns()
         count = len(samples)
         if self._newest_only and count > 1:
@@ -149,7 +158,7 @@ class RawSubscription:
             samples = samples[-1:]
         else:
             size = 0
-        came = [raw for one in samples if (raw := self._received(one, now_ns)) is not None]
+        came = [raw for one in samples if (raw := read(one, now_ns)) is not None]
         if came:
             self._take(came, count, size + sum(len(one.payload) for one in came))
 
@@ -166,21 +175,32 @@ class RawSubscription:
             self._gaps.count(unpacked)
         return RawSample(sample.payload.to_bytes(), unpacked, now_ns)
 
-    def _declared(self, qos: QoSProfile) -> tuple[Endpoint, Incoming[Sample]]:
+    def _received_bridged(self, sample: Sample, now_ns: int) -> RawSample | None:
+        return bridged_sample(self._node.wire.bridges, self._named[0], sample, now_ns)
+
+    def _declared(
+        self, qos: QoSProfile
+    ) -> tuple[Endpoint, Incoming[Sample], BridgeSide[Incoming[Sample]]]:
         topic, type_name, type_hash = self._named
         kind, node = EndpointKind.SUBSCRIPTION, self._node
         endpoint = node.endpoint(kind, type_name, topic, qos, type_hash)
         depth = qos.depth or DEPTH_DEFAULT
         latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
-        incoming = declare_subscription(
-            node.wire.zenoh,
-            endpoint.key,
-            1 if depth == 1 else max(RING, depth),
-            reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
-            wanted=depth if latched else None,
-        )
+
+        def declared(key: str, *, is_of_others: bool = False) -> Incoming[Sample]:
+            return declare_subscription(
+                node.wire.zenoh,
+                key,
+                1 if depth == 1 else max(RING, depth),
+                reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
+                wanted=depth if latched else None,
+                is_of_others=is_of_others,
+            )
+
+        incoming = declared(endpoint.key)
+        bridged = endpoint.for_bridges(lambda key: declared(key, is_of_others=True))
         endpoint.show()
-        return endpoint, incoming
+        return endpoint, incoming, bridged
 
 
 class _Swap:
@@ -190,7 +210,9 @@ class _Swap:
         self,
         endpoint: Endpoint,
         incoming: Incoming[Sample],
+        bridged: BridgeSide[Incoming[Sample]],
         swapped: Callable[[], object],
     ) -> None:
         self.endpoint, self.incoming, self.swapped = endpoint, incoming, swapped
+        self.bridged = bridged
         self.is_done = threading.Event()

@@ -9,9 +9,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
 from studio.errors import MessageCallbackError
+from studio.ros.attachment import Attachment
 
 if TYPE_CHECKING:
-    from studio.ros.attachment import Attachment
+    from studio.ros.wire.bridges.bridges import Bridges
+    from studio.ros.wire.zenoh import Sample
 
 BLINK_NS = 20_000_000
 SAMPLES_MAX = 4_096
@@ -30,6 +32,38 @@ class RawSample(NamedTuple):
     payload: bytes
     attachment: Attachment
     received_ns: int
+
+
+def sender_of(bridges: Bridges, topic: str, sample: Sample) -> bytes | None:
+    """Return the GID of who sent a sample through a bridge to DDS.
+
+    None where it comes by another way as well: from a node of rmw_zenoh by its own key, or from
+    another bridge in the same DDS domain.
+    """
+    if sample.attachment is not None:  # only nodes of rmw_zenoh have one
+        return None
+    stamp = sample.timestamp
+    return bridges.sender("" if stamp is None else str(stamp).partition("/")[2], topic)
+
+
+def bridged_sample(bridges: Bridges, topic: str, sample: Sample, now_ns: int) -> RawSample | None:
+    """Return a sample that a bridge to DDS sent; None where it comes by another way as well.
+
+    DDS's own number and time stay behind: its number is 0, and its time is when the bridge passed
+    it on.
+    """
+    gid = sender_of(bridges, topic, sample)
+    if gid is None:
+        return None
+    stamp = sample.timestamp
+    time_ns = now_ns if stamp is None else _ns_of(str(stamp))
+    return RawSample(sample.payload.to_bytes(), Attachment(0, time_ns, gid), now_ns)
+
+
+def _ns_of(stamp: str) -> int:
+    """Return the time of a Zenoh timestamp, NTP64 before a slash, in ns since the Unix epoch."""
+    seconds, fraction = divmod(int(stamp.partition("/")[0]), 1 << 32)
+    return seconds * 1_000_000_000 + (fraction * 1_000_000_000 >> 32)
 
 
 class SampleQueue:

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import AttachmentError, CdrError
-from studio.ros.attachment import Attachment, packed, unpack
+from studio.ros.attachment import GID_BYTES, Attachment, packed, unpack
 from studio.ros.cdr import check_kind, codec_of
 from studio.ros.node.logger import get_logger
 from studio.ros.node.service_end import ServiceEnd
 from studio.ros.qos import DEPTH_DEFAULT
 from studio.ros.types.classes import definition_of
+from studio.ros.wire.bridges.dialect import request_number
 from studio.ros.wire.zenoh import ZError, declare_queryable
 
 if TYPE_CHECKING:
@@ -29,6 +30,9 @@ if TYPE_CHECKING:
     from studio.ros.wire.zenoh import Incoming, Query
 
 _RING = 4_096
+_NO_FIELDS = b"\x00\x01\x00\x00\x00"
+"""The CDR of a request without fields, which a bridge may leave out."""
+_NOBODY = bytes(GID_BYTES)
 PENDING_MAX = 10_000
 PENDING_OF_CLIENT_MAX = 1_000
 """Requests without an answer: an asynchronous callback may take as long as it likes."""
@@ -36,11 +40,12 @@ PENDING_OF_CLIENT_MAX = 1_000
 
 @dataclass(frozen=True, slots=True)
 class _Request:
-    """A query that waits, and what it came with."""
+    """A query that waits, and what it came with; from a bridge to DDS the answer has no number."""
 
     query: Query
     payload: bytes
     attachment: Attachment
+    is_bridged: bool
 
     @property
     def number(self) -> tuple[bytes, int]:
@@ -72,9 +77,9 @@ class Service(ServiceEnd):
         self._pending: dict[tuple[bytes, int], _Request] = {}
         self._askers: Counter[bytes] = Counter()
         self._lock = threading.Lock()
-        self._incoming: Incoming[Query] | None = declare_queryable(
-            endpoint.wire.zenoh, endpoint.key, max(_RING, self._depth)
-        )
+        self._unnumbered = 0
+        self._incoming: Incoming[Query] | None = self._declared(endpoint.key)
+        self._bridged = endpoint.for_bridges(lambda key: self._declared(key, is_of_others=True))
         endpoint.show()
 
     @property
@@ -87,8 +92,12 @@ class Service(ServiceEnd):
         incoming = self._incoming
         queries = [] if incoming is None else incoming.take(_RING)
         for query in queries:
-            self._receive(query)
-        return len(queries)
+            self._receive(query, is_bridged=False)
+        bridged = self._bridged.declared
+        asked = [] if bridged is None else bridged.take(_RING)
+        for query in asked:
+            self._receive(query, is_bridged=True)
+        return len(queries) + len(asked)
 
     def take(self) -> Callable[[], object] | None:
         """Take the oldest request, and return what answers it."""
@@ -114,17 +123,31 @@ class Service(ServiceEnd):
             with contextlib.suppress(RuntimeError):  # another thread answers it just now
                 request.query.drop()
 
-    def _receive(self, query: Query) -> None:
+    def _receive(self, query: Query, *, is_bridged: bool) -> None:
         payload, attachment = query.payload, query.attachment
+        told = None if attachment is None else attachment.to_bytes()
         try:
-            unpacked = unpack(None if attachment is None else attachment.to_bytes())
+            number = self._number_of_bridge(told) if is_bridged else unpack(told)
         except AttachmentError as error:
             self._refuse(query, str(error))
             return
-        if payload is None:
+        if payload is None and not is_bridged:
             self._refuse(query, "It came without content, which no rmw_zenoh sends.")
             return
-        self._queue(_Request(query, payload.to_bytes(), unpacked))
+        content = _NO_FIELDS if payload is None else payload.to_bytes()
+        self._queue(_Request(query, content, number, is_bridged))
+
+    def _number_of_bridge(self, attachment: bytes | None) -> Attachment:
+        """Return who asks through a bridge; who does not tell is given a number here."""
+        number = request_number(attachment)
+        if number is None:
+            self._unnumbered += 1
+            number = Attachment(self._unnumbered, 0, _NOBODY)
+        return number
+
+    def _declared(self, key: str, *, is_of_others: bool = False) -> Incoming[Query]:
+        room = max(_RING, self._depth)
+        return declare_queryable(self.endpoint.wire.zenoh, key, room, is_of_others=is_of_others)
 
     def _queue(self, request: _Request) -> None:
         with self._lock:
@@ -194,7 +217,9 @@ class Service(ServiceEnd):
     def _reply(self, request: _Request, given: object) -> None:
         payload = self._response_codec.encode(check_kind(self._response, given))
         number = request.attachment
-        attachment = packed(number.sequence, time.time_ns(), number.gid)
+        attachment = None
+        if not request.is_bridged:
+            attachment = packed(number.sequence, time.time_ns(), number.gid)
         try:
             request.query.reply(request.query.key_expr, payload, attachment=attachment)
         except (ZError, RuntimeError):  # RuntimeError: another thread drops it just now

@@ -60,6 +60,7 @@ class _Call:
     raw: bool = False
     answered: bool = False
     was_served: bool = False
+    is_bridged: bool = False
     checks_without_server: int = 0
     failure: WireError | None = None
 
@@ -91,8 +92,10 @@ class Client(ServiceEnd):
         self._lock = threading.Lock()
         self._calls: dict[int, _Call] = {}
         self._done: deque[tuple[_Call, bytes | WireError]] = deque()
-        self._querier: Querier | None = declare_querier(
-            endpoint.wire.zenoh, endpoint.key, timeout_s
+        zenoh = endpoint.wire.zenoh
+        self._querier: Querier | None = declare_querier(zenoh, endpoint.key, timeout_s)
+        self._bridged = endpoint.for_bridges(
+            lambda key: declare_querier(zenoh, key, timeout_s, is_for_bridge=True)
         )
         endpoint.show()
 
@@ -145,15 +148,21 @@ class Client(ServiceEnd):
         """
         payload = self._codecs[0].encode(check_kind(self._request, request))
         was_served = self.service_is_ready()
+        bridged = self._querier_for_bridge()
         future: Future[Any] = Future(executor=self._node.executor)
         with self._lock:
             if self._querier is None:
                 raise DestroyedError(f"client of {self.service_name}")
             self._sequence += 1
             number = self._sequence
-            attachment = packed(number, time.time_ns(), self.endpoint.gid)
-            replies = Replies(self._querier, payload, attachment)
-            self._calls[number] = _Call(future, replies, raw, was_served=was_served)
+            if bridged is None:
+                attachment = packed(number, time.time_ns(), self.endpoint.gid)
+                replies = Replies(self._querier, payload, attachment)
+            else:
+                replies = Replies(bridged, payload, None)
+            self._calls[number] = _Call(
+                future, replies, raw, was_served=was_served, is_bridged=bridged is not None
+            )
         future.listen(lambda: self._give_up(number, future))
         self._node.context.drain.hurry(self)
         return future
@@ -196,6 +205,14 @@ class Client(ServiceEnd):
             call.future.cancel()
         self.endpoint.hide(querier)
 
+    def _querier_for_bridge(self) -> Querier | None:
+        """Return what asks through a bridge, where only a DDS node serves it; else None."""
+        bridged = self._bridged.declared
+        if bridged is None:
+            return None
+        servers = self.endpoint.graph().servers(self.service_name)
+        return bridged if servers and all(one.node.bridge for one in servers) else None
+
     def _drain_call(self, number: int, call: _Call) -> int:
         # No more at once than wait: a server that replies without end must not hold the drain.
         for came in range(REPLIES_WAITING_MAX):
@@ -214,7 +231,11 @@ class Client(ServiceEnd):
         if refusal is not None:
             payload = refusal.payload.to_bytes()
             call.failure = _failure(self.service_name, payload, self._timeout_s)
-        elif sample is not None and (reason := self._why_foreign(number, sample)):
+        elif (
+            sample is not None
+            and not call.is_bridged
+            and (reason := self._why_foreign(number, sample))
+        ):
             call.failure = ForeignAnswerError(self.service_name, reason)
         elif sample is not None and not call.answered:
             call.answered = True

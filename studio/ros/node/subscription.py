@@ -17,6 +17,7 @@ from studio.ros.node.samples import (
     MessageInfo,
     RawSample,
     SampleQueue,
+    bridged_sample,
     message_info,
     wants_info,
 )
@@ -93,7 +94,10 @@ class Subscription(Work):
         self._arrived: Future[None] | None = None
         self.events: list[Work] = []
         self.lost_event: CountEvent | None = None
-        self._incoming: Incoming[Sample] | None = _declared(endpoint, ring)
+        self._incoming: Incoming[Sample] | None = _declared(endpoint, endpoint.key, ring)
+        self._bridged = endpoint.for_bridges(
+            lambda key: _declared(endpoint, key, ring, is_of_others=True)
+        )
         endpoint.show()
 
     @property
@@ -130,10 +134,17 @@ class Subscription(Work):
         samples = incoming.take(RING)
         now_ns = time.time_ns()
         came = [raw for sample in samples if (raw := self._received(sample, now_ns)) is not None]
+        bridged = self._bridged.declared
+        count = len(samples)
+        if bridged is not None and (samples := bridged.take(RING)):
+            bridges, topic = self.endpoint.wire.bridges, self.endpoint.token.name
+            read = (bridged_sample(bridges, topic, sample, now_ns) for sample in samples)
+            came += [raw for raw in read if raw is not None]
+            count += len(samples)
         if came:
             self._inbox.post(came)
             self._notify()
-        return len(samples)
+        return count
 
     def take(self) -> Callable[[], object] | None:
         """Take the oldest sample, and return what calls back with it."""
@@ -233,13 +244,16 @@ def _sizes(qos: QoSProfile) -> tuple[int, int]:
     return depth, 1 if depth == 1 else max(RING, depth)
 
 
-def _declared(endpoint: Endpoint, ring: int) -> Incoming[Sample]:
+def _declared(
+    endpoint: Endpoint, key: str, ring: int, *, is_of_others: bool = False
+) -> Incoming[Sample]:
     qos = endpoint.token.qos
     latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
     return declare_subscription(
         endpoint.wire.zenoh,
-        endpoint.key,
+        key,
         ring,
         reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
         wanted=(qos.depth or DEPTH_DEFAULT) if latched else None,
+        is_of_others=is_of_others,
     )

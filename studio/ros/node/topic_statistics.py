@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from studio.errors import AttachmentError
 from studio.ros.attachment import unpack
 from studio.ros.names import check_full_name
-from studio.ros.node.samples import Gaps
+from studio.ros.node.samples import Gaps, sender_of
 from studio.ros.tokens import whatever_type_key
+from studio.ros.wire.bridges.side import BridgeSide
 from studio.ros.wire.zenoh import declare_subscription
 
 if TYPE_CHECKING:
@@ -31,6 +32,8 @@ _PERIODS: Final = 3
 """After so many of its own periods without a sample, a topic is silent."""
 RING: Final = 64
 """Samples that Zenoh keeps between two reads; dropped ones are counted by their numbers."""
+_BRIDGED_RING: Final = 1_024
+"""Of samples from bridges to DDS, which number none."""
 _MISSED_MAX: Final = 10_000
 """A peer may write any number."""
 
@@ -138,7 +141,7 @@ class TopicStatistics:
         latched_key: str = "",
     ) -> None:
         self._context, self._kept_s, self._clock, self._ring = context, kept_s, clock, ring
-        self._asked_s = clock()
+        self._asked_s, self._topic = clock(), topic
         self._arrivals = Arrivals(time.monotonic_ns())
         self._gaps = Gaps()
         key = latched_key or whatever_type_key(context.wire.domain, check_full_name(topic))
@@ -146,6 +149,20 @@ class TopicStatistics:
         wanted = ring if is_latched else None
         self._incoming = declare_subscription(
             context.wire.zenoh, key, ring, reliable=is_latched, wanted=wanted
+        )
+        self._bridged = BridgeSide(
+            context.wire.zenoh,
+            context.wire.bridges,
+            None,
+            topic,
+            lambda key: declare_subscription(
+                context.wire.zenoh,
+                key,
+                max(_BRIDGED_RING, ring),
+                reliable=is_latched,
+                wanted=wanted,
+                is_of_others=True,
+            ),
         )
         self.is_open = True
         context.drain.add(self)
@@ -160,14 +177,23 @@ class TopicStatistics:
         self.is_open = False
         self._context.forget_source(self)
         self._incoming.undeclare()
+        self._bridged.close()
 
     def drain(self) -> int:
         """Count what came; of the drain's thread."""
         if samples := self._incoming.take(self._ring):
             self._count(samples)
+        bridged = self._bridged.declared
+        if bridged is not None and (from_dds := self._of_dds(bridged.take(_BRIDGED_RING))):
+            self._count(from_dds)
         if self._clock() - self._asked_s > self._kept_s:
             self.close()
         return len(samples)
+
+    def _of_dds(self, samples: list[Sample]) -> list[Sample]:
+        """Return what bridges brought, and no other way does."""
+        bridges = self._context.wire.bridges
+        return [one for one in samples if sender_of(bridges, self._topic, one) is not None]
 
     def _count(self, samples: Sequence[Sample]) -> None:
         sizes, missed = [len(one.payload) for one in samples], self._missed(samples)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Self
 
@@ -15,6 +16,7 @@ from studio.errors import (
 )
 from studio.ros.condition import Condition
 from studio.ros.types.library import TypeLibrary
+from studio.ros.wire.bridges.bridges import Bridges
 from studio.ros.wire.endpoints import ProbeResult
 from studio.ros.wire.own_router import answer_at, place_for_router, router_of_our_own
 from studio.ros.wire.own_tokens import OwnTokens
@@ -76,6 +78,8 @@ class WireSession:
         self.zid = str(session.info.zid())
         self.own_tokens = OwnTokens(session)
         self._ids = itertools.count()
+        self._lock = threading.Lock()
+        self._bridges: Bridges | None = None
 
     @property
     def domain(self) -> int:
@@ -92,12 +96,24 @@ class WireSession:
         """Whether a router is there at this moment; `RouterWatch` reports when that changes."""
         return bool(list(self.zenoh.info.routers_zid()))
 
+    @property
+    def bridges(self) -> Bridges:
+        """The bridges to DDS, followed from the first time that somebody asks for them."""
+        with self._lock:
+            if self._bridges is None:
+                self._bridges = Bridges(self.zenoh, self.domain)
+            return self._bridges
+
     def next_id(self) -> int:
         """Number a node or endpoint: one counter for all of a session, from 0."""
         return next(self._ids)
 
     def close(self) -> None:
         """End the session, all that was declared on it, and our router; again is harmless."""
+        with self._lock:
+            bridges = self._bridges
+        if bridges is not None:
+            bridges.close()
         close(self.zenoh)
         if self.router is not None:
             self.router.close()

@@ -253,7 +253,7 @@ class Querier(Declaration, Protocol):
         handler: zenoh.handlers.FifoChannel[Reply],
         *,
         payload: bytes | bytearray,
-        attachment: bytes,
+        attachment: bytes | None,
         cancellation_token: zenoh.CancellationToken | None = None,
     ) -> zenoh.Handler[Reply]:
         """Send a request; the handler ends after the last reply or the time-out."""
@@ -263,7 +263,9 @@ class Querier(Declaration, Protocol):
 class Replies:
     """The replies to one request, as they come."""
 
-    def __init__(self, querier: Querier, payload: bytes | bytearray, attachment: bytes) -> None:
+    def __init__(
+        self, querier: Querier, payload: bytes | bytearray, attachment: bytes | None
+    ) -> None:
         """Send the request."""
         self._token = zenoh.CancellationToken()
         self._handler = querier.get(
@@ -305,7 +307,11 @@ class Query(Protocol):
         ...
 
     def reply(
-        self, key_expr: zenoh.KeyExpr | str, payload: bytes | bytearray, *, attachment: bytes
+        self,
+        key_expr: zenoh.KeyExpr | str,
+        payload: bytes | bytearray,
+        *,
+        attachment: bytes | None,
     ) -> None:
         """Answer on the key of the query."""
         ...
@@ -320,7 +326,13 @@ class Query(Protocol):
 
 
 def declare_publisher(
-    session: Session, key: str, *, blocking: bool, reliable: bool, kept: int | None = None
+    session: Session,
+    key: str,
+    *,
+    blocking: bool,
+    reliable: bool,
+    kept: int | None = None,
+    is_for_others: bool = False,
 ) -> Outgoing:
     """Declare a publisher as rmw_zenoh does.
 
@@ -330,6 +342,7 @@ def declare_publisher(
         blocking: Wait when the network is slow; else samples are dropped.
         reliable: How samples travel.
         kept: How many samples late subscriptions get, None for none (volatile).
+        is_for_others: Whether only other sessions get them.
     """
     detection = kept is not None and reliable
     return cast(
@@ -341,6 +354,7 @@ def declare_publisher(
             reliability=zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
             cache=None if kept is None else zenoh.ext.CacheConfig(max_samples=_room(kept)),
             publisher_detection=kept is not None,
+            allowed_destination=zenoh.Locality.REMOTE if is_for_others else None,
             sample_miss_detection=_miss_detection() if detection else None,
         ),
     )
@@ -401,7 +415,13 @@ def ask(session: Session, key: str, payload: bytes, timeout_s: float) -> bytes |
 
 
 def declare_subscription(
-    session: Session, key: str, capacity: int, *, reliable: bool, wanted: int | None = None
+    session: Session,
+    key: str,
+    capacity: int,
+    *,
+    reliable: bool,
+    wanted: int | None = None,
+    is_of_others: bool = False,
 ) -> Incoming[Sample]:
     """Declare a subscriber as rmw_zenoh does, with a ring that keeps the newest samples.
 
@@ -411,10 +431,12 @@ def declare_subscription(
         capacity: How many samples the ring holds.
         reliable: Whether lost samples are asked for again (only with `wanted`).
         wanted: How many samples that were sent before it wants, None for none (volatile).
+        is_of_others: Whether only samples of other sessions come.
     """
     ring: zenoh.handlers.RingChannel[Sample] = zenoh.handlers.RingChannel(_room(capacity))
+    origin = zenoh.Locality.REMOTE if is_of_others else None
     if wanted is None:
-        return Incoming(session.declare_subscriber(key, ring))
+        return Incoming(session.declare_subscriber(key, ring, allowed_origin=origin))
     recovery = zenoh.ext.RecoveryConfig(periodic_queries=None, heartbeat=True)
     found = zenoh.ext.declare_advanced_subscriber(
         session,
@@ -423,25 +445,36 @@ def declare_subscription(
         history=zenoh.ext.HistoryConfig(detect_late_publishers=True, max_samples=_room(wanted)),
         recovery=recovery if reliable else None,
         subscriber_detection=True,
+        allowed_origin=origin,
     )
     return Incoming(found)
 
 
-def declare_queryable(session: Session, key: str, capacity: int) -> Incoming[Query]:
+def declare_queryable(
+    session: Session, key: str, capacity: int, *, is_of_others: bool = False
+) -> Incoming[Query]:
     """Declare a complete queryable whose oldest query is dropped when `capacity` is reached."""
     ring: zenoh.handlers.RingChannel[zenoh.Query] = zenoh.handlers.RingChannel(_room(capacity))
-    return Incoming(session.declare_queryable(key, ring, complete=True))
+    origin = zenoh.Locality.REMOTE if is_of_others else None
+    return Incoming(session.declare_queryable(key, ring, complete=True, allowed_origin=origin))
 
 
-def declare_querier(session: Session, key: str, timeout_s: float) -> Querier:
-    """Declare a querier that takes every reply as it comes."""
+def declare_querier(
+    session: Session, key: str, timeout_s: float, *, is_for_bridge: bool = False
+) -> Querier:
+    """Declare a querier that takes every reply as it comes.
+
+    Servers of rmw_zenoh are complete queryables; those of bridges to DDS are not, and one suffices.
+    """
+    best, every = zenoh.QueryTarget.BEST_MATCHING, zenoh.QueryTarget.ALL_COMPLETE
     return cast(
         "Querier",
         session.declare_querier(
             key,
-            target=zenoh.QueryTarget.ALL_COMPLETE,
+            target=best if is_for_bridge else every,
             consolidation=zenoh.ConsolidationMode.NONE,
             timeout=timeout_s,
+            allowed_destination=zenoh.Locality.REMOTE if is_for_bridge else None,
         ),
     )
 

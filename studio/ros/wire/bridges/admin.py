@@ -1,0 +1,289 @@
+"""What a bridge tells of itself in Zenoh's admin space: its settings, nodes and DDS ends.
+
+Answers are JSON of another machine: what is not as it should be is passed over.
+Source: eclipse-zenoh/zenoh-plugin-ros2dds 1.10, `config.rs`, `node_info.rs`, `dds_discovery.rs`.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Final, TypeAlias, cast
+
+from studio.errors import RosNameError
+from studio.ros.duration import Duration
+from studio.ros.names import check_full_name, split_type_name
+from studio.ros.wire.bridges.dialect import RouteKind, dds_qos, type_hash_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from studio.ros.qos import QoSProfile
+
+ANSWERS_MAX: Final = 50_000
+"""Answers of one bridge that are read; a robot with a hundred nodes gives some five thousand."""
+_TEXT_MAX: Final = 2_000
+_ANSWER_BYTES_MAX: Final = 1 << 20
+_INFINITE_NS: Final = 2**63 - 1
+_LISTS: Final = {
+    "publishers": RouteKind.PUBLISHER,
+    "subscribers": RouteKind.SUBSCRIPTION,
+    "service_servers": RouteKind.SERVICE,
+    "service_clients": RouteKind.CLIENT,
+    "action_servers": RouteKind.ACTION_SERVER,
+    "action_clients": RouteKind.ACTION_CLIENT,
+}
+_OF_ROUTES: Final = {kind: name for name, kind in _LISTS.items()}
+
+Json: TypeAlias = "dict[str, object]"
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """The allow or deny list of a bridge: regular expressions by kind of route.
+
+    Attributes:
+        allows: Whether what is listed is let through, or kept out.
+        patterns: By kind of route; a kind that has none is not mentioned.
+    """
+
+    allows: bool
+    patterns: Mapping[RouteKind, str]
+
+    def texts(self) -> tuple[str, ...]:
+        """Return a line for each kind, such as `publishers: /scan|/tf`."""
+        return tuple(f"{_OF_ROUTES[kind]}: {text}" for kind, text in self.patterns.items())
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How a bridge was started.
+
+    Attributes:
+        domain: Its ROS_DOMAIN_ID on DDS.
+        namespace: In front of all its names; `/` without.
+        node_name: Its own node's.
+        localhost_only: Whether it meets only DDS nodes of its own machine.
+        rules: What it lets through; None: everything.
+        slowed: Topics, as regular expressions, each with the most messages a second it passes on.
+    """
+
+    domain: int
+    namespace: str
+    node_name: str
+    localhost_only: bool
+    rules: Rules | None = None
+    slowed: tuple[tuple[str, float], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class DdsNode:
+    """A ROS node that a bridge found on DDS.
+
+    Attributes:
+        participant: The GUID of its DDS participant, in hex: the same at every bridge.
+        path: Without the bridge's namespace.
+        ends: Kind, name and type of each, names without the bridge's namespace.
+    """
+
+    participant: str
+    path: str
+    ends: tuple[tuple[RouteKind, str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class DdsEnd:
+    """A reader or writer on DDS: the QoS of a topic's, and the hash of a topic's or service's."""
+
+    qos: QoSProfile
+    type_hash: str
+
+
+@dataclass(slots=True)
+class Told:
+    """Everything that one bridge told.
+
+    Attributes:
+        hosts: Names of machines by participant.
+        dds_ends: By participant, kind and name.
+    """
+
+    version: str = ""
+    settings: Settings | None = None
+    nodes: list[DdsNode] = field(default_factory=list[DdsNode])
+    hosts: dict[str, str] = field(default_factory=dict[str, str])
+    dds_ends: dict[tuple[str, RouteKind, str], DdsEnd] = field(
+        default_factory=dict[tuple[str, RouteKind, str], DdsEnd]
+    )
+
+
+def read_answers(answers: Iterable[tuple[str, bytes]]) -> Told:
+    """Read the answers to `@/ZID/ros2/**`, keys and JSON."""
+    told = Told()
+    for count, (key, data) in enumerate(answers):
+        if count >= ANSWERS_MAX:
+            break
+        parts = key.split("/")[3:]
+        if not parts or len(data) > _ANSWER_BYTES_MAX:
+            continue
+        try:
+            value: object = json.loads(data)
+        except (ValueError, RecursionError):
+            continue
+        _read_one(told, parts, value)
+    return told
+
+
+def _read_one(told: Told, parts: list[str], value: object) -> None:
+    match parts:
+        case ["version"] if isinstance(value, str):
+            told.version = version_number(value)
+        case ["config"] if isinstance(value, dict):
+            told.settings = _settings(cast("Json", value))
+        case ["node", participant, *path] if path and isinstance(value, dict):
+            node = _node(participant, "/" + "/".join(path), cast("Json", value))
+            if node is not None:
+                told.nodes.append(node)
+        case ["dds", participant] if isinstance(value, dict):
+            properties = _of(_of(cast("Json", value), "qos"), "properties")
+            if host := _text(properties.get("__Hostname")):
+                told.hosts[participant] = host
+        case ["dds", participant, "reader" | "writer" as side, _, *topic] if topic:
+            _read_end(told, participant, side, "/".join(topic), value)
+        case _:
+            pass
+
+
+def version_number(text: str) -> str:
+    """Return `1.10.0` of `v1.10.0-modified`; empty if there is none."""
+    number = text.removeprefix("v").partition("-")[0].partition(" ")[0]
+    is_number = bool(number) and len(number) <= 20 and number.replace(".", "").isalnum()
+    return number if is_number else ""
+
+
+def _settings(value: Json) -> Settings | None:
+    domain = value.get("domain")
+    if not isinstance(domain, int):
+        return None
+    try:
+        namespace = (
+            check_full_name(_text(value.get("namespace")) or "/")
+            if (value.get("namespace") not in {"/", "", None})
+            else "/"
+        )
+    except RosNameError:
+        namespace = "/"
+    return Settings(
+        domain=domain,
+        namespace=namespace,
+        node_name=_text(value.get("nodename")) or "zenoh_bridge_ros2dds",
+        localhost_only=value.get("ros_localhost_only") is True
+        or value.get("ros_automatic_discovery_range") == "LOCALHOST",
+        rules=_rules(value),
+        slowed=_slowed(value.get("pub_max_frequencies")),
+    )
+
+
+def _rules(value: Json) -> Rules | None:
+    for word in ("allow", "deny"):
+        found = value.get(word)
+        if isinstance(found, dict):
+            patterns = {
+                kind: text
+                for name, kind in _LISTS.items()
+                if (text := _text(cast("Json", found).get(name)))
+            }
+            return Rules(word == "allow", patterns)
+    return None
+
+
+def _slowed(value: object) -> tuple[tuple[str, float], ...]:
+    """Read lines such as `/scan=5`, where the last `=` divides."""
+    lines = cast("list[object]", value) if isinstance(value, list) else []
+    found: list[tuple[str, float]] = []
+    for line in lines[:100]:
+        topic, _, rate = _text(line).rpartition("=")
+        if topic and re.fullmatch(r"\d+(\.\d+)?", rate):
+            found.append((topic, float(rate)))
+    return tuple(found)
+
+
+def _node(participant: str, path: str, value: Json) -> DdsNode | None:
+    try:
+        check_full_name(path)
+    except RosNameError:
+        return None
+    ends: dict[tuple[RouteKind, str, str], None] = {}
+    for word, kind in _LISTS.items():
+        found = value.get(word)
+        for one in cast("list[object]", found) if isinstance(found, list) else []:
+            if not isinstance(one, dict):
+                continue
+            name = _text(cast("Json", one).get("name"))
+            type_name = _text(cast("Json", one).get("type"))
+            try:
+                check_full_name(name)
+                split_type_name(type_name)
+            except RosNameError:
+                continue
+            ends[kind, name, type_name] = None
+    return DdsNode(participant[:_TEXT_MAX], path, tuple(ends))
+
+
+def _read_end(told: Told, participant: str, side: str, topic: str, value: object) -> None:
+    """Keep a reader or writer: of a topic (`rt/`), or that of a service's requests (`rq/`)."""
+    prefix, _, rest = topic.partition("/")
+    is_writer = side == "writer"
+    if prefix == "rt":
+        kind = RouteKind.PUBLISHER if is_writer else RouteKind.SUBSCRIPTION
+    elif prefix == "rq" and rest.endswith("Request"):
+        kind = RouteKind.CLIENT if is_writer else RouteKind.SERVICE
+        rest = rest.removesuffix("Request")
+    else:
+        return
+    if isinstance(value, dict):
+        qos = _of(cast("Json", value), "qos")
+        end = DdsEnd(_profile(qos, is_writer=is_writer), type_hash_of(_bytes(qos.get("user_data"))))
+        told.dds_ends[participant, kind, f"/{rest}"] = end
+
+
+def _profile(qos: Json, *, is_writer: bool) -> QoSProfile:
+    """Read a QoS; what is not there has the default of DDS."""
+    reliability = _of(qos, "reliability").get("kind", "RELIABLE" if is_writer else "BEST_EFFORT")
+    history = _of(qos, "history")
+    depth = history.get("depth", 1)
+    found = dds_qos(
+        reliable=reliability == "RELIABLE",
+        latched=_of(qos, "durability").get("kind")
+        in {"TRANSIENT_LOCAL", "TRANSIENT", "PERSISTENT"},
+        keep_all=history.get("kind") == "KEEP_ALL",
+        depth=depth if isinstance(depth, int) else 1,
+    )
+    return replace(
+        found,
+        deadline=_duration(_of(qos, "deadline").get("period")),
+        lifespan=_duration(_of(qos, "lifespan").get("duration")),
+        liveliness_lease_duration=_duration(_of(qos, "liveliness").get("lease_duration")),
+    )
+
+
+def _duration(value: object) -> Duration:
+    if not isinstance(value, int) or not 0 < value < _INFINITE_NS:
+        return Duration()
+    return Duration(nanoseconds=value)
+
+
+def _of(value: Json, name: str) -> Json:
+    found = value.get(name)
+    return cast("Json", found) if isinstance(found, dict) else {}
+
+
+def _text(value: object) -> str:
+    return value if isinstance(value, str) and len(value) <= _TEXT_MAX else ""
+
+
+def _bytes(value: object) -> str:
+    """Read user data, a list of the numbers of its bytes."""
+    numbers = cast("list[object]", value) if isinstance(value, list) else []
+    return "".join(chr(one) for one in numbers[:1_000] if isinstance(one, int) and 0 < one < 128)

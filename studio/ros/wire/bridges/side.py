@@ -1,0 +1,86 @@
+"""BridgeSide: what an end of ours has declared for bridges to DDS, while one is there."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from studio.ros.tokens import EndpointKind
+from studio.ros.wire.bridges.dialect import announcement, bridge_key
+from studio.ros.wire.zenoh import Declaration, Session, ZError, declare_token
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from studio.ros.tokens import EndpointToken
+    from studio.ros.wire.bridges.bridges import Bridges
+
+DeclaredT = TypeVar("DeclaredT", bound=Declaration)
+
+_log = logging.getLogger(__name__)
+
+
+class BridgeSide(Generic[DeclaredT]):
+    """The half of an end that bridges meet, beside the one that rmw_zenoh's nodes meet.
+
+    Its token is shown while a bridge is there: a bridge routes into DDS only what somebody
+    announces. A subscriber is declared only where a bridge brings the topic, for publishers of
+    rmw_zenoh have a side for bridges, too, and would send to it.
+
+    Args:
+        zenoh: The session.
+        bridges: Those that it meets.
+        token: The end; None: nothing is announced, and it is a subscriber of `topic`.
+        topic: Its full name.
+        declare: Declares what takes or sends samples or requests, at a data key.
+    """
+
+    def __init__(
+        self,
+        zenoh: Session,
+        bridges: Bridges,
+        token: EndpointToken | None,
+        topic: str,
+        declare: Callable[[str], DeclaredT],
+    ) -> None:
+        self._zenoh, self._bridges, self._declare = zenoh, bridges, declare
+        self._token = announcement(token) if token else None
+        self._needs_route = token is None or token.kind is EndpointKind.SUBSCRIPTION
+        self._announced: Declaration | None = None
+        self.topic = topic
+        self.declared: DeclaredT | None = None
+        """None while no bridge is there, or none needs it."""
+        bridges.join(self)
+
+    def update(self, *, is_used: bool, is_routed: bool) -> None:
+        """Declare what is needed now, and take back the rest; called by `Bridges` in turn.
+
+        Args:
+            is_used: Whether a bridge is there.
+            is_routed: Whether one brings samples of the topic.
+        """
+        is_needed = is_used and (is_routed or not self._needs_route)
+        try:
+            if is_needed and self.declared is None:
+                self.declared = self._declare(bridge_key(self.topic))
+            if is_used and self._announced is None and self._token is not None:
+                self._announced = declare_token(self._zenoh, self._token)
+        except ZError as error:
+            if not self._zenoh.is_closed():
+                _log.warning("Bridges to DDS do not get %s. %s", self.topic, error)
+        if not is_used:
+            announced, self._announced = self._announced, None
+            self._undeclare(announced)
+        if not is_needed:
+            declared, self.declared = self.declared, None
+            self._undeclare(declared)
+
+    def close(self) -> None:
+        """Take everything back; again is harmless."""
+        self._bridges.leave(self)
+
+    def _undeclare(self, declared: Declaration | None) -> None:
+        if declared is not None and not self._zenoh.is_closed():
+            with contextlib.suppress(ZError):
+                declared.undeclare()
