@@ -149,6 +149,7 @@ def _subscribe_as(
     """Subscribe in the form that another's token names; without a class, to the bytes."""
     from studio.ros.node.base import Endpoint
     from studio.ros.node.subscription import Subscription
+    from studio.ros.profiles import NO_HASH
     from studio.ros.tokens import EndpointKind, EndpointToken
     from studio.ros.types.classes import make_class
     from studio.ros.types.definitions import Message
@@ -159,7 +160,7 @@ def _subscribe_as(
         EndpointKind.SUBSCRIPTION,
         other.name,
         other.type_name,
-        other.type_hash,
+        other.type_hash or NO_HASH,
         qos,
     )
     endpoint = Endpoint(node.wire, token, lambda: node.graph)
@@ -203,7 +204,7 @@ def _is_nobodys(own: OwnNode, ends: Sequence[GraphEndpoint]) -> bool:
     from studio.ros.profiles import NO_HASH
 
     wire = own.node.wire
-    if not wire.profile.has_type_hash or any(end.type_hash == NO_HASH for end in ends):
+    if not wire.profile.has_type_hash or any(end.type_hash in {NO_HASH, ""} for end in ends):
         return False  # Humble, here or there, where tokens hold no hash
     ours = wire.profile.type_hash(wire.types.hash_of(ends[0].type_name))
     if any(end.type_hash == ours for end in ends):

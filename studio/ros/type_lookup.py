@@ -65,7 +65,7 @@ def _descriptions_of(
 ) -> tuple[dict[str, tuple[str, MessageValue]], list[MessageValue]]:
     """Return descriptions with their hashes by what was asked, and the sources of all."""
     name = endpoint.type_name
-    if endpoint.type_hash == NO_HASH:
+    if endpoint.type_hash in {NO_HASH, ""}:
         raise TypeDescriptionError(name, "nodes of Humble do not describe their types")
     client = node.create_client(
         node.wire.types.service(DESCRIPTION_SERVICE_TYPE),

@@ -173,7 +173,7 @@ def fit_request(
     if not name:
         return None
     reliable, latched = _offered(fitting) if fitting else request.usually
-    type_hash = fitting[0].type_hash if fitting else own_hash(name)
+    type_hash = _hash_of(fitting, own_hash(name)) if fitting else own_hash(name)
     return Fit(
         name,
         own_hash(name) if request.as_known_here else type_hash,
@@ -181,6 +181,11 @@ def fit_request(
         latched if request.latched is None else request.latched,
         _depth(request, fitting),
     )
+
+
+def _hash_of(fitting: Sequence[Endpoint], own: str | None) -> str:
+    """Return the hash that publishers tell; of nodes on DDS that tell none, our own."""
+    return next((one.type_hash for one in fitting if one.type_hash), own or "")
 
 
 def _type_of(request: Request, publishers: Sequence[Endpoint]) -> str:

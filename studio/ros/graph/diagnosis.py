@@ -83,7 +83,8 @@ def foreign_hashes(
     """
     known = list(distros)
     by_distros: dict[tuple[str, ...], set[str]] = {}
-    for type_name, type_hash in sorted({(one.type_name, one.type_hash) for one in endpoints}):
+    told = {(one.type_name, one.type_hash) for one in endpoints if one.type_hash}
+    for type_name, type_hash in sorted(told):
         ours = hash_of(profile.distro, type_name)
         if ours in {None, type_hash}:
             continue

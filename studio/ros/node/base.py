@@ -7,12 +7,13 @@ import time
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from studio.errors import DestroyedError, NodeNameNonExistentError
+from studio.errors import DestroyedError, NodeNameNonExistentError, UnknownTypeError
 from studio.ros.names import as_namespace, check_node_name, expand, logger_name
 from studio.ros.node.clock import Clock, ClockType
 from studio.ros.node.drain import Source
 from studio.ros.node.logger import Logger, get_logger
 from studio.ros.node.work import MutuallyExclusiveCallbackGroup
+from studio.ros.profiles import NO_HASH
 from studio.ros.qos import as_profile
 from studio.ros.tokens import DataKey, EndpointKind, EndpointToken, NodeToken, gid_of
 from studio.ros.wire.bridges.side import BridgeSide, DeclaredT
@@ -340,7 +341,8 @@ class NodeBase:
     ) -> Endpoint:
         """Make an endpoint of this node with a number of its own; its user shows it.
 
-        A type whose hash is given, as others show it, need not be known here.
+        A type whose hash is given, as others show it, need not be known here; an empty one is that
+        of a type that DDS tells by name only.
 
         Raises:
             RosNameError: It cannot be named so.
@@ -349,11 +351,20 @@ class NodeBase:
         """
         self._refuse_destroyed()
         wire, full_name = self._wire, self.resolve_topic_name(name)
-        known_hash = type_hash or wire.profile.type_hash(wire.types.hash_of(type_name))
+        known_hash = type_hash or self._own_hash(type_name, is_unknown_fine=type_hash is not None)
         token = EndpointToken(
             self._token, wire.next_id(), kind, full_name, type_name, known_hash, as_profile(qos)
         )
         return Endpoint(wire, token, lambda: self._context.graph)
+
+    def _own_hash(self, type_name: str, *, is_unknown_fine: bool) -> str:
+        wire = self._wire
+        try:
+            return wire.profile.type_hash(wire.types.hash_of(type_name))
+        except UnknownTypeError:
+            if is_unknown_fine:
+                return NO_HASH
+            raise
 
     def _refuse_destroyed(self) -> None:
         if self._destroyed:

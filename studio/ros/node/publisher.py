@@ -71,7 +71,9 @@ class RawPublisher:
         own = self.endpoint.token
         there = self.endpoint.graph().subscriptions(own.name)
         return sum(
-            (one.type_name, one.type_hash) == (own.type_name, own.type_hash) for one in there
+            one.type_name == own.type_name
+            and (one.type_hash == own.type_hash or bool(one.node.bridge))  # DDS knows names only
+            for one in there
         )
 
     def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:

@@ -176,7 +176,8 @@ class RawSubscription:
         return RawSample(sample.payload.to_bytes(), unpacked, now_ns)
 
     def _received_bridged(self, sample: Sample, now_ns: int) -> RawSample | None:
-        return bridged_sample(self._node.wire.bridges, self._named[0], sample, now_ns)
+        bridges = self._node.wire.bridges
+        return bridged_sample(bridges, self._endpoint.token, sample, now_ns)
 
     def _declared(
         self, qos: QoSProfile

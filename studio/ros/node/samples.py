@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, NamedTuple, TypedDict
 
 from studio.errors import MessageCallbackError
 from studio.ros.attachment import Attachment
+from studio.ros.profiles import NO_HASH
 
 if TYPE_CHECKING:
-    from studio.ros.wire.bridges.bridges import Bridges
+    from studio.ros.tokens import EndpointToken
+    from studio.ros.wire.bridges.bridges import Bridges, Sender
     from studio.ros.wire.zenoh import Sample
 
 BLINK_NS = 20_000_000
@@ -34,8 +36,8 @@ class RawSample(NamedTuple):
     received_ns: int
 
 
-def sender_of(bridges: Bridges, topic: str, sample: Sample) -> bytes | None:
-    """Return the GID of who sent a sample through a bridge to DDS.
+def sender_of(bridges: Bridges, topic: str, sample: Sample) -> Sender | None:
+    """Return who sent a sample through a bridge to DDS.
 
     None where it comes by another way as well: from a node of rmw_zenoh by its own key, or from
     another bridge in the same DDS domain.
@@ -46,18 +48,26 @@ def sender_of(bridges: Bridges, topic: str, sample: Sample) -> bytes | None:
     return bridges.sender("" if stamp is None else str(stamp).partition("/")[2], topic)
 
 
-def bridged_sample(bridges: Bridges, topic: str, sample: Sample, now_ns: int) -> RawSample | None:
-    """Return a sample that a bridge to DDS sent; None where it comes by another way as well.
+def bridged_sample(
+    bridges: Bridges, token: EndpointToken, sample: Sample, now_ns: int
+) -> RawSample | None:
+    """Return a sample that a bridge to DDS sent to an end; None where it is not to be taken.
+
+    It is not where it comes by another way as well, nor where its sender told another hash of the
+    type: DDS compares names only, and its bytes would be misread.
 
     DDS's own number and time stay behind: its number is 0, and its time is when the bridge passed
     it on.
     """
-    gid = sender_of(bridges, topic, sample)
-    if gid is None:
+    sender = sender_of(bridges, token.name, sample)
+    if sender is None:
+        return None
+    told = sender.type_hash
+    if told and token.type_hash not in {told, NO_HASH}:
         return None
     stamp = sample.timestamp
     time_ns = now_ns if stamp is None else _ns_of(str(stamp))
-    return RawSample(sample.payload.to_bytes(), Attachment(0, time_ns, gid), now_ns)
+    return RawSample(sample.payload.to_bytes(), Attachment(0, time_ns, sender.gid), now_ns)
 
 
 def _ns_of(stamp: str) -> int:

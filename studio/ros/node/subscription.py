@@ -137,8 +137,8 @@ class Subscription(Work):
         bridged = self._bridged.declared
         count = len(samples)
         if bridged is not None and (samples := bridged.take(RING)):
-            bridges, topic = self.endpoint.wire.bridges, self.endpoint.token.name
-            read = (bridged_sample(bridges, topic, sample, now_ns) for sample in samples)
+            bridges, token = self.endpoint.wire.bridges, self.endpoint.token
+            read = (bridged_sample(bridges, token, sample, now_ns) for sample in samples)
             came += [raw for raw in read if raw is not None]
             count += len(samples)
         if came:

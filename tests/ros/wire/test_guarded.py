@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.classroom.nodes.pool import Pool, new_secret
+from studio.classroom.nodes.pool import Pool
 from studio.errors import NotAdmittedError, RouterNotStartedError
 from studio.ros.messages import message
 from studio.ros.node.context import Context
 from studio.ros.node.node import Node
+from studio.ros.wire.certificates import new_secret
 from studio.ros.wire.credentials import Credentials
 from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.guarded import DomainUser, start_guarded_router

@@ -6,7 +6,7 @@ import logging
 import threading
 import time
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from studio.errors import TokenError
 from studio.ros.condition import Condition
@@ -127,6 +127,13 @@ class _Met:
     asked: bool = False
 
 
+class Sender(NamedTuple):
+    """The publisher of a sample: its GID, and the hash of its type as far as DDS told it."""
+
+    gid: bytes
+    type_hash: str
+
+
 class Bridges:
     """Follows bridges: their tokens as they come, and what they tell when asked.
 
@@ -142,7 +149,7 @@ class Bridges:
         self._early: dict[str, dict[str, Route]] = {}
         """Routes by session, of those who have not shown to be a bridge, or are none."""
         self._current: tuple[Bridge, ...] = ()
-        self._senders: dict[tuple[str, str], bytes | None] = {}
+        self._senders: dict[tuple[str, str], Sender | None] = {}
         self._routed: frozenset[str] = frozenset()
         self._listeners: tuple[Callable[[], None], ...] = ()
         self.malformed = 0
@@ -175,15 +182,15 @@ class Bridges:
             self._listeners = (*self._listeners, listener)
         return lambda: self._forget(listener)
 
-    def sender(self, zid: str, topic: str) -> bytes | None:
-        """Return the GID of who sends a topic through a bridge; None: another one brings it, too.
+    def sender(self, zid: str, topic: str) -> Sender | None:
+        """Return who sends a topic through a bridge; None: another bridge brings it as well.
 
         Where several nodes behind the bridge publish it, nobody knows which of them sent a sample.
         """
         try:
             return self._senders[zid, topic]
         except KeyError:
-            found = gid_of(f"{zid}/{topic}")
+            found = Sender(gid_of(f"{zid}/{topic}"), "")
             if len(self._senders) < _SENDERS_MAX:
                 self._senders[zid, topic] = found
             return found
@@ -340,17 +347,20 @@ class Bridges:
 
 def _senders_of(
     bridges: tuple[Bridge, ...], doubles: Mapping[str, frozenset[str]]
-) -> dict[tuple[str, str], bytes | None]:
-    """Return the GIDs of publishers by bridge and topic; None where another bridge has it, too."""
-    found: dict[tuple[str, str], bytes | None] = {
+) -> dict[tuple[str, str], Sender | None]:
+    """Return publishers by bridge and topic; None where another bridge has it, too."""
+    found: dict[tuple[str, str], Sender | None] = {
         (zid, topic): None for zid, topics in doubles.items() for topic in topics
     }
     for bridge in bridges:
         for end in bridge.ends:
             if end.kind is EndpointKind.PUBLISHER:
                 place = (bridge.zid, end.name)
-                is_only = place not in found
-                found[place] = gid_of(end.identity if is_only else f"{bridge.zid}/{end.name}")
+                same = found.get(place)
+                is_first = place not in found
+                name = end.identity if is_first else f"{bridge.zid}/{end.name}"
+                told = end.type_hash if is_first or (same and same.type_hash) else ""
+                found[place] = Sender(gid_of(name), told)
     return found
 
 
