@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 
@@ -24,7 +24,10 @@ from tests.support.wire import running_router, wait_until
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from studio.ros.action import ServerGoalHandle
+    from studio.ros.node.publisher import Publisher
     from studio.ros.node.samples import MessageInfo
+    from studio.ros.types.classes import MessageValue
 
 pytestmark = pytest.mark.network
 STRING = "std_msgs/msg/String"
@@ -95,7 +98,7 @@ def test_a_message_from_dds_comes_once_with_its_publisher(world: World):
     world.robot.ask("advertise", topic="/words", type_name=STRING)
     wait_for_publisher(world.node, "/words")
 
-    def listen(one: Any, info: MessageInfo) -> None:
+    def listen(one: MessageValue, info: MessageInfo) -> None:
         heard.append((one.data, info))
 
     subscription = world.node.create_subscription(message(STRING), "/words", listen, 10)
@@ -121,7 +124,7 @@ def test_a_message_that_was_kept_on_dds_comes_to_who_is_late(world: World):
     heard: list[str] = []
     qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
-    def hear(one: Any) -> None:
+    def hear(one: MessageValue) -> None:
         heard.append(one.data)
 
     for _ in range(2):
@@ -154,7 +157,7 @@ def test_what_we_keep_comes_to_who_is_late_on_dds(world: World):
 def test_both_dialects_meet_on_one_topic_and_nothing_comes_twice(world: World):
     heard: list[str] = []
 
-    def hear(one: Any) -> None:
+    def hear(one: MessageValue) -> None:
         heard.append(one.data)
 
     with context_at(world.endpoint) as context:
@@ -181,7 +184,7 @@ def _reaches(world: World, heard: list[str]) -> bool:
     return "dds?" in heard
 
 
-def _said(publisher: Any, heard: list[str]) -> bool:
+def _said(publisher: Publisher, heard: list[str]) -> bool:
     publisher.publish(message(STRING)(data="zenoh?"))
     return "zenoh?" in heard
 
@@ -201,7 +204,7 @@ def test_services_are_called_both_ways(world: World):
     assert client.wait_for_service(10)
     assert client.call(service(ADD).Request(a=40, b=2), timeout_sec=10).sum == 42
 
-    def add(request: Any, response: Any) -> Any:
+    def add(request: MessageValue, response: MessageValue) -> MessageValue:
         response.sum = request.a + request.b
         return response
 
@@ -223,7 +226,7 @@ def test_a_request_without_fields_is_answered_both_ways(world: World):
     world.node.destroy_client(client)
 
 
-def _same(_request: Any, response: Any) -> Any:
+def _same(_request: MessageValue, response: MessageValue) -> MessageValue:
     return response
 
 
@@ -254,7 +257,7 @@ def test_a_goal_goes_to_dds_with_feedback_result_and_cancel(world: World):
     assert client.wait_for_server(10)
     told: list[int] = []
 
-    def hear(one: Any) -> None:
+    def hear(one: MessageValue) -> None:
         told.append(len(one.feedback.sequence))
 
     handle = client.send_goal_async(fibonacci.Goal(order=5), feedback_callback=hear)
@@ -275,7 +278,7 @@ def test_a_goal_goes_to_dds_with_feedback_result_and_cancel(world: World):
 def test_a_goal_comes_from_dds(world: World):
     fibonacci = action("example_interfaces/action/Fibonacci")
 
-    def execute(goal: Any) -> Any:
+    def execute(goal: ServerGoalHandle) -> MessageValue:
         feedback = fibonacci.Feedback(sequence=[0, 1])
         goal.publish_feedback(feedback)
         goal.succeed()
