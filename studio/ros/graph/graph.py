@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
-    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.bridge import Bridge
     from studio.ros.wire.session import WireSession
 
 _GOAL = "/_action/send_goal"
@@ -76,8 +76,10 @@ class Graph:
     @property
     def malformed(self) -> tuple[int, str | None]:
         """The number of malformed tokens, and what was wrong with the last."""
+        bridges = self._wire.bridges
         with self._changed:
-            return self._table.malformed, self._table.last_malformed
+            count = self._table.malformed + bridges.malformed
+            return count, self._table.last_malformed or bridges.last_malformed or None
 
     def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
         """Call a listener after each batch of changes, in the graph's thread; return its end.
