@@ -29,7 +29,6 @@ from tests.support.dds_node import DdsProcess
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from types import FrameType
 
     from studio.ros.lifecycle.machine import Transition
     from studio.ros.types.classes import MessageValue
@@ -44,6 +43,7 @@ if TYPE_CHECKING:
 
 _SHOWN_BYTES_MAX: Final = 65_536
 """Of what is longer, length and digest are told."""
+_ENDING: Final = (signal.SIGINT, signal.SIGTERM)
 
 
 def say(what: str, **values: object) -> None:
@@ -320,6 +320,11 @@ def _read(process: DdsProcess, robot: Robot) -> None:
     process.end()
 
 
+def _end_by_signal(process: DdsProcess) -> None:
+    signal.sigwait(_ENDING)
+    process.end()
+
+
 def main() -> None:
     """Do what each line says, until there are no more or SIGTERM comes."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -328,17 +333,15 @@ def main() -> None:
     parser.add_argument("--robot", choices=["classroom"], help="be this one at once")
     chosen = parser.parse_args()
     logging.basicConfig(stream=sys.stderr)
+    # A signal's handler would wait for the thread that waits within Cyclone.
+    signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
     process = DdsProcess(chosen.distro, chosen.domain)
     robot = Robot(process)
 
-    def end(_number: int, _frame: FrameType | None) -> None:
-        process.end()
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, end)
     if chosen.robot == "classroom":
         robot.classroom()
     threading.Thread(target=_read, args=(process, robot), daemon=True).start()
+    threading.Thread(target=_end_by_signal, args=(process,), daemon=True).start()
     say("ready", participant=process.participant.guid.hex())
     process.run()
 

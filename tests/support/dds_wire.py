@@ -180,6 +180,10 @@ class DdsParticipant:
         told = self._graph_kind(gid=gids([self.guid])[0], node_entities_info_seq=entries)
         self._graph.write(codec_of(self._graph_kind).encode(told))
 
+    def leave(self) -> None:
+        """Tell the others that all is gone; who only ends is missed after ten seconds."""
+        self._entity.__del__()
+
     def wake(self) -> None:
         """End a `turn` that waits; from any thread."""
         self._woken.set(True)
