@@ -12,6 +12,7 @@ import hashlib
 import json
 import logging
 import signal
+import socket
 import sys
 import threading
 from typing import TYPE_CHECKING, Any, Final
@@ -29,6 +30,7 @@ from tests.support.dds_node import DdsProcess
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from types import FrameType
 
     from studio.ros.lifecycle.machine import Transition
     from studio.ros.types.classes import MessageValue
@@ -43,7 +45,6 @@ if TYPE_CHECKING:
 
 _SHOWN_BYTES_MAX: Final = 65_536
 """Of what is longer, length and digest are told."""
-_ENDING: Final = (signal.SIGINT, signal.SIGTERM)
 
 
 def say(what: str, **values: object) -> None:
@@ -320,9 +321,23 @@ def _read(process: DdsProcess, robot: Robot) -> None:
     process.end()
 
 
+def _wait(_number: int, _frame: FrameType | None) -> None:
+    """What a signal does to this thread: nothing."""
+
+
 def _end_by_signal(process: DdsProcess) -> None:
-    signal.sigwait(_ENDING)
-    process.end()
+    """The handler itself would wait for this thread, which waits within Cyclone."""
+    come, goes = socket.socketpair()
+    goes.setblocking(False)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _wait)
+    signal.set_wakeup_fd(goes.detach())
+
+    def end() -> None:
+        come.recv(1)
+        process.end()
+
+    threading.Thread(target=end, daemon=True).start()
 
 
 def main() -> None:
@@ -333,15 +348,13 @@ def main() -> None:
     parser.add_argument("--robot", choices=["classroom"], help="be this one at once")
     chosen = parser.parse_args()
     logging.basicConfig(stream=sys.stderr)
-    # A signal's handler would wait for the thread that waits within Cyclone.
-    signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
     process = DdsProcess(chosen.distro, chosen.domain)
     robot = Robot(process)
 
     if chosen.robot == "classroom":
         robot.classroom()
     threading.Thread(target=_read, args=(process, robot), daemon=True).start()
-    threading.Thread(target=_end_by_signal, args=(process,), daemon=True).start()
+    _end_by_signal(process)
     say("ready", participant=process.participant.guid.hex())
     process.run()
 
