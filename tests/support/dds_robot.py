@@ -165,6 +165,13 @@ class Robot:
         for _ in range(count):
             publisher.publish_cdr(cdr)
 
+    def matched(self, topic: str, node: str = "/robot") -> int:
+        """How many readers a publisher has now, or how many writers a subscription has."""
+        publisher = self._publishers.get((node, topic))
+        if publisher is not None:
+            return publisher.writers[0].matched
+        return self._subscriptions[node, topic].readers[0].matched
+
     def stop(self, topic: str) -> None:
         """Send no more at a rate."""
         if topic in self._timers:
