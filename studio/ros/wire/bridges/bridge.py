@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from studio.ros.qos import QoSProfile
 
 _NODE_NAME: Final = "zenoh_bridge_ros2dds"
+_FAST_DDS: Final = "010f"
+"""The vendor, which begins the GUID of each participant (DDSI-RTPS 2.5, 8.3.3.1 and 9.3.1.5)."""
 ENDS_MAX: Final = 100_000
 """Of one bridge: each node may name each topic."""
 
@@ -69,6 +71,15 @@ class Bridge:
     withheld: tuple[tuple[RouteKind, str], ...]
     is_used: bool
     twin: str
+
+    @property
+    def fast_dds_nodes(self) -> tuple[str, ...]:
+        """Full names of nodes on Fast DDS: the bridge brings their topics only.
+
+        It writes the headers of requests as Cyclone DDS does, so that services, actions and
+        parameters of others get no answer (eclipse-zenoh/zenoh-plugin-ros2dds, issue 492).
+        """
+        return tuple(path for participant, path in self.nodes if participant.startswith(_FAST_DDS))
 
     @property
     def rules(self) -> Rules | None:

@@ -272,3 +272,12 @@ def test_what_a_bridge_passes_on_has_a_node_and_a_gid(met: Met):
         assert graph.count(EndpointKind.PUBLISHER, "/chatter") == 1
         assert publisher.node in graph.nodes()
         assert PARTICIPANT in publisher.token
+
+
+def test_nodes_on_fast_dds_are_told_by_their_participant(met: Met):
+    with talking_bridge(met.endpoint) as bridge:
+        bridge.node("/fast", "010f" + PARTICIPANT[4:], publishers=[("/chatter", STRING)])
+        wait_until(
+            "it is told",
+            lambda: [one.fast_dds_nodes for one in met.node.graph.bridges] == [("/fast",)],
+        )
