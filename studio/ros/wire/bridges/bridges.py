@@ -19,6 +19,7 @@ from studio.ros.wire.zenoh import (
     admin_answers,
     live_tokens,
     token_change,
+    wait_for_thread,
     watch_tokens,
 )
 
@@ -79,10 +80,13 @@ class Bridges:
         self._reader = ReadingThread("ros-bridges", watch_tokens(zenoh, TOKENS), self._take)
 
     def close(self) -> None:
-        """Stop following; again is harmless."""
+        """Stop following, once the session is closed; again is harmless."""
         self._closed.set()
         self._due.set()
         self._reader.close()
+        asking = self._asking
+        if asking is not None and asking is not threading.current_thread():
+            wait_for_thread(asking)
 
     @property
     def current(self) -> tuple[Bridge, ...]:
