@@ -45,11 +45,10 @@ class Graph:
         self._version = 0
         self._listeners: list[Callable[[], None]] = []
         self._withdrawn: OrderedDict[str, None] = OrderedDict()
+        self._bridges: tuple[Bridge, ...] = ()
         self._leave_own = wire.own_tokens.follow(self._take_own)
         tokens = watch_tokens(wire.zenoh, tokens_of_domain(wire.domain))
         self._thread = ReadingThread("ros-graph", tokens, self._take)
-        self._bridges: tuple[Bridge, ...] = ()
-        """Those that were taken in."""
         self._leave_bridges = wire.bridges.on_change(self._take_bridges)
         self._take_bridges()
 
@@ -224,12 +223,10 @@ class Graph:
 
     def _take_bridges(self) -> None:
         """Take in what bridges to DDS show, in their thread."""
+        bridges = self._wire.bridges.current
         with self._changed:
-            known, self._bridges = self._bridges, self._wire.bridges.current
-            if known == self._bridges:
-                return
-            bridges = [one for one in self._bridges if one.is_used]
-            self._table.set_bridged(bridges)
+            self._bridges = bridges
+            self._table.set_bridged(one for one in bridges if one.is_used)
             self._version += 1
             self._changed.notify_all()
             listeners = list(self._listeners)
@@ -239,7 +236,7 @@ class Graph:
     @property
     def bridges(self) -> tuple[Bridge, ...]:
         """The bridges to DDS that the session meets, also those of other domains."""
-        return self._wire.bridges.current
+        return self._bridges
 
     def _take_own(self, token: str, is_alive: bool) -> None:  # noqa: FBT001
         """Take in what the session itself shows; listeners are called when it comes by the wire."""

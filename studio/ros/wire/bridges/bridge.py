@@ -82,14 +82,12 @@ class Met:
 
     Attributes:
         routes: By their tokens.
-        gone: Tokens that went before the bridge was asked for them.
         told: What it answered last.
         asked: Whether it was asked.
     """
 
     zid: str
     routes: dict[str, Route] = field(default_factory=dict[str, Route])
-    gone: set[str] = field(default_factory=set[str])
     told: Told = field(default_factory=Told)
     asked: bool = False
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 BRIDGES_MAX: Final = 64
 ROUTES_MAX: Final = 100_000
-"""Of all bridges; of those beyond none is known."""
+"""Of all sessions; of those beyond none is known."""
 ANSWER_TIMEOUT_S: Final = 3.0
 _SENDERS_MAX: Final = 100_000
 _SETTLE_S: Final = 0.15
@@ -57,6 +57,8 @@ class Bridges:
         self._met: dict[str, Met] = {}
         self._dirty: set[str] = set()
         """Bridges of which something changed since they were asked."""
+        self._routes: dict[str, dict[str, Route]] = {}
+        """By session and token; a bridge's may come before it shows that it is one."""
         self._route_count = 0
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
@@ -159,37 +161,32 @@ class Bridges:
         if found == self._own_zid:
             return ""
         if not is_alive:
-            met = self._met.pop(found, None)
-            self._route_count -= len(met.routes) if met else 0
-            return "gone" if met else ""
+            return "gone" if self._met.pop(found, None) else ""
         if found in self._met or len(self._met) >= BRIDGES_MAX:
             return ""
-        self._met[found] = Met(found)
+        self._met[found] = Met(found, self._routes.setdefault(found, {}))
         self._dirty.add(found)
         return "new"
 
     def _take_route(
         self, token: str, route: Route, *, is_alive: bool
     ) -> Literal["new", "gone", ""]:
-        """Take in a route of a bridge; other sessions announce theirs, too, and are none."""
-        met = self._met.get(route.zid)
-        if met is None:
+        """Take in a route; sessions that are no bridge announce theirs, too."""
+        of_session = self._routes.get(route.zid, {})
+        if is_alive and token not in of_session and self._route_count < ROUTES_MAX:
+            of_session = self._routes.setdefault(route.zid, of_session)
+            of_session[token] = route
+            self._route_count += 1
+        elif not is_alive and of_session.pop(token, None) is not None:
+            self._route_count -= 1
+            if not of_session and route.zid not in self._met:
+                del self._routes[route.zid]
+        else:
+            return ""
+        if route.zid not in self._met:
             return ""
         self._dirty.add(route.zid)
-        if is_alive:
-            self._add_route(met, token, route)
-            return "new"
-        if not met.asked:
-            met.gone.add(token)
-        if met.routes.pop(token, None) is None:
-            return ""
-        self._route_count -= 1
-        return "gone"
-
-    def _add_route(self, met: Met, token: str, route: Route) -> None:
-        if token not in met.routes and self._route_count < ROUTES_MAX:
-            met.routes[token] = route
-            self._route_count += 1
+        return "new" if is_alive else "gone"
 
     def _ask_soon(self) -> None:
         with self._changed:
@@ -221,13 +218,6 @@ class Bridges:
         with self._changed:
             asked = [self._met[zid] for zid in self._dirty if zid in self._met]
             self._dirty.clear()
-        for met in [one for one in asked if not one.asked]:
-            tokens = list(live_tokens(self._zenoh, f"@/{met.zid}/@ros2_lv/**", ANSWER_TIMEOUT_S))
-            with self._changed:
-                for token in tokens:
-                    route = _route(token)
-                    if route is not None and token not in met.gone:
-                        self._add_route(met, token, route)
         if not asked:
             return
         which = asked[0].zid if len(asked) == 1 else "*"
@@ -270,11 +260,3 @@ class Bridges:
         for topic in tuple(changed):
             for side in tuple(self._sides.get(topic, ())):
                 self._update(side)
-
-
-def _route(token: str) -> Route | None:
-    try:
-        found = parse_bridge_token(token)
-    except TokenError:
-        return None
-    return found if isinstance(found, Route) else None
