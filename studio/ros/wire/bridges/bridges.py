@@ -114,9 +114,12 @@ class Bridges:
         alive = {token.split("/")[1] for token in live_tokens(self._zenoh, BRIDGES, timeout_s)}
         with self._changed:
             return self._changed.wait_for(
-                lambda: all(zid in self._met and self._met[zid].asked for zid in alive),
+                lambda: all(map(self._was_asked, alive | self._met.keys())),
                 max(0.0, end_s - time.monotonic()),
             )
+
+    def _was_asked(self, zid: str) -> bool:
+        return zid in self._met and self._met[zid].asked
 
     def join(self, side: BridgeSide[Any]) -> None:
         """Begin a side whenever a bridge is there, and end it when none is, until it leaves."""
