@@ -118,10 +118,7 @@ class Bridges:
         alive = {token.split("/")[1] for token in live_tokens(self._zenoh, BRIDGES, timeout_s)}
         with self._changed:
             return self._changed.wait_for(
-                lambda: (
-                    all(zid in self._met for zid in alive)
-                    and all(one.asked for one in self._met.values())
-                ),
+                lambda: alive | self._met.keys() <= {one.zid for one in self._current},
                 max(0.0, end_s - time.monotonic()),
             )
 
