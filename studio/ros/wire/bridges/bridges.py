@@ -201,7 +201,7 @@ class Bridges:
         alive = {token.split("/")[1] for token in live_tokens(self._zenoh, BRIDGES, timeout_s)}
         with self._changed:
             return self._changed.wait_for(
-                lambda: all(zid in self._met and self._met[zid].asked for zid in alive),
+                lambda: alive <= {one.zid for one in self._current},
                 max(0.0, end_s - time.monotonic()),
             )
 
