@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 import time
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.bridges.side import BridgeSide
     from studio.ros.wire.zenoh import Session
 
+_NODE_NAME: Final = "zenoh_bridge_ros2dds"
 BRIDGES_MAX: Final = 64
 ROUTES_MAX: Final = 20_000
 """Of one bridge; of those beyond none is known."""
@@ -79,6 +81,7 @@ class Bridge:
 
     Attributes:
         zid: Its Zenoh session.
+        name: How people tell it from others: its namespace, else the machine of its nodes.
         version: Such as `1.10.0`; empty: it does not tell it.
         settings: How it was started; None: it does not tell.
         hosts: Names of the machines of its DDS nodes, in order.
@@ -90,6 +93,7 @@ class Bridge:
     """
 
     zid: str
+    name: str
     version: str
     settings: Settings | None
     hosts: tuple[str, ...]
@@ -101,20 +105,9 @@ class Bridge:
     twin: str
 
     @property
-    def name(self) -> str:
-        """How people tell it from others: its namespace, else the machine of its nodes."""
-        return _name(self.zid, self.settings, self.hosts)
-
-    @property
     def rules(self) -> Rules | None:
         """Its allow or deny list."""
         return self.settings.rules if self.settings else None
-
-
-def _name(zid: str, settings: Settings | None, hosts: tuple[str, ...]) -> str:
-    if settings is not None and settings.namespace != "/":
-        return settings.namespace
-    return hosts[0] if len(hosts) == 1 else f"bridge {zid[:6]}"
 
 
 @dataclass(slots=True)
@@ -372,39 +365,62 @@ def _bridges_of(
     Of several bridges in one DDS domain the first shows its nodes. They also see each other as a
     node with everything that they pass on, which is no node of a robot.
     """
-    own_nodes = {one.told.settings.node_name for one in met if one.told.settings is not None} | {
-        "zenoh_bridge_ros2dds"
-    }
+    own_nodes = {_NODE_NAME} | {one.told.settings.node_name for one in met if one.told.settings}
+    names = _names(met, own_nodes)
     shown: dict[tuple[str, str], str] = {}
     found: list[Bridge] = []
     doubles: dict[str, frozenset[str]] = {}
     for one in met:
         settings = one.told.settings
-        prefix = "" if settings is None else settings.namespace.rstrip("/")
+        prefix = _prefix(settings)
         is_used = settings is None or settings.domain == domain
-        nodes = [node for node in one.told.nodes if node.path.rpartition("/")[2] not in own_nodes]
-        hosts = {one.told.hosts.get(node.participant, "") for node in nodes} - {""}
-        name = _name(one.zid, settings, tuple(sorted(hosts)))
-        twins = [node for node in nodes if shown.get((node.participant, prefix), name) != name]
-        twin = shown[twins[0].participant, prefix] if twins else ""
-        fresh = [node for node in nodes if node not in twins]
+        nodes = _robot_nodes(one, own_nodes)
+        twins = [node for node in nodes if (node.participant, prefix) in shown]
+        fresh = [node for node in nodes if (node.participant, prefix) not in shown]
         for node in fresh if is_used else ():
-            shown[node.participant, prefix] = name
+            shown[node.participant, prefix] = names[one.zid]
         ends, doubles[one.zid] = _ends(one, fresh, prefix)
         found.append(
             Bridge(
                 zid=one.zid,
+                name=names[one.zid],
                 version=one.told.version,
                 settings=settings,
-                hosts=tuple(sorted(hosts)),
+                hosts=_hosts(one, nodes),
                 nodes=tuple(sorted((node.participant, prefix + node.path) for node in fresh)),
                 ends=ends,
                 withheld=_withheld(one, nodes, prefix),
                 is_used=is_used,
-                twin=twin,
+                twin=shown[twins[0].participant, prefix] if twins else "",
             )
         )
     return tuple(found), doubles
+
+
+def _prefix(settings: Settings | None) -> str:
+    return "" if settings is None else settings.namespace.rstrip("/")
+
+
+def _robot_nodes(met: _Met, own_nodes: set[str]) -> list[DdsNode]:
+    return [node for node in met.told.nodes if node.path.rpartition("/")[2] not in own_nodes]
+
+
+def _hosts(met: _Met, nodes: Iterable[DdsNode]) -> tuple[str, ...]:
+    return tuple(sorted({met.told.hosts.get(node.participant, "") for node in nodes} - {""}))
+
+
+def _names(met: list[_Met], own_nodes: set[str]) -> dict[str, str]:
+    """Name bridges, each otherwise than the others."""
+    plain = {one.zid: _name(one, own_nodes) for one in met}
+    often = Counter(plain.values())
+    return {zid: name if often[name] == 1 else f"{name} ({zid[:6]})" for zid, name in plain.items()}
+
+
+def _name(met: _Met, own_nodes: set[str]) -> str:
+    if prefix := _prefix(met.told.settings):
+        return prefix
+    hosts = _hosts(met, _robot_nodes(met, own_nodes))
+    return hosts[0] if len(hosts) == 1 else f"bridge {met.zid[:6]}"
 
 
 def _ends(
@@ -414,7 +430,7 @@ def _ends(
     of_route = _nodes_by_route(fresh)
     of_all = _nodes_by_route(met.told.nodes)
     settings = met.told.settings
-    own = DdsNode("", f"/{settings.node_name}" if settings else "/zenoh_bridge_ros2dds", ())
+    own = DdsNode("", f"/{settings.node_name if settings else _NODE_NAME}", ())
     ends: list[BridgedEnd] = []
     doubles: set[str] = set()
     for route in met.routes.values():
