@@ -48,6 +48,8 @@ class Graph:
         self._leave_own = wire.own_tokens.follow(self._take_own)
         tokens = watch_tokens(wire.zenoh, tokens_of_domain(wire.domain))
         self._thread = ReadingThread("ros-graph", tokens, self._take)
+        self._bridges: tuple[Bridge, ...] = ()
+        """Those that were taken in."""
         self._leave_bridges = wire.bridges.on_change(self._take_bridges)
         self._take_bridges()
 
@@ -220,8 +222,11 @@ class Graph:
 
     def _take_bridges(self) -> None:
         """Take in what bridges to DDS show, in their thread."""
-        bridges = [one for one in self._wire.bridges.current if one.is_used]
         with self._changed:
+            known, self._bridges = self._bridges, self._wire.bridges.current
+            if known == self._bridges:
+                return
+            bridges = [one for one in self._bridges if one.is_used]
             self._table.set_bridged(bridges)
             self._version += 1
             self._changed.notify_all()
