@@ -40,6 +40,7 @@ export function bridgeNotes(bridge, domain) {
       t("ros.bridge.other_domain", { domain, other: bridge.domain ?? "" }),
     state === "empty" && t("ros.bridge.empty"),
     twin !== "" && t(`ros.bridge.${state === "twin" ? "twin" : "partly_twin"}`, { twin }),
+    bridge.fast_dds_count > 0 && t("ros.bridge.fast_dds", { count: bridge.fast_dds_count }),
     bridge.withheld_count > 0 ? withheldNote(bridge) : rules.length > 0 && rulesNote(bridge),
     slowed.length > 0 && t("ros.bridge.slowed", { topics: named.join(", ") }),
     isLocal && t("ros.bridge.local"),

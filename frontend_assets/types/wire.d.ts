@@ -237,6 +237,7 @@ export interface BridgeView {
   domain: number | null;
   namespace: string;
   node_count: number;
+  fast_dds_count: number;
   hosts: string[];
   state: "used" | "other_domain" | "empty" | "twin";
   twin: string;

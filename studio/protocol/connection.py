@@ -108,6 +108,8 @@ class BridgeView(Message):
     """In front of all its names; `/` without."""
     node_count: int
     """Nodes on DDS behind it, without those that another bridge shows as well."""
+    fast_dds_count: int
+    """Those of them on Fast DDS: of these the bridge brings topics only."""
     hosts: tuple[str, ...]
     """The machines of its nodes; the first ones."""
     state: BridgeState

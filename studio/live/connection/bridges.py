@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from studio.protocol.connection import BridgeState
-    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.bridge import Bridge
 
 BRIDGES_SHOWN: Final = 20
 _NAMES_SHOWN: Final = 20
@@ -31,6 +31,7 @@ def _view(bridge: Bridge) -> BridgeView:
         domain=settings.domain if settings else None,
         namespace=settings.namespace if settings else "/",
         node_count=len(bridge.nodes),
+        fast_dds_count=len(bridge.fast_dds_nodes),
         hosts=bridge.hosts[:_NAMES_SHOWN],
         state=_state(bridge),
         twin=bridge.twin,

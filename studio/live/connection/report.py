@@ -5,6 +5,7 @@ It imports Zenoh (through `ros`), so it is imported when a report is asked for.
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
@@ -25,7 +26,7 @@ from studio.ros.wire.zenoh import live_tokens
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.bridge import Bridge
     from studio.ros.wire.session import WireSession
     from studio.ros.wire.settings import WireSettings
     from studio.settings import WireChoice
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
 _QUERY_TIMEOUT_S: Final = 3.0
 _TOPICS: Final = {EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION}
 _OF_ACTION: Final = "/_action/"
+_LOOKS: Final = 4
+_LOOK_PAUSE_S: Final = 0.15
 _SHOWN_MAX: Final = 20
 _TYPES_MAX: Final = 400
 """At most so many types are compared with every distribution: it is slow, and they suffice."""
@@ -117,7 +120,22 @@ def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireR
 
 
 def count(wire: WireSession, own: Collection[str]) -> Census:
-    """Ask the router for the tokens of every domain, once, and the bridges for their nodes."""
+    """Count who is there in every domain, and behind bridges to DDS.
+
+    A router that was just joined may show only a part at first, or nothing: so it is looked at
+    until two looks have found the same.
+    """
+    census = _counted(wire, own)
+    for _ in range(_LOOKS):
+        time.sleep(_LOOK_PAUSE_S)
+        before, census = census, _counted(wire, own)
+        found = census.nodes, len(census.bridges)
+        if any(found) and found == (before.nodes, len(before.bridges)):
+            break
+    return census
+
+
+def _counted(wire: WireSession, own: Collection[str]) -> Census:
     census = Census()
     for token in set(live_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", _QUERY_TIMEOUT_S)):
         census.take(token, wire.domain, own)

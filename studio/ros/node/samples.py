@@ -14,7 +14,8 @@ from studio.ros.profiles import NO_HASH
 
 if TYPE_CHECKING:
     from studio.ros.tokens import EndpointToken
-    from studio.ros.wire.bridges.bridges import Bridges, Sender
+    from studio.ros.wire.bridges.bridge import Sender
+    from studio.ros.wire.bridges.bridges import Bridges
     from studio.ros.wire.zenoh import Sample
 
 BLINK_NS = 20_000_000

@@ -17,14 +17,16 @@ from studio.ros.names import check_full_name, split_type_name
 from studio.ros.wire.bridges.dialect import RouteKind, dds_qos, type_hash_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from studio.ros.qos import QoSProfile
 
 ANSWERS_MAX: Final = 50_000
-"""Answers of one bridge that are read; a robot with a hundred nodes gives some five thousand."""
+"""Answers that are read; a robot with a hundred nodes gives some five thousand."""
 _TEXT_MAX: Final = 2_000
 _ANSWER_BYTES_MAX: Final = 1 << 20
+_BYTES_MAX: Final = 64 << 20
+_HOST_MAX: Final = 60
 _INFINITE_NS: Final = 2**63 - 1
 _LISTS: Final = {
     "publishers": RouteKind.PUBLISHER,
@@ -118,21 +120,33 @@ class Told:
     )
 
 
-def read_answers(answers: Iterable[tuple[str, bytes]]) -> Told:
-    """Read the answers to `@/ZID/ros2/**`, keys and JSON."""
-    told = Told()
+def read_answers(answers: Iterable[tuple[str, bytes]], zids: Collection[str]) -> dict[str, Told]:
+    """Read the answers to `@/ZID/ros2/**`, keys and JSON.
+
+    Args:
+        answers: As they come; those beyond the limits are passed over.
+        zids: The bridges that were asked.
+
+    Returns:
+        What each bridge told that answered.
+    """
+    found: dict[str, Told] = {}
+    read_bytes = 0
     for count, (key, data) in enumerate(answers):
-        if count >= ANSWERS_MAX:
+        read_bytes += len(data)
+        if count >= ANSWERS_MAX or read_bytes > _BYTES_MAX:
             break
-        parts = key.split("/")[3:]
-        if not parts or len(data) > _ANSWER_BYTES_MAX:
+        _, _, rest = key.partition("/")
+        zid, _, rest = rest.partition("/")
+        parts = rest.split("/")[1:]
+        if zid not in zids or not parts or len(data) > _ANSWER_BYTES_MAX:
             continue
         try:
             value: object = json.loads(data)
         except (ValueError, RecursionError):
             continue
-        _read_one(told, parts, value)
-    return told
+        _read_one(found.setdefault(zid, Told()), parts, value)
+    return found
 
 
 def _read_one(told: Told, parts: list[str], value: object) -> None:
@@ -148,7 +162,7 @@ def _read_one(told: Told, parts: list[str], value: object) -> None:
         case ["dds", participant] if isinstance(value, dict):
             properties = _of(_of(cast("Json", value), "qos"), "properties")
             if host := _text(properties.get("__Hostname")):
-                told.hosts[participant] = host
+                told.hosts[participant] = host[:_HOST_MAX]
         case ["dds", participant, "reader" | "writer" as side, _, *topic] if topic:
             _read_end(told, participant, side, "/".join(topic), value)
         case _:
