@@ -224,8 +224,8 @@ class Graph:
     def _take_bridges(self) -> None:
         """Take in what bridges to DDS show, in their thread."""
         with self._changed:
-            known, bridges = self._bridges, self._wire.bridges.current
-            if known == bridges:
+            bridges = self._wire.bridges.current
+            if bridges == self._bridges:
                 return  # who waits until the version rests asks for this again and again
             self._bridges = bridges
             self._table.set_bridged(one for one in bridges if one.is_used)
