@@ -83,7 +83,9 @@ class ClassroomRobot:
         self._scan = laser.create_publisher(kind("sensor_msgs/msg/LaserScan"), "/scan", _SENSOR)
         self._chatter = talker.create_publisher(kind(text), "/chatter", 10)
         description.publish(kind(text)(data=URDF))
-        fixed.publish(kind(tf)(transforms=[self._transform("base_link", "laser", _LASER_X_M, 0.0, 0.1)]))
+        fixed.publish(
+            kind(tf)(transforms=[self._transform("base_link", "laser", _LASER_X_M, 0.0, 0.1)])
+        )
         driver.open_parameters(driver, self._types)
         driver.declare_parameter(SPEED_MAX, 1.0)
         trigger = self._types.service("std_srvs/srv/Trigger")

@@ -1,4 +1,4 @@
-"""Announcements: the tokens by which a session's ends are known to bridges, one for all of a name."""
+"""Announcements: tokens by which bridges know a session's ends, one for all ends of a name."""
 
 from __future__ import annotations
 
