@@ -345,6 +345,16 @@ class DdsNetwork:
         robot.wait_said("ready")
         return robot
 
+    def nodes(self, *words: str) -> RealNodes:
+        """Start a Python module in it that is asked by lines, as `dds_robot` is; wait for ready."""
+        process = self._started(
+            (sys.executable, "-m", *words), {"PYTHONPATH": str(_TREE)}, stdin=subprocess.PIPE
+        )
+        nodes = RealNodes(process)
+        self._running.append(nodes)
+        nodes.wait_said("ready")
+        return nodes
+
     def close(self) -> None:
         """End all that runs in it, by force."""
         for one in self._running:
