@@ -266,8 +266,10 @@ class DdsRobot(RealNodes):
 class DdsNetwork:
     """A network namespace with bridges and robots, until the end of the block."""
 
-    def __init__(self) -> None:
+    def __init__(self, domain_settings: str = "") -> None:
+        """Make it; the settings are XML, of `Domain` in Cyclone DDS, for all who are in it."""
         need_dds()
+        self._domain_settings = domain_settings
         self._folder = tempfile.TemporaryDirectory(prefix="studio-dds-")
         self._running: list[RealNode] = []
         self._lines: list[Line] = []
@@ -380,13 +382,14 @@ class DdsNetwork:
 
         unwanted = ("ROS", "ZENOH", "RMW", "CYCLONE", "PYTHON")
         kept = {name: value for name, value in os.environ.items() if not name.startswith(unwanted)}
+        uri = LOOPBACK.replace("</Domain>", f"{self._domain_settings}</Domain>")
         entered = ("--user", "--preserve-credentials") if self._has_user else ()
         return subprocess.Popen(
             [
                 *("nsenter", "--target", str(self._holder.pid), *entered, "--net"),
                 *("setpriv", "--pdeathsig", "KILL", *words),
             ],
-            env={**kept, "CYCLONEDDS_URI": LOOPBACK, **variables},
+            env={**kept, "CYCLONEDDS_URI": uri, **variables},
             cwd=_TREE,
             stdin=stdin,
             stdout=subprocess.PIPE,
@@ -397,7 +400,7 @@ class DdsNetwork:
 
 
 @contextmanager
-def dds_network() -> Generator[DdsNetwork]:
+def dds_network(domain_settings: str = "") -> Generator[DdsNetwork]:
     """A network for a fixture."""
-    with DdsNetwork() as network:
+    with DdsNetwork(domain_settings) as network:
         yield network

@@ -44,8 +44,7 @@ def sender_of(bridges: Bridges, topic: str, sample: Sample) -> Sender | None:
     """
     if sample.attachment is not None:  # only nodes of rmw_zenoh have one
         return None
-    stamp = sample.timestamp
-    return bridges.sender("" if stamp is None else str(stamp).partition("/")[2], topic)
+    return bridges.sender(_stamp_of(sample)[1], topic)
 
 
 def bridged_sample(
@@ -59,21 +58,30 @@ def bridged_sample(
     DDS's own number and time stay behind: its number is 0, and its time is when the bridge passed
     it on.
     """
-    sender = sender_of(bridges, token.name, sample)
+    if sample.attachment is not None:  # as in `sender_of`, but the stamp is read once for both
+        return None
+    time_text, zid = _stamp_of(sample)
+    sender = bridges.sender(zid, token.name)
     if sender is None:
         return None
     told = sender.type_hash
     if told and token.type_hash not in {told, NO_HASH}:
         return None
-    stamp = sample.timestamp
-    time_ns = now_ns if stamp is None else _ns_of(str(stamp))
+    # NTP64: 2**32 are a second since the Unix epoch.
+    time_ns = int(time_text) * 1_000_000_000 >> 32 if time_text else now_ns
     return RawSample(sample.payload.to_bytes(), Attachment(0, time_ns, sender.gid), now_ns)
 
 
-def _ns_of(stamp: str) -> int:
-    """Return the time of a Zenoh timestamp, NTP64 before a slash, in ns since the Unix epoch."""
-    seconds, fraction = divmod(int(stamp.partition("/")[0]), 1 << 32)
-    return seconds * 1_000_000_000 + (fraction * 1_000_000_000 >> 32)
+def _stamp_of(sample: Sample) -> tuple[str, str]:
+    """Return Zenoh's time of a sample and the session that gave it; empty where it has none.
+
+    Their text takes less than Zenoh's own methods for both.
+    """
+    stamp = sample.timestamp
+    if stamp is None:
+        return "", ""
+    time_text, _, zid = str(stamp).partition("/")
+    return time_text, zid
 
 
 class SampleQueue:
