@@ -30,10 +30,11 @@ if TYPE_CHECKING:
 RUNS: Final = 5
 WAYS: Final = {
     "zenoh": "rmw_zenoh, a router",
-    "dds": "DDS, the bridge is the router",
     "dds-router": "DDS, the bridge at a router",
-    "dds-plain": "the second, plain buffers",
+    "dds": "DDS, the bridge is the router",
+    "dds-plain": "DDS, the same, plain buffers",
 }
+_COMPARED: Final = {"studio_us": "CPU of the studio a sample", "p50_ms": "p50", "p99_ms": "p99"}
 _ENDPOINT: Final = "tcp/127.0.0.1:7447"
 """In a namespace of its own, where nobody else has it."""
 _MODULE: Final = "tests.benchmarks.dds_process"
@@ -84,18 +85,17 @@ def _say_load(load: str, rounds: dict[str, list[Figures]]) -> None:
             f"{sum(it['lost'] + it['came'] for it in rounds[way]):.0f}"
         )
         say(
-            f"  {'':<32}CPU: studio {middle['studio']:6.1%}   router {middle['router']:6.1%}   "
+            f"  {'':<32}CPU: studio {middle['studio']:6.1%}, {middle['studio_us']:4.0f} us a sample   "
+            f"router {middle['router']:6.1%}   "
             f"bridge {middle['bridge']:6.1%}   robot {middle['robot']:6.1%}   "
             f"{middle['a_read']:.1f} samples a read"
         )
     for way in [one for one in WAYS if one != "zenoh"]:
-        for key, what in (
-            ("studio", "CPU of the studio"),
-            ("p50_ms", "p50"),
-            ("p95_ms", "p95"),
-            ("p99_ms", "p99"),
-        ):
-            _note_ratio(f"{load}: {WAYS[way]} over rmw_zenoh, {what}", rounds, way, key)
+        name = f"{load}: {WAYS[way]}"
+        for key, what in _COMPARED.items():
+            _note_ratio(f"{name} over rmw_zenoh, {what}", rounds, way, key)
+        lost, came = (sum(it[key] for it in rounds[way]) for key in ("lost", "came"))
+        note(f"{name}: lost", f"{lost / max(1, lost + came):.1%}")
 
 
 def _note_ratio(what: str, rounds: dict[str, list[Figures]], way: str, key: str) -> None:
@@ -141,7 +141,14 @@ def _load(load: str, robot: RealNodes, studio: RealNodes, running: dict[str, Rea
     figures = studio.ask("figures")
     robot.ask("stop")
     taken = {name: (after[name] - before[name]) / span_s for name in before}
-    return {"router": 0.0, "bridge": 0.0, **figures, **taken, "hz": figures["came"] / span_s}
+    return {
+        "router": 0.0,
+        "bridge": 0.0,
+        **figures,
+        **taken,
+        "hz": figures["came"] / span_s,
+        "studio_us": taken["studio"] * span_s * 1e6 / max(1, figures["came"]),
+    }
 
 
 def _cpu_s(running: dict[str, RealNode]) -> Figures:
