@@ -46,7 +46,7 @@ async def robot_at(
             yield page, robot
     finally:
         for one in (robot, bridge):
-            one.kill()
+            one.end()
 
 
 async def sees(page: Bridged, node: str) -> None:

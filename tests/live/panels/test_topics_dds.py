@@ -74,7 +74,7 @@ def test_two_ends_on_dds_whose_qos_does_not_match_are_said_not_to_hear_each_othe
     assert misfit.reasons == ("the publisher is best effort, the subscription wants reliable",)
     assert not robot.all_said("heard", topic="/apart"), "DDS itself says the same"
     for one in (robot, bridge):
-        one.kill()
+        one.end()
 
 
 def test_between_dds_and_zenoh_a_bridge_makes_up_for_all_but_earlier_messages(
@@ -100,7 +100,7 @@ def test_between_dds_and_zenoh_a_bridge_makes_up_for_all_but_earlier_messages(
     assert [one.bridge for one in other.publishers] == [""]
     assert [(one.way, one.heard, one.reasons) for one in other.misfits] == [("bridge", True, late)]
     for one in (robot, bridge):
-        one.kill()
+        one.end()
 
 
 def test_an_end_of_humble_on_dds_tells_no_hash_and_is_compared_by_name(
@@ -118,4 +118,4 @@ def test_an_end_of_humble_on_dds_tells_no_hash_and_is_compared_by_name(
     assert [one.hash for one in told.publishers] == [""]
     assert told.misfits == ()
     for one in (robot, bridge):
-        one.kill()
+        one.end()
