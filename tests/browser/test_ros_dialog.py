@@ -80,11 +80,11 @@ def test_a_bridge_without_nodes_is_said_and_one_with_a_robot_names_it_and_what_i
 def test_a_bridge_of_another_domain_offers_to_switch_to_it(
     tab: StudioPage, network: DdsNetwork, endpoint: str
 ):
-    bridge, robot = network.bridge(connect=endpoint, domain=5), network.robot(domain=5)
+    bridge, robot = network.bridge(connect=endpoint, domain=5), network.robot("classroom", domain=5)
     with window_of(tab) as window:
         window.get_by_text("It passes on DDS domain 5").first.wait_for()
         window.get_by_role("button", name="Switch to domain 5").first.click()
-        window.locator(".ros-nodes li", has_text="/robot").wait_for()
+        window.locator(".ros-nodes li", has_text="/driver").wait_for()
     robot.end()
     bridge.end()
 
