@@ -1085,7 +1085,7 @@ export interface FindWireRobots {
 export interface Finding {
   code: string;
   level: "error" | "warn" | "note";
-  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "bridges" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
   sentence: string;
   evidence: string[];
   about: Concern[];
@@ -4431,7 +4431,7 @@ export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" |
 
 /** What was looked at of one subject, so that "all is well" can be trusted. */
 export interface SubjectView {
-  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "bridges" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
   state: "well" | "found" | "not_examined";
   count: number;
   detail: string;

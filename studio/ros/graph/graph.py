@@ -226,7 +226,7 @@ class Graph:
         with self._changed:
             bridges = self._wire.bridges.current
             if bridges == self._bridges:
-                return
+                return  # who waits until the version rests asks for this again and again
             self._bridges = bridges
             self._table.set_bridged(one for one in bridges if one.is_used)
             self._version += 1

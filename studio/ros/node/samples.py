@@ -66,9 +66,13 @@ def bridged_sample(
     told = sender.type_hash
     if told and token.type_hash not in {told, NO_HASH}:
         return None
+    return RawSample(sample.payload.to_bytes(), bridged_attachment(sender, sample, now_ns), now_ns)
+
+
+def bridged_attachment(sender: Sender, sample: Sample, now_ns: int) -> Attachment:
+    """Return what rmw_zenoh would have attached: no number, and when the bridge passed it on."""
     stamp = sample.timestamp
-    time_ns = now_ns if stamp is None else _ns_of(str(stamp))
-    return RawSample(sample.payload.to_bytes(), Attachment(0, time_ns, sender.gid), now_ns)
+    return Attachment(0, now_ns if stamp is None else _ns_of(str(stamp)), sender.gid)
 
 
 def _ns_of(stamp: str) -> int:

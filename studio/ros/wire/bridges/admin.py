@@ -36,6 +36,15 @@ _LISTS: Final = {
     "action_servers": RouteKind.ACTION_SERVER,
     "action_clients": RouteKind.ACTION_CLIENT,
 }
+_FACING: Final = {
+    ("topic", "sub"): RouteKind.PUBLISHER,
+    ("topic", "pub"): RouteKind.SUBSCRIPTION,
+    ("service", "cli"): RouteKind.SERVICE,
+    ("service", "srv"): RouteKind.CLIENT,
+    ("action", "cli"): RouteKind.ACTION_SERVER,
+    ("action", "srv"): RouteKind.ACTION_CLIENT,
+}
+"""What a session announces, by where a bridge tells of the route that it makes for it."""
 _OF_ROUTES: Final = {kind: name for name, kind in _LISTS.items()}
 
 Json: TypeAlias = "dict[str, object]"
@@ -147,6 +156,43 @@ def read_answers(answers: Iterable[tuple[str, bytes]], zids: Collection[str]) ->
             continue
         _read_one(found.setdefault(zid, Told()), parts, value)
     return found
+
+
+def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[tuple[RouteKind, str]]:
+    """Read the answers to `@/BRIDGE/ros2/route/**`: what of a session it passes on now.
+
+    Args:
+        answers: Keys and JSON.
+        zid: The session.
+
+    Returns:
+        Kind and full name of each end, as the session announced them.
+    """
+    found: set[tuple[RouteKind, str]] = set()
+    for count, (key, data) in enumerate(answers):
+        parts = key.split("/")[3:]
+        if count >= ANSWERS_MAX:
+            break
+        if len(parts) < 4 or parts[0] != "route" or len(data) > _ANSWER_BYTES_MAX:
+            continue
+        kind = _FACING.get((parts[1], parts[2]))
+        name = "/".join(parts[3:])
+        try:
+            value: object = json.loads(data)
+        except (ValueError, RecursionError):
+            continue
+        if kind is None or not isinstance(value, dict):
+            continue
+        if _is_passing(cast("Json", value), f"{zid}:{name}"):
+            found.add((kind, f"/{name}"))
+    return frozenset(found)
+
+
+def _is_passing(route: Json, remote: str) -> bool:
+    """Whether a route serves a session, and has its end on DDS where it tells of that."""
+    served = route.get("remote_routes")
+    is_served = isinstance(served, list) and remote in cast("list[object]", served)
+    return is_served and route.get("is_active") is not False and route.get("dds_reader") != ""
 
 
 def _read_one(told: Told, parts: list[str], value: object) -> None:

@@ -19,6 +19,7 @@ from studio.ros.wire.zenoh import (
     admin_answers,
     live_tokens,
     token_change,
+    wait_for_thread,
     watch_tokens,
 )
 
@@ -79,10 +80,13 @@ class Bridges:
         self._reader = ReadingThread("ros-bridges", watch_tokens(zenoh, TOKENS), self._take)
 
     def close(self) -> None:
-        """Stop following; again is harmless."""
+        """Stop following, once the session is closed; again is harmless."""
         self._closed.set()
         self._due.set()
         self._reader.close()
+        asking = self._asking
+        if asking is not None and asking is not threading.current_thread():
+            wait_for_thread(asking)
 
     @property
     def current(self) -> tuple[Bridge, ...]:
@@ -114,7 +118,7 @@ class Bridges:
         alive = {token.split("/")[1] for token in live_tokens(self._zenoh, BRIDGES, timeout_s)}
         with self._changed:
             return self._changed.wait_for(
-                lambda: alive <= {one.zid for one in self._current},
+                lambda: alive | self._met.keys() <= {one.zid for one in self._current},
                 max(0.0, end_s - time.monotonic()),
             )
 

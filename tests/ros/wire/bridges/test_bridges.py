@@ -14,6 +14,7 @@ from studio.ros.node.raw_subscription import RawSubscription
 from studio.ros.profiles import NO_HASH
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, gid_of
+from studio.ros.wire.bridges.dialect import BRIDGES
 from studio.ros.wire.zenoh import declare_token, live_tokens
 from tests.support.demos import spun
 from tests.support.node_pair import context_at
@@ -80,6 +81,8 @@ def wait_for_route(node: Node, bridge: PretendBridge, heard: list[str]) -> None:
 
 def test_a_graph_that_is_settled_has_what_is_behind_bridges(met: Met):
     with talking_bridge(met.endpoint) as bridge:
+        zenoh = met.node.wire.zenoh
+        wait_until("the router has it", lambda: bool(list(live_tokens(zenoh, BRIDGES, 5.0))))
         assert met.node.graph.settle(30)
         (publisher,) = met.node.graph.publishers("/chatter")
         assert publisher.node.path == "/talker"
@@ -105,7 +108,6 @@ def test_who_announces_ends_and_shows_no_bridge_is_none(met: Met):
     with PretendBridge(met.endpoint) as other:
         other.announce(CHATTER)
         with talking_bridge(met.endpoint):
-            assert met.node.graph.settle(30)
             wait_until("the bridge is seen", lambda: bool(met.node.graph.bridges))
             assert len(met.node.graph.bridges) == 1
             assert len(met.node.graph.publishers("/chatter")) == 1
