@@ -12,7 +12,7 @@ from studio.ros.condition import Condition
 from studio.ros.tokens import EndpointKind, gid_of
 from studio.ros.wire.bridges.admin import read_answers
 from studio.ros.wire.bridges.announcements import Announcements
-from studio.ros.wire.bridges.bridge import Bridge, Met, Sender, bridges_of, senders_of
+from studio.ros.wire.bridges.bridge import Bridge, BridgedEnd, Met, Sender, bridges_of, senders_of
 from studio.ros.wire.bridges.dialect import BRIDGES, TOKENS, Route, parse_bridge_token
 from studio.ros.wire.zenoh import (
     ReadingThread,
@@ -64,7 +64,8 @@ class Bridges:
         self._route_count = 0
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
-        self._routed: frozenset[str] = frozenset()
+        self._brought: dict[str, BridgedEnd] = {}
+        """A publisher of each topic that comes through a bridge."""
         self._listeners: tuple[Callable[[], None], ...] = ()
         self.malformed = 0
         """How many tokens were none of a bridge."""
@@ -139,10 +140,10 @@ class Bridges:
             same_topic.pop(side, None)
             if not same_topic:
                 self._sides.pop(side.topic, None)
-            side.update(is_used=False, is_routed=False)
+            side.update(is_used=False, brought=None)
 
     def _update(self, side: BridgeSide[Any]) -> None:
-        side.update(is_used=self.is_used, is_routed=side.topic in self._routed)
+        side.update(is_used=self.is_used, brought=self._brought.get(side.topic))
 
     def _forget(self, listener: Callable[[], None]) -> None:
         with self._changed:
@@ -259,12 +260,12 @@ class Bridges:
         if self._closed.is_set():
             return
         used = [one for one in current if one.is_used]
-        routed = frozenset(
-            end.name for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
-        )
+        brought = {
+            end.name: end for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
+        }
         is_switched = bool(used) is not self.is_used
-        changed = self._sides.keys() if is_switched else routed ^ self._routed
-        self.is_used, self._routed = bool(used), routed
+        changed = self._sides.keys() if is_switched else brought.keys() ^ self._brought.keys()
+        self.is_used, self._brought = bool(used), brought
         for topic in tuple(changed):
             for side in tuple(self._sides.get(topic, ())):
                 self._update(side)

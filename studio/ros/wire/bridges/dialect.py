@@ -9,7 +9,7 @@ import re
 import struct
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Final
+from typing import Final, Protocol
 
 from studio.errors import AttachmentError, RosNameError, TokenError
 from studio.ros.attachment import GID_BYTES, Attachment
@@ -205,14 +205,40 @@ def announcement(end: EndpointToken) -> str | None:
         is_server = end.kind is EndpointKind.SERVICE
         kind = RouteKind.ACTION_SERVER if is_server else RouteKind.ACTION_CLIENT
         name, type_name = action, type_name.removesuffix("_SendGoal")
-    mangled = (bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH))
-    head = "/".join(("@", end.node.zid, _MARK, kind, *mangled))
+    head = "/".join(("@", end.node.zid, _MARK, kind, *_mangled(name, type_name)))
     if end.kind in {EndpointKind.SERVICE, EndpointKind.CLIENT}:
         return head
     return f"{head}/{_qos_text(end)}"
 
 
-def _qos_text(end: EndpointToken) -> str:
+class _Told(Protocol):
+    """What is announced of an end."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def type_name(self) -> str: ...
+    @property
+    def type_hash(self) -> str: ...
+    @property
+    def qos(self) -> QoSProfile: ...
+
+
+def bare_announcement(zid: str, publisher: _Told) -> str:
+    """Return the token of a session's subscriber of what a publisher sends, which is no end of ROS.
+
+    Whom it was not told of, a bridge does not read on for when others leave the topic.
+    """
+    mangled = _mangled(publisher.name, publisher.type_name)
+    head = "/".join(("@", zid, _MARK, RouteKind.SUBSCRIPTION, *mangled))
+    return f"{head}/{_qos_text(publisher)}"
+
+
+def _mangled(name: str, type_name: str) -> tuple[str, str]:
+    return bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH)
+
+
+def _qos_text(end: _Told) -> str:
     """Write a profile, and the hash, which DDS nodes since Iron look for."""
     qos = end.qos
     reliable = int(qos.reliability is not ReliabilityPolicy.BEST_EFFORT)

@@ -7,13 +7,14 @@ import logging
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from studio.ros.tokens import EndpointKind
-from studio.ros.wire.bridges.dialect import announcement, bridge_key
+from studio.ros.wire.bridges.dialect import announcement, bare_announcement, bridge_key
 from studio.ros.wire.zenoh import Declaration, Session, ZError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.tokens import EndpointToken
+    from studio.ros.wire.bridges.bridge import BridgedEnd
     from studio.ros.wire.bridges.bridges import Bridges
 
 DeclaredT = TypeVar("DeclaredT", bound=Declaration)
@@ -31,7 +32,7 @@ class BridgeSide(Generic[DeclaredT]):
     Args:
         zenoh: The session.
         bridges: Those that it meets.
-        token: The end; None: it announces nothing by itself, and is a subscriber of `topic`.
+        token: The end; None: a subscriber of `topic` that is none of ROS, of whatever type.
         topic: Its full name.
         declare: Declares what takes or sends samples or requests, at a data key.
     """
@@ -46,6 +47,8 @@ class BridgeSide(Generic[DeclaredT]):
     ) -> None:
         self._zenoh, self._bridges, self._declare = zenoh, bridges, declare
         self._token = announcement(token) if token else None
+        self._is_bare = token is None
+        self._zid = str(zenoh.info.zid()) if token is None else ""
         self._kind = token.kind if token else EndpointKind.SUBSCRIPTION
         self._needs_route = self._kind is EndpointKind.SUBSCRIPTION
         self.topic = topic
@@ -53,19 +56,22 @@ class BridgeSide(Generic[DeclaredT]):
         """None while no bridge is there, or none needs it."""
         bridges.join(self)
 
-    def update(self, *, is_used: bool, is_routed: bool) -> None:
+    def update(self, *, is_used: bool, brought: BridgedEnd | None) -> None:
         """Declare what is needed now, and take back the rest; called by `Bridges` in turn.
 
         Args:
             is_used: Whether a bridge is there.
-            is_routed: Whether one brings samples of the topic.
+            brought: A publisher of the topic that comes through one; None: none does.
         """
-        is_needed = is_used and (is_routed or not self._needs_route)
+        is_needed = is_used and (brought is not None or not self._needs_route)
+        token = self._token
+        if token is None and self._is_bare and brought is not None:
+            token = bare_announcement(self._zid, brought)
         try:
             if is_needed and self.declared is None:
                 self.declared = self._declare(bridge_key(self.topic))
             if is_used:
-                self._bridges.announcements.hold(self._kind, self.topic, self, self._token)
+                self._bridges.announcements.hold(self._kind, self.topic, self, token)
         except ZError as error:
             if not self._zenoh.is_closed():
                 _log.warning("Bridges to DDS do not get %s. %s", self.topic, error)
