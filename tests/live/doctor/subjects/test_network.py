@@ -15,8 +15,7 @@ def place(endpoint: str) -> WireReport:
     """Where a router is."""
     return WireReport(
         request=0, endpoint=endpoint, domain=0, distro="jazzy", verdict="fine",
-        starts_router=False, nodes=1, domains=(), distros=(), types=(), unseen=0,
-        bridges=(),
+        starts_router=False, nodes=1, domains=(), distros=(), types=(), unseen=0, bridges=(),
     )  # fmt: skip
 
 
