@@ -267,8 +267,10 @@ class DdsRobot(RealNodes):
 class DdsNetwork:
     """A network namespace with bridges and robots, until the end of the block."""
 
-    def __init__(self) -> None:
+    def __init__(self, domain_settings: str = "") -> None:
+        """Make it; the settings are XML, of `Domain` in Cyclone DDS, for all who are in it."""
         need_dds()
+        self._domain_settings = domain_settings
         self._folder = tempfile.TemporaryDirectory(prefix="studio-dds-")
         self._running: list[RealNode] = []
         self._lines: list[Line] = []
@@ -357,7 +359,7 @@ class DdsNetwork:
             {
                 "ROS_DISTRO": distro,
                 "PYTHONPATH": str(_TREE),
-                "CYCLONEDDS_URI": loopback(lease_s),
+                "CYCLONEDDS_URI": self._settings(lease_s),
             },
             stdin=subprocess.PIPE,
         )
@@ -365,6 +367,16 @@ class DdsNetwork:
         self._running.append(robot)
         robot.wait_said("ready")
         return robot
+
+    def nodes(self, *words: str) -> RealNodes:
+        """Start a Python module in it that is asked by lines, as `dds_robot` is; wait for ready."""
+        process = self._started(
+            (sys.executable, "-m", *words), {"PYTHONPATH": str(_TREE)}, stdin=subprocess.PIPE
+        )
+        nodes = RealNodes(process)
+        self._running.append(nodes)
+        nodes.wait_said("ready")
+        return nodes
 
     def close(self) -> None:
         """End all that runs in it, by force."""
@@ -383,6 +395,9 @@ class DdsNetwork:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def _settings(self, lease_s: float) -> str:
+        return loopback(lease_s).replace("</Domain>", f"{self._domain_settings}</Domain>")
+
     def _started(
         self, words: tuple[str, ...], variables: Mapping[str, str], stdin: int = subprocess.DEVNULL
     ) -> subprocess.Popen[str]:
@@ -395,7 +410,7 @@ class DdsNetwork:
                 *("nsenter", "--target", str(self._holder.pid), *entered, "--net"),
                 *("setpriv", "--pdeathsig", "KILL", *words),
             ],
-            env={**kept, "CYCLONEDDS_URI": loopback(), **variables},
+            env={**kept, "CYCLONEDDS_URI": self._settings(LEASE_S), **variables},
             cwd=_TREE,
             stdin=stdin,
             stdout=subprocess.PIPE,
@@ -406,7 +421,7 @@ class DdsNetwork:
 
 
 @contextmanager
-def dds_network() -> Generator[DdsNetwork]:
+def dds_network(domain_settings: str = "") -> Generator[DdsNetwork]:
     """A network for a fixture."""
-    with DdsNetwork() as network:
+    with DdsNetwork(domain_settings) as network:
         yield network

@@ -45,8 +45,26 @@ def sender_of(bridges: Bridges, topic: str, sample: Sample) -> Sender | None:
     """
     if sample.attachment is not None:  # only nodes of rmw_zenoh have one
         return None
-    stamp = sample.timestamp
-    return bridges.sender("" if stamp is None else str(stamp).partition("/")[2], topic)
+    return bridges.sender(_stamp_of(sample)[1], topic)
+
+
+def bridged_attachment(
+    bridges: Bridges, topic: str, sample: Sample, now_ns: int
+) -> tuple[Attachment, str] | None:
+    """Return what rmw_zenoh would have attached to a sample from DDS, and the hash of its type.
+
+    DDS's own number and time stay behind: the number is 0, and the time is when the bridge passed
+    it on. The hash is empty where DDS does not tell it. None: as for `sender_of`.
+    """
+    if sample.attachment is not None:
+        return None
+    time_text, zid = _stamp_of(sample)  # read once for both: it takes most of the time
+    sender = bridges.sender(zid, topic)
+    if sender is None:
+        return None
+    # NTP64: 2**32 are a second since the Unix epoch.
+    time_ns = int(time_text) * 1_000_000_000 >> 32 if time_text else now_ns
+    return Attachment(0, time_ns, sender.gid), sender.type_hash
 
 
 def bridged_sample(
@@ -56,29 +74,26 @@ def bridged_sample(
 
     It is not where it comes by another way as well, nor where its sender told another hash of the
     type: DDS compares names only, and its bytes would be misread.
-
-    DDS's own number and time stay behind: its number is 0, and its time is when the bridge passed
-    it on.
     """
-    sender = sender_of(bridges, token.name, sample)
-    if sender is None:
+    found = bridged_attachment(bridges, token.name, sample, now_ns)
+    if found is None:
         return None
-    told = sender.type_hash
+    attachment, told = found
     if told and token.type_hash not in {told, NO_HASH}:
         return None
-    return RawSample(sample.payload.to_bytes(), bridged_attachment(sender, sample, now_ns), now_ns)
+    return RawSample(sample.payload.to_bytes(), attachment, now_ns)
 
 
-def bridged_attachment(sender: Sender, sample: Sample, now_ns: int) -> Attachment:
-    """Return what rmw_zenoh would have attached: no number, and when the bridge passed it on."""
+def _stamp_of(sample: Sample) -> tuple[str, str]:
+    """Return Zenoh's time of a sample and the session that gave it; empty where it has none.
+
+    Their text takes less than Zenoh's own methods for both.
+    """
     stamp = sample.timestamp
-    return Attachment(0, now_ns if stamp is None else _ns_of(str(stamp)), sender.gid)
-
-
-def _ns_of(stamp: str) -> int:
-    """Return the time of a Zenoh timestamp, NTP64 before a slash, in ns since the Unix epoch."""
-    seconds, fraction = divmod(int(stamp.partition("/")[0]), 1 << 32)
-    return seconds * 1_000_000_000 + (fraction * 1_000_000_000 >> 32)
+    if stamp is None:
+        return "", ""
+    time_text, _, zid = str(stamp).partition("/")
+    return time_text, zid
 
 
 class SampleQueue:

@@ -19,10 +19,11 @@ if TYPE_CHECKING:
     from studio.live.doctor.seen import Answers, Ends, Seen, System, Unrouted
     from studio.protocol.doctor import ConcernKind, SubjectName
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.bridge import Bridge
 
 SUBJECT: Final[SubjectName] = "bridges"
 _PROGRAM: Final = "zenoh-bridge-ros2dds"
+_CYCLONE: Final = "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp"
 _DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {_PROGRAM}"
 _KEEPS_LATCHED: Final = (1, 5, 1)
 """From this version on a bridge keeps transient local messages as rmw_zenoh does."""
@@ -153,6 +154,8 @@ def _of_used(bridge: Bridge, system: System) -> Iterator[Finding]:
     yield from _withheld(bridge, system)
     if bridge.settings is not None and bridge.settings.slowed:
         yield _slowed(bridge, bridge.settings.slowed)
+    if bridge.fast_dds_nodes:
+        yield _fast_dds(bridge)
     if bridge.twin:
         yield _twin(bridge)
 
@@ -319,6 +322,26 @@ def _slowed(bridge: Bridge, slowed: tuple[tuple[str, float], ...]) -> Finding:
         ),
         evidence=tuple(f"pub_max_frequencies: {short(topic)}={rate:g}" for topic, rate in slowed),
         about=(CONNECTION,),
+    )
+
+
+def _fast_dds(bridge: Bridge) -> Finding:
+    nodes = bridge.fast_dds_nodes
+    return Finding(
+        code="fast-dds",
+        level="warn",
+        subject=SUBJECT,
+        sentence=(
+            f"{listed(nodes)} {'is' if len(nodes) == 1 else 'are'} on Fast DDS, of which the "
+            f"{called(bridge)} brings topics, and no answer of services, actions and parameters. "
+            f"Start {'it' if len(nodes) == 1 else 'them'} with {_CYCLONE}, if they matter."
+        ),
+        evidence=(
+            f"nodes on Fast DDS: {len(nodes)} of {len(bridge.nodes)}",
+            "the bridge writes the headers of requests as Cyclone DDS does",
+        ),
+        line=f"export {_CYCLONE}",
+        about=tuple(Concern(kind="node", name=one) for one in nodes[:3]),
     )
 
 

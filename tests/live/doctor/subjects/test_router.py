@@ -58,7 +58,7 @@ def test_another_program_at_its_address_is_an_error():
     ("verdict", "code", "level"),
     [("not_admitted", "not-admitted", "error"), ("bridge", "only-a-bridge", "warn")],
 )
-def test_a_router_at_which_no_node_can_be_met_is_said(verdict: Verdict, code: str, level: str):
+def test_a_router_without_use_for_the_studio_is_found(verdict: Verdict, code: str, level: str):
     nowhere = examine_place(WireChoice("off", (free_endpoint(),), 0, "jazzy"), ())
     place = nowhere.model_copy(update={"verdict": verdict})
     found = {one.code: one for one in examine(Seen(place=place)).findings}[code]
