@@ -87,7 +87,6 @@ class Bridges:
         self._closed.set()
         self._due.set()
         self._reader.close()
-        self.announcements.close()
         asking = self._asking
         if asking is not None and asking is not threading.current_thread():
             wait_for_thread(asking)

@@ -193,10 +193,16 @@ def _action_ends(route: Route) -> tuple[RouteEnd, ...]:
 
 
 def announcement(end: EndpointToken) -> str | None:
-    """Return the token by which bridges make a route to an end of ours.
+    """Return the token by which bridges make a route to an end of ours; None: it needs none.
 
-    Of an action they expect one for all parts, which its send_goal brings; None for the others.
+    Of an action they expect one for all parts, which its send_goal brings. A subscription is not
+    announced: they read a topic from DDS as soon as Zenoh has a subscriber, with the QoS of the
+    publisher on DDS. Of one that was announced before that publisher is there they take the QoS
+    of the subscription, which may not match it; and where one of two announced is withdrawn they
+    read no more for the other.
     """
+    if end.kind is EndpointKind.SUBSCRIPTION:
+        return None
     kind, name, type_name = RouteKind(end.kind.value), end.name, end.type_name
     if _ACTION in name:
         action, _, part = name.rpartition(_ACTION)

@@ -24,14 +24,14 @@ _log = logging.getLogger(__name__)
 class BridgeSide(Generic[DeclaredT]):
     """The half of an end that bridges meet, beside the one that rmw_zenoh's nodes meet.
 
-    Its token is shown while a bridge is there: a bridge routes into DDS only what somebody
-    announces. A subscriber is declared only where a bridge brings the topic, for publishers of
+    It is announced while a bridge is there: a bridge routes into DDS only what somebody announces.
+    A subscriber is declared only where a bridge brings the topic, for publishers of
     rmw_zenoh have a side for bridges, too, and would send to it.
 
     Args:
         zenoh: The session.
         bridges: Those that it meets.
-        token: The end; None: it announces nothing by itself, and is a subscriber of `topic`.
+        token: The end; None: a subscriber of `topic` that is no subscription of a node.
         topic: Its full name.
         declare: Declares what takes or sends samples or requests, at a data key.
     """
@@ -46,8 +46,7 @@ class BridgeSide(Generic[DeclaredT]):
     ) -> None:
         self._zenoh, self._bridges, self._declare = zenoh, bridges, declare
         self._token = announcement(token) if token else None
-        self._kind = token.kind if token else EndpointKind.SUBSCRIPTION
-        self._needs_route = self._kind is EndpointKind.SUBSCRIPTION
+        self._needs_route = token is None or token.kind is EndpointKind.SUBSCRIPTION
         self.topic = topic
         self.declared: DeclaredT | None = None
         """None while no bridge is there, or none needs it."""
@@ -64,13 +63,13 @@ class BridgeSide(Generic[DeclaredT]):
         try:
             if is_needed and self.declared is None:
                 self.declared = self._declare(bridge_key(self.topic))
-            if is_used:
-                self._bridges.announcements.hold(self._kind, self.topic, self, self._token)
+            if is_used and self._token is not None:
+                self._bridges.announcements.hold(self._token, self)
         except ZError as error:
             if not self._zenoh.is_closed():
                 _log.warning("Bridges to DDS do not get %s. %s", self.topic, error)
-        if not is_used:
-            self._bridges.announcements.release(self._kind, self.topic, self)
+        if not is_used and self._token is not None:
+            self._bridges.announcements.release(self._token, self)
         if not is_needed:
             declared, self.declared = self.declared, None
             self._undeclare(declared)
