@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from studio.ros.action import ServerGoalHandle
     from studio.ros.node.publisher import Publisher
     from studio.ros.node.samples import MessageInfo
+    from studio.ros.node.subscription import Subscription
     from studio.ros.types.classes import MessageValue
 
 pytestmark = pytest.mark.network
@@ -133,6 +134,40 @@ def test_a_message_that_was_kept_on_dds_comes_to_who_is_late(world: World):
         assert heard == ["kept"]
         heard.clear()
         world.node.destroy_subscription(subscription)
+
+
+def test_a_subscription_that_waits_takes_the_qos_of_the_publisher_that_comes(world: World):
+    heard: list[str] = []
+
+    def hear(one: MessageValue) -> None:
+        heard.append(one.data)
+
+    qos = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    subscription = world.node.create_subscription(message(STRING), "/later", hear, qos)
+    world.robot.ask("publish", topic="/later", type_name=STRING, values={"data": "best effort"},
+                    qos={"reliability": "best_effort", "depth": 5}, rate_hz=50)  # fmt: skip
+    wait_until("it is heard", lambda: bool(heard))
+    world.robot.ask("stop", topic="/later")
+    world.node.destroy_subscription(subscription)
+
+
+def test_a_subscription_that_ends_leaves_the_topic_to_another(world: World):
+    heard: dict[str, list[str]] = {"first": [], "second": []}
+
+    def hear(who: str) -> Subscription:
+        def take(one: MessageValue) -> None:
+            heard[who].append(one.data)
+
+        return world.node.create_subscription(message(STRING), "/shared", take, 10)
+
+    world.robot.ask("publish", topic="/shared", type_name=STRING, values={"data": "s"}, rate_hz=50)
+    first, second = hear("first"), hear("second")
+    wait_until("both hear", lambda: all(heard.values()))
+    world.node.destroy_subscription(first)
+    count = len(heard["second"])
+    wait_until("the other goes on", lambda: len(heard["second"]) > count + 10)
+    world.robot.ask("stop", topic="/shared")
+    world.node.destroy_subscription(second)
 
 
 def test_a_message_of_ours_is_heard_on_dds(world: World):

@@ -11,10 +11,17 @@ from typing import TYPE_CHECKING, Final
 
 from studio.errors import TokenError
 from studio.live.doctor.seen import Unrouted
-from studio.ros.tokens import EndpointToken, parse_token
+from studio.ros.names import is_hidden
+from studio.ros.tokens import EndpointKind, EndpointToken, parse_token
 from studio.ros.wire.bridges.admin import read_routes
 from studio.ros.wire.bridges.bridges import ANSWER_TIMEOUT_S
-from studio.ros.wire.bridges.dialect import TOKENS, Route, announcement, parse_bridge_token
+from studio.ros.wire.bridges.dialect import (
+    TOKENS,
+    Route,
+    RouteKind,
+    announcement,
+    parse_bridge_token,
+)
 from studio.ros.wire.zenoh import admin_answers, live_tokens
 
 if TYPE_CHECKING:
@@ -22,7 +29,6 @@ if TYPE_CHECKING:
 
     from studio.live.doctor.seen import Ends, System
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.wire.bridges.dialect import RouteKind
     from studio.ros.wire.session import WireSession
 
 _LOOKS: Final = 4
@@ -96,6 +102,10 @@ def _facing(ends: Ends, zid: str) -> Iterator[tuple[GraphEndpoint, GraphEndpoint
 def _announced(end: GraphEndpoint) -> tuple[RouteKind, str] | None:
     """Return kind and name by which bridges know an end; None: another part of its action does."""
     token = parse_token(end.token)
-    text = announcement(token) if isinstance(token, EndpointToken) else None
+    if not isinstance(token, EndpointToken):
+        return None
+    if token.kind is EndpointKind.SUBSCRIPTION:
+        return None if is_hidden(token.name) else (RouteKind.SUBSCRIPTION, token.name)
+    text = announcement(token)
     route = parse_bridge_token(text) if text else None
     return (route.kind, route.name) if isinstance(route, Route) else None

@@ -60,7 +60,8 @@ def why_nobody(endpoint: str, domain: int, nodes_by_domain: Mapping[int, int]) -
     if not others:
         return (
             f"The router at {endpoint} is there, but no node is: start one, with "
-            "RMW_IMPLEMENTATION=rmw_zenoh_cpp if it is one of ROS 2."
+            "RMW_IMPLEMENTATION=rmw_zenoh_cpp if it is one of ROS 2, or zenoh-bridge-ros2dds "
+            "beside nodes that use DDS."
         )
     places = ", ".join(f"{_nodes(count)} in domain {other}" for other, count in others.items())
     return f"No node is in domain {domain}, but {places}: choose --domain {min(others)}."

@@ -349,12 +349,12 @@ def _twin(bridge: Bridge) -> Finding:
     settings = bridge.settings
     return Finding(
         code="two-bridges",
-        level="warn",
+        level="error",
         subject=SUBJECT,
         sentence=(
             f"The {called(bridge.twin)} and another one ({bridge.zid[:6]}) pass on the same nodes "
-            "on DDS: what they send comes twice and is counted once, what is published here "
-            "reaches them twice, and services run twice. Stop one."
+            "on DDS, and each passes on what the other brings: one message or call can go round "
+            "without end, and a service runs again and again. Stop one."
         ),
         evidence=(
             f"both are in domain {settings.domain}" if settings else "both show the same nodes",
@@ -377,11 +377,12 @@ def _shared_nodes(bridges: list[Bridge]) -> Iterator[Finding]:
     for names, paths in together.items():
         yield Finding(
             code="shared-domain",
-            level="warn",
+            level="error",
             subject=SUBJECT,
             sentence=(
                 f"The bridges {listed(names)} found the same nodes on DDS, so each robot is here "
-                f"under several names ({listed(paths, 3)}): start each bridge on its robot with "
+                f"under several names ({listed(paths, 3)}), and what one bridge brings the other "
+                "passes on again, without end. Start each bridge on its robot with "
                 "--ros-localhost-only, or give each robot a ROS_DOMAIN_ID of its own."
             ),
             evidence=tuple(

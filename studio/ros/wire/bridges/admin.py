@@ -183,16 +183,18 @@ def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[tup
             continue
         if kind is None or not isinstance(value, dict):
             continue
-        if _is_passing(cast("Json", value), f"{zid}:{name}"):
+        if _is_passing(kind, cast("Json", value), f"{zid}:{name}"):
             found.add((kind, f"/{name}"))
     return frozenset(found)
 
 
-def _is_passing(route: Json, remote: str) -> bool:
-    """Whether a route serves a session, and has its end on DDS where it tells of that."""
+def _is_passing(kind: RouteKind, route: Json, remote: str) -> bool:
+    """Whether a route serves a session; of subscriptions, which are not announced, any."""
+    if kind is RouteKind.SUBSCRIPTION:
+        return route.get("dds_reader") != ""
     served = route.get("remote_routes")
     is_served = isinstance(served, list) and remote in cast("list[object]", served)
-    return is_served and route.get("is_active") is not False and route.get("dds_reader") != ""
+    return is_served and route.get("is_active") is not False
 
 
 def _read_one(told: Told, parts: list[str], value: object) -> None:

@@ -5,94 +5,64 @@ from __future__ import annotations
 import contextlib
 import threading
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-from studio.ros.tokens import EndpointKind
 from studio.ros.wire.zenoh import Declaration, Session, ZError, declare_token
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-_LINGERS_S: Final = 1.0
-"""How long the token of subscriptions is kept after the last of them."""
-
 
 @dataclass(slots=True)
-class _Kept:
-    """A token and who needs it; None: nobody could tell it so far."""
+class _Shown:
+    """A token, and the ends that need it."""
 
-    declared: Declaration | None = None
+    declared: Declaration
     holders: set[Hashable] = field(default_factory=set["Hashable"])
-    ending: threading.Timer | None = None
 
 
 class Announcements:
-    """Keeps one token for all ends of a kind and name, as long as there is one of them.
+    """Shows one token for all ends of a kind and name, as long as there is one of them.
 
-    A bridge notes sessions by topic. With the first token that goes it ends what it has for the
-    session, whatever others there are, and reads the topic no more until all subscribers of
-    Zenoh have gone. For the same reason a subscription that follows on one that has just ended
-    finds its token still there: the bridge might hear of the end after the begin.
+    A bridge notes sessions by kind and name. With the first token that goes it ends what it has
+    for the session, whatever others there are.
     """
 
     def __init__(self, zenoh: Session) -> None:
         self._zenoh = zenoh
         self._lock = threading.Lock()
-        self._kept: dict[tuple[EndpointKind, str], _Kept] = {}
+        self._shown: dict[str, _Shown] = {}
+        """By what the token says before type and QoS."""
 
-    def hold(self, kind: EndpointKind, topic: str, holder: Hashable, token: str | None) -> None:
+    def hold(self, token: str, holder: Hashable) -> None:
         """Announce an end for as long as it holds this; again is harmless.
-
-        Args:
-            kind: Of the end.
-            topic: Its full name.
-            holder: The end.
-            token: What to show if nothing is shown yet; None: it needs what others show.
 
         Raises:
             ZError: The session is closed.
         """
+        place = _place(token)
         with self._lock:
-            kept = self._kept.setdefault((kind, topic), _Kept())
-            kept.holders.add(holder)
-            if kept.ending is not None:
-                kept.ending.cancel()
-                kept.ending = None
-            if kept.declared is None and token is not None:
-                kept.declared = declare_token(self._zenoh, token)
+            shown = self._shown.get(place)
+            if shown is None:
+                shown = self._shown[place] = _Shown(declare_token(self._zenoh, token))
+            shown.holders.add(holder)
 
-    def release(self, kind: EndpointKind, topic: str, holder: Hashable) -> None:
+    def release(self, token: str, holder: Hashable) -> None:
         """Hold it no more; again is harmless."""
-        place = (kind, topic)
+        place = _place(token)
         with self._lock:
-            kept = self._kept.get(place)
-            if kept is None or holder not in kept.holders:
+            shown = self._shown.get(place)
+            if shown is None:
                 return
-            kept.holders.discard(holder)
-            if kept.holders:
+            shown.holders.discard(holder)
+            if shown.holders:
                 return
-            if kind is not EndpointKind.SUBSCRIPTION:
-                self._end(place)
-                return
-            kept.ending = threading.Timer(_LINGERS_S, self._end_unheld, (place, kept))
-            kept.ending.daemon = True
-            kept.ending.start()
+            del self._shown[place]
+            if not self._zenoh.is_closed():
+                with contextlib.suppress(ZError):
+                    shown.declared.undeclare()
 
-    def close(self) -> None:
-        """Wait for nothing any more, once the session is closed."""
-        with self._lock:
-            for kept in self._kept.values():
-                if kept.ending is not None:
-                    kept.ending.cancel()
-            self._kept.clear()
 
-    def _end_unheld(self, place: tuple[EndpointKind, str], ended: _Kept) -> None:
-        with self._lock:
-            if self._kept.get(place) is ended and not ended.holders:
-                self._end(place)
-
-    def _end(self, place: tuple[EndpointKind, str]) -> None:
-        declared = self._kept.pop(place).declared
-        if declared is not None and not self._zenoh.is_closed():
-            with contextlib.suppress(ZError):
-                declared.undeclare()
+def _place(token: str) -> str:
+    """Return kind and name, by which a bridge notes what a session announces."""
+    return "/".join(token.split("/")[3:5])

@@ -12,7 +12,7 @@ from studio.ros.condition import Condition
 from studio.ros.tokens import EndpointKind, gid_of
 from studio.ros.wire.bridges.admin import read_answers
 from studio.ros.wire.bridges.announcements import Announcements
-from studio.ros.wire.bridges.bridge import Bridge, BridgedEnd, Met, Sender, bridges_of, senders_of
+from studio.ros.wire.bridges.bridge import Bridge, Met, Sender, bridges_of, senders_of
 from studio.ros.wire.bridges.dialect import BRIDGES, TOKENS, Route, parse_bridge_token
 from studio.ros.wire.zenoh import (
     ReadingThread,
@@ -64,8 +64,7 @@ class Bridges:
         self._route_count = 0
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
-        self._brought: dict[str, BridgedEnd] = {}
-        """A publisher of each topic that comes through a bridge."""
+        self._routed: frozenset[str] = frozenset()
         self._listeners: tuple[Callable[[], None], ...] = ()
         self.malformed = 0
         """How many tokens were none of a bridge."""
@@ -88,7 +87,6 @@ class Bridges:
         self._closed.set()
         self._due.set()
         self._reader.close()
-        self.announcements.close()
         asking = self._asking
         if asking is not None and asking is not threading.current_thread():
             wait_for_thread(asking)
@@ -140,10 +138,10 @@ class Bridges:
             same_topic.pop(side, None)
             if not same_topic:
                 self._sides.pop(side.topic, None)
-            side.update(is_used=False, brought=None)
+            side.update(is_used=False, is_routed=False)
 
     def _update(self, side: BridgeSide[Any]) -> None:
-        side.update(is_used=self.is_used, brought=self._brought.get(side.topic))
+        side.update(is_used=self.is_used, is_routed=side.topic in self._routed)
 
     def _forget(self, listener: Callable[[], None]) -> None:
         with self._changed:
@@ -260,12 +258,12 @@ class Bridges:
         if self._closed.is_set():
             return
         used = [one for one in current if one.is_used]
-        brought = {
-            end.name: end for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
-        }
+        routed = frozenset(
+            end.name for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
+        )
         is_switched = bool(used) is not self.is_used
-        changed = self._sides.keys() if is_switched else brought.keys() ^ self._brought.keys()
-        self.is_used, self._brought = bool(used), brought
+        changed = self._sides.keys() if is_switched else routed ^ self._routed
+        self.is_used, self._routed = bool(used), routed
         for topic in tuple(changed):
             for side in tuple(self._sides.get(topic, ())):
                 self._update(side)

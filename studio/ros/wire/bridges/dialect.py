@@ -9,7 +9,7 @@ import re
 import struct
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Final, Protocol
+from typing import Final
 
 from studio.errors import AttachmentError, RosNameError, TokenError
 from studio.ros.attachment import GID_BYTES, Attachment
@@ -193,10 +193,16 @@ def _action_ends(route: Route) -> tuple[RouteEnd, ...]:
 
 
 def announcement(end: EndpointToken) -> str | None:
-    """Return the token by which bridges make a route to an end of ours.
+    """Return the token by which bridges make a route to an end of ours; None: it needs none.
 
-    Of an action they expect one for all parts, which its send_goal brings; None for the others.
+    Of an action they expect one for all parts, which its send_goal brings. A subscription is not
+    announced: they read a topic from DDS as soon as Zenoh has a subscriber, with the QoS of the
+    publisher on DDS. Of one that was announced before that publisher is there they take the QoS
+    of the subscription, which may not match it; and where one of two announced is withdrawn they
+    read no more for the other.
     """
+    if end.kind is EndpointKind.SUBSCRIPTION:
+        return None
     kind, name, type_name = RouteKind(end.kind.value), end.name, end.type_name
     if _ACTION in name:
         action, _, part = name.rpartition(_ACTION)
@@ -205,40 +211,14 @@ def announcement(end: EndpointToken) -> str | None:
         is_server = end.kind is EndpointKind.SERVICE
         kind = RouteKind.ACTION_SERVER if is_server else RouteKind.ACTION_CLIENT
         name, type_name = action, type_name.removesuffix("_SendGoal")
-    head = "/".join(("@", end.node.zid, _MARK, kind, *_mangled(name, type_name)))
+    mangled = (bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH))
+    head = "/".join(("@", end.node.zid, _MARK, kind, *mangled))
     if end.kind in {EndpointKind.SERVICE, EndpointKind.CLIENT}:
         return head
     return f"{head}/{_qos_text(end)}"
 
 
-class _Told(Protocol):
-    """What is announced of an end."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def type_name(self) -> str: ...
-    @property
-    def type_hash(self) -> str: ...
-    @property
-    def qos(self) -> QoSProfile: ...
-
-
-def bare_announcement(zid: str, publisher: _Told) -> str:
-    """Return the token of a session's subscriber of what a publisher sends, which is no end of ROS.
-
-    Whom it was not told of, a bridge does not read on for when others leave the topic.
-    """
-    mangled = _mangled(publisher.name, publisher.type_name)
-    head = "/".join(("@", zid, _MARK, RouteKind.SUBSCRIPTION, *mangled))
-    return f"{head}/{_qos_text(publisher)}"
-
-
-def _mangled(name: str, type_name: str) -> tuple[str, str]:
-    return bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH)
-
-
-def _qos_text(end: _Told) -> str:
+def _qos_text(end: EndpointToken) -> str:
     """Write a profile, and the hash, which DDS nodes since Iron look for."""
     qos = end.qos
     reliable = int(qos.reliability is not ReliabilityPolicy.BEST_EFFORT)

@@ -7,14 +7,13 @@ import logging
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from studio.ros.tokens import EndpointKind
-from studio.ros.wire.bridges.dialect import announcement, bare_announcement, bridge_key
+from studio.ros.wire.bridges.dialect import announcement, bridge_key
 from studio.ros.wire.zenoh import Declaration, Session, ZError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.tokens import EndpointToken
-    from studio.ros.wire.bridges.bridge import BridgedEnd
     from studio.ros.wire.bridges.bridges import Bridges
 
 DeclaredT = TypeVar("DeclaredT", bound=Declaration)
@@ -25,14 +24,14 @@ _log = logging.getLogger(__name__)
 class BridgeSide(Generic[DeclaredT]):
     """The half of an end that bridges meet, beside the one that rmw_zenoh's nodes meet.
 
-    Its token is shown while a bridge is there: a bridge routes into DDS only what somebody
-    announces. A subscriber is declared only where a bridge brings the topic, for publishers of
+    It is announced while a bridge is there: a bridge routes into DDS only what somebody announces.
+    A subscriber is declared only where a bridge brings the topic, for publishers of
     rmw_zenoh have a side for bridges, too, and would send to it.
 
     Args:
         zenoh: The session.
         bridges: Those that it meets.
-        token: The end; None: a subscriber of `topic` that is none of ROS, of whatever type.
+        token: The end; None: a subscriber of `topic` that is no subscription of a node.
         topic: Its full name.
         declare: Declares what takes or sends samples or requests, at a data key.
     """
@@ -47,36 +46,30 @@ class BridgeSide(Generic[DeclaredT]):
     ) -> None:
         self._zenoh, self._bridges, self._declare = zenoh, bridges, declare
         self._token = announcement(token) if token else None
-        self._is_bare = token is None
-        self._zid = str(zenoh.info.zid()) if token is None else ""
-        self._kind = token.kind if token else EndpointKind.SUBSCRIPTION
-        self._needs_route = self._kind is EndpointKind.SUBSCRIPTION
+        self._needs_route = token is None or token.kind is EndpointKind.SUBSCRIPTION
         self.topic = topic
         self.declared: DeclaredT | None = None
         """None while no bridge is there, or none needs it."""
         bridges.join(self)
 
-    def update(self, *, is_used: bool, brought: BridgedEnd | None) -> None:
+    def update(self, *, is_used: bool, is_routed: bool) -> None:
         """Declare what is needed now, and take back the rest; called by `Bridges` in turn.
 
         Args:
             is_used: Whether a bridge is there.
-            brought: A publisher of the topic that comes through one; None: none does.
+            is_routed: Whether one brings samples of the topic.
         """
-        is_needed = is_used and (brought is not None or not self._needs_route)
-        token = self._token
-        if token is None and self._is_bare and brought is not None:
-            token = bare_announcement(self._zid, brought)
+        is_needed = is_used and (is_routed or not self._needs_route)
         try:
             if is_needed and self.declared is None:
                 self.declared = self._declare(bridge_key(self.topic))
-            if is_used:
-                self._bridges.announcements.hold(self._kind, self.topic, self, token)
+            if is_used and self._token is not None:
+                self._bridges.announcements.hold(self._token, self)
         except ZError as error:
             if not self._zenoh.is_closed():
                 _log.warning("Bridges to DDS do not get %s. %s", self.topic, error)
-        if not is_used:
-            self._bridges.announcements.release(self._kind, self.topic, self)
+        if not is_used and self._token is not None:
+            self._bridges.announcements.release(self._token, self)
         if not is_needed:
             declared, self.declared = self.declared, None
             self._undeclare(declared)

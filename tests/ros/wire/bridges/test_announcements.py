@@ -1,4 +1,4 @@
-"""One token for all ends of a name, kept until the last of them; of subscriptions a bit longer."""
+"""One token for all ends of a kind and name, kept until the last of them has gone."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 
-from studio.ros.tokens import EndpointKind
 from studio.ros.wire.bridges.announcements import Announcements
 from studio.ros.wire.zenoh import live_tokens
 from tests.support.wire import session_pair, wait_until
@@ -14,69 +13,48 @@ from tests.support.wire import session_pair, wait_until
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from studio.ros.wire.session import WireSession
+
 pytestmark = pytest.mark.network
-HEARD, SENT = EndpointKind.SUBSCRIPTION, EndpointKind.PUBLISHER
-FIRST, OTHER = "announced/first", "announced/other"
+HEAD = "@/1a/@ros2_lv"
+FIRST = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:0:0,5"
+OTHER = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:0:0,50"
+SERVER = f"{HEAD}/SS/chatter/std_srvs§srv§Empty"
+MARKER = f"{HEAD}/MP/marker/std_msgs§msg§String/:1:0:0,5"
 
 
 class Met(NamedTuple):
+    """What is announced, and a session that sees it."""
+
     announcements: Announcements
-    seen: Generator[set[str]]
+    other: WireSession
 
     def shown(self) -> set[str]:
-        """What another session sees now."""
-        return next(self.seen)
+        return set(live_tokens(self.other.zenoh, f"{HEAD}/*/**", 5.0))
 
 
 @pytest.fixture
 def met() -> Generator[Met]:
     with session_pair() as (one, other):
-
-        def seen() -> Generator[set[str]]:
-            while True:
-                yield set(live_tokens(other.zenoh, "announced/**", 5.0))
-
-        announcements = Announcements(one.zenoh)
-        yield Met(announcements, seen())
-        announcements.close()
+        yield Met(Announcements(one.zenoh), other)
 
 
 def test_the_first_token_stands_until_the_last_end_is_gone(met: Met):
-    met.announcements.hold(SENT, "/chatter", "one", FIRST)
-    met.announcements.hold(SENT, "/chatter", "other", OTHER)
+    met.announcements.hold(FIRST, "one")
+    met.announcements.hold(OTHER, "other")
     wait_until("it is shown", lambda: met.shown() == {FIRST})
-    met.announcements.release(SENT, "/chatter", "one")
-    met.announcements.release(SENT, "/chatter", "one")
-    met.announcements.hold(SENT, "/marker", "marker", "announced/marker")
-    wait_until("what came later is shown", lambda: "announced/marker" in met.shown())
-    assert FIRST in met.shown()
-    met.announcements.release(SENT, "/chatter", "other")
-    wait_until("it is gone", lambda: met.shown() == {"announced/marker"})
+    met.announcements.release(FIRST, "one")
+    met.announcements.release(FIRST, "one")
+    met.announcements.hold(MARKER, "marker")
+    wait_until("what came later is shown", lambda: MARKER in met.shown())
+    assert met.shown() == {FIRST, MARKER}
+    met.announcements.release(OTHER, "other")
+    wait_until("it is gone", lambda: met.shown() == {MARKER})
 
 
-def test_kinds_of_one_topic_are_apart(met: Met):
-    met.announcements.hold(SENT, "/chatter", "one", FIRST)
-    met.announcements.hold(HEARD, "/chatter", "one", OTHER)
-    wait_until("both are shown", lambda: met.shown() == {FIRST, OTHER})
-    met.announcements.release(SENT, "/chatter", "one")
-    wait_until("one is left", lambda: met.shown() == {OTHER})
-
-
-def test_who_announces_nothing_keeps_what_others_announced(met: Met):
-    met.announcements.hold(SENT, "/chatter", "counter", None)
-    met.announcements.hold(SENT, "/chatter", "one", FIRST)
-    wait_until("it is shown", lambda: met.shown() == {FIRST})
-    met.announcements.release(SENT, "/chatter", "one")
-    met.announcements.hold(SENT, "/marker", "marker", "announced/marker")
-    wait_until("what came later is shown", lambda: "announced/marker" in met.shown())
-    assert FIRST in met.shown()
-
-
-def test_a_subscription_that_follows_on_another_finds_its_token(met: Met):
-    met.announcements.hold(HEARD, "/chatter", "one", FIRST)
-    wait_until("it is shown", lambda: met.shown() == {FIRST})
-    met.announcements.release(HEARD, "/chatter", "one")
-    met.announcements.hold(HEARD, "/chatter", "other", OTHER)
-    assert met.shown() == {FIRST}
-    met.announcements.release(HEARD, "/chatter", "other")
-    wait_until("it is gone at last", lambda: met.shown() == set())
+def test_kinds_of_one_name_are_apart(met: Met):
+    met.announcements.hold(FIRST, "one")
+    met.announcements.hold(SERVER, "one")
+    wait_until("both are shown", lambda: met.shown() == {FIRST, SERVER})
+    met.announcements.release(FIRST, "one")
+    wait_until("one is left", lambda: met.shown() == {SERVER})
