@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 import pytest
+from playwright.sync_api import Error
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
@@ -104,8 +105,16 @@ def open_from_ros(tab: StudioPage) -> None:
     topic = window.get_by_label("Topic with the description")
     wait_until("its topic", lambda: topic.input_value() == "/robot_description")
     window.get_by_role("button", name="Open", exact=True).click()
-    tab.page.wait_for_function("location.pathname === '/d/robot-description'")
+    wait_until("its document", lambda: path_of(tab) == "/d/robot-description")
     wait_until("the robot to be drawn", tab.has_drawn_robot)
+
+
+def path_of(tab: StudioPage) -> str:
+    """Where the tab is; empty on its way to another address."""
+    try:
+        return tab.page.evaluate("location.pathname")
+    except Error:
+        return ""
 
 
 def draw(tab: StudioPage) -> None:
