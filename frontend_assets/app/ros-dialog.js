@@ -8,6 +8,7 @@
 /** @import { ComponentChildren, Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useSignal } from "vendor/preact.js";
+import { DdsTag } from "../lib/dds-tag.js";
 import { t } from "../lib/i18n.js";
 import { Dialog, Icon } from "../lib/ui.js";
 import { mayManage } from "../model/connection.js";
@@ -24,6 +25,8 @@ import {
   ros,
 } from "../model/ros.js";
 import { CodeLine } from "./code-line.js";
+import { Bridges, WhyEmpty } from "./ros-bridges.js";
+import { Recipes } from "./ros-recipes.js";
 
 /** @returns {Place} where the studio is, or looks */
 const placeNow = () => ({
@@ -76,7 +79,7 @@ export function RosDialog({ onClose }) {
   return html`<${Dialog} title=${t("ros")} closeLabel=${t("close")} class="ros-dialog" onClose=${onClose}>
     <form class="open-form" onSubmit=${submit}>
       <div class="form-scroll">
-        <${Standing} />
+        <${Standing} onConnect=${connecting.connect} />
         <${PlaceFields} place=${connecting.draft} />
         <${RecentPlaces} onChoose=${(/** @type {Place} */ place) => {
           connecting.draft.value = place;
@@ -114,9 +117,10 @@ function ConnectButton({ busy, off }) {
     ${isUnderWay && html`<span class="spinner"></span>`}${t("ros.connect")}</button>`;
 }
 
-/** How the connection stands, in words; and where, and who else is there. */
-function Standing() {
-  const { state, router, endpoint, domain, distro } = ros.value;
+/** @param {{onConnect: (place: Place) => void}} props how the connection stands, in words; and where, and who else is there */
+function Standing({ onConnect }) {
+  const { state, router, endpoint, domain, distro, bridges } = ros.value;
+  const onDomain = (/** @type {number} */ other) => onConnect({ ...placeNow(), domain: other });
   const isThere = state === "connected" || state === "lost";
   return html`<p class="dialog-text ros-lead"><${Icon} name=${state === "connected" ? "check" : state === "off" ? "info" : "alert"} size=${16} /><span>${t(`ros.${state}.text`)}</span></p>
     ${
@@ -126,14 +130,15 @@ function Standing() {
       <dt>${t("ros.domain")}</dt><dd>${domain}</dd>
       <dt>${t("ros.distro")}</dt><dd>${distro}</dd>
       ${state === "connected" && html`<dt>${t("ros.others")}</dt><dd><${Nodes} /></dd>`}
+      ${bridges.length > 0 && html`<dt>${t("ros.bridges")}</dt><dd><${Bridges} bridges=${bridges} domain=${domain} onDomain=${onDomain} /></dd>`}
     </dl>`
     }`;
 }
 
 function Nodes() {
-  const { nodes, node_count: count } = ros.value;
+  const { nodes, behind, node_count: count } = ros.value;
   if (count === 0) return html`<span class="muted">${t("ros.nobody")}</span>`;
-  return html`<ul class="ros-nodes">${nodes.map((name) => html`<li key=${name}>${name}</li>`)}
+  return html`<ul class="ros-nodes">${nodes.map((name) => html`<li key=${name}>${name}<${DdsTag} bridge=${behind[name] ?? ""} /></li>`)}
     ${count > nodes.length && html`<li class="muted">${t("ros.more", { count: count - nodes.length })}</li>`}</ul>`;
 }
 
@@ -175,31 +180,6 @@ function RecentPlaces({ onChoose }) {
   </div>`;
 }
 
-const ZENOH = [
-  "sudo apt install ros-$ROS_DISTRO-rmw-zenoh-cpp",
-  "export RMW_IMPLEMENTATION=rmw_zenoh_cpp",
-  "ros2 run rmw_zenoh_cpp rmw_zenohd",
-];
-const DDS = ["zenoh-bridge-ros2dds -l tcp/0.0.0.0:7447"];
-
-/** How a robot is made to be met: what to type there, by what its nodes speak. */
-function Recipes() {
-  return html`<details class="ros-recipes"><summary>${t("ros.recipes")}</summary>
-    <${Recipe} name="zenoh" lines=${ZENOH} />
-    <${Recipe} name="dds" lines=${DDS} />
-  </details>`;
-}
-
-/** @param {{name: "zenoh" | "dds", lines: readonly string[]}} props */
-function Recipe({ name, lines }) {
-  return html`<section aria-label=${t(`ros.recipe.${name}`)}>
-    <h3>${t(`ros.recipe.${name}`)}</h3>
-    <p class="ros-hint">${t(`ros.recipe.${name}.text`)}</p>
-    ${lines.map((code) => html`<${CodeLine} key=${code} code=${code} />`)}
-    <p class="ros-hint">${t(`ros.recipe.${name}.then`)}</p>
-  </section>`;
-}
-
 const NAMED = 3;
 
 /**
@@ -209,18 +189,25 @@ const NAMED = 3;
  */
 function Report({ report, onConnect }) {
   const isFine = report.verdict === "fine";
+  const onDomain = (/** @type {number} */ domain) => onConnect(placeOf(report, { domain }));
   return html`<section class=${`ros-report ${isFine ? "good" : "amber"}`} role="status" aria-label=${t("ros.report")}>
     <p><${Icon} name=${isFine ? "check" : "alert"} size=${15} /><span>${sentence(report)}</span></p>
     <${Remedy} report=${report} onConnect=${onConnect} />
+    ${!isMet(report) && report.bridges.length > 0 && html`<${Bridges} bridges=${report.bridges} domain=${report.domain} onDomain=${onDomain} />`}
   </section>`;
 }
+
+/** @param {WireReport} report @returns {boolean} it is of where the studio is connected, whose bridges are listed already */
+const isMet = ({ endpoint, domain }) =>
+  ros.value.state === "connected" && ros.value.endpoint === endpoint && ros.value.domain === domain;
 
 /** @param {WireReport} report @returns {string} */
 function sentence(report) {
   const { verdict, endpoint, domain, distro, nodes, unseen } = report;
+  const isUntold = verdict === "fine" && report.distros.length === 0;
   const named = report.types.slice(0, NAMED).join(", ");
   const more = report.types.length - NAMED;
-  return t(`ros.report.${verdict}`, {
+  return t(isUntold ? "ros.report.fine.untold" : `ros.report.${verdict}`, {
     endpoint,
     domain,
     distro,
@@ -237,6 +224,12 @@ function Remedy({ report, onConnect }) {
       return html`<${StartRouter} report=${report} />`;
     case "other_domain":
       return html`<${Domains} report=${report} onConnect=${onConnect} />`;
+    case "fine":
+      return isOfOthers(report)
+        ? html`<p class="ros-hint">${t("ros.report.fine.distro")}</p><${Distros} report=${report} onConnect=${onConnect} />`
+        : null;
+    case "bridge":
+      return html`<${WhyEmpty} bridges=${report.bridges} />`;
     case "other_distro":
       return html`<${Distros} report=${report} onConnect=${onConnect} />`;
     case "unseen":
@@ -248,6 +241,10 @@ function Remedy({ report, onConnect }) {
       return null;
   }
 }
+
+/** @param {WireReport} report @returns {boolean} the nodes are of another distribution, whose types the page knows */
+const isOfOthers = ({ distro, distros }) =>
+  distros.length > 0 && !distros.includes(distro) && DISTROS.some((one) => distros.includes(one));
 
 /** @param {{report: WireReport}} props the commands that start one, there */
 function StartRouter({ report }) {

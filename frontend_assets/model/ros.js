@@ -52,6 +52,8 @@ export const ros = signal({
   distro: "",
   nodes: [],
   node_count: 0,
+  behind: {},
+  bridges: [],
   nearby_count: 0,
   trouble: "",
 });

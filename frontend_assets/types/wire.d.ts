@@ -230,6 +230,25 @@ export interface Bookmarks {
   trouble: string;
 }
 
+/** A bridge between DDS and Zenoh, as it was started and what is behind it. */
+export interface BridgeView {
+  name: string;
+  version: string;
+  domain: number | null;
+  namespace: string;
+  node_count: number;
+  fast_dds_count: number;
+  hosts: string[];
+  state: "used" | "other_domain" | "empty" | "twin";
+  twin: string;
+  allows: boolean;
+  rules: string[];
+  withheld: string[];
+  withheld_count: number;
+  slowed: SlowedTopics[];
+  localhost_only: boolean;
+}
+
 /** A run ended: how long it took from the edit to the scene. */
 export interface Built {
   type: "built";
@@ -1066,7 +1085,7 @@ export interface FindWireRobots {
 export interface Finding {
   code: string;
   level: "error" | "warn" | "note";
-  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "bridges" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
   sentence: string;
   evidence: string[];
   about: Concern[];
@@ -1796,6 +1815,7 @@ export interface GraphNodeView {
   name: string;
   count: number;
   own: boolean;
+  bridge: string;
 }
 
 /** Hand a copy in as it is now; handed in again, it takes the place of the one before. */
@@ -2438,12 +2458,13 @@ export interface MessageView {
   comment: string;
 }
 
-/** A publisher and a subscription that would not meet on DDS. */
+/** A publisher and a subscription that do not fit each other, or would not on DDS. */
 export interface Misfit {
   publisher: string;
   subscriber: string;
   reasons: string[];
   heard: boolean;
+  way: "zenoh" | "bridge" | "dds";
 }
 
 /** Put a saved view before another; empty: at the end. */
@@ -4230,6 +4251,12 @@ export interface Sites {
   changed: SiteView[];
 }
 
+/** Topics of which a bridge passes on so many messages a second at most. */
+export interface SlowedTopics {
+  topics: string;
+  rate_hz: number;
+}
+
 /** Let others join; a class that was paused goes on. */
 export interface StartClass {
   request?: number;
@@ -4404,7 +4431,7 @@ export type SubjectKind = "property" | "arg" | "parameter" | "block" | "macro" |
 
 /** What was looked at of one subject, so that "all is well" can be trusted. */
 export interface SubjectView {
-  subject: "router" | "network" | "domain" | "distribution" | "versions" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
+  subject: "router" | "network" | "domain" | "distribution" | "versions" | "bridges" | "nodes" | "topics" | "types" | "qos" | "services" | "parameters" | "clocks" | "rates" | "stamps" | "frames" | "displays" | "document" | "browser";
   state: "well" | "found" | "not_examined";
   count: number;
   detail: string;
@@ -4622,6 +4649,7 @@ export interface Tools {
 export interface TopicEnd {
   node: string;
   own: boolean;
+  bridge: string;
   type_name: string;
   reliability: string;
   durability: string;
@@ -4906,6 +4934,7 @@ export interface WireReport {
   distros: string[];
   types: string[];
   unseen: number;
+  bridges: BridgeView[];
 }
 
 /** Answer to `find_wire_robots`: topics with a robot description, the usual one first. */
@@ -4926,6 +4955,8 @@ export interface WireState {
   distro: string;
   nodes: string[];
   node_count: number;
+  behind: Record<string, string>;
+  bridges: BridgeView[];
   nearby_count: number;
   trouble: string;
 }

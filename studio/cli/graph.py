@@ -65,8 +65,8 @@ def settle(graph: Graph, options: argparse.Namespace) -> None:
     seen = -1
     while seen != graph.version:
         seen = graph.version
-        graph.settle()  # asked again: the answer of the first time may have been a part of it
         graph.wait_for(lambda: graph.version != seen, _QUIET_S)  # noqa: B023 - done within
+        graph.settle()  # asked again: the answer of the first time may have been a part of it
     if options.spin_time > 0:
         graph.wait_for(lambda: False, options.spin_time)
 

@@ -82,6 +82,51 @@ class OpenFromWire(Command):
     parameter: str = Field(default="robot_description", max_length=300)
 
 
+BridgeState: TypeAlias = Literal["used", "other_domain", "empty", "twin"]
+"""`other_domain`: it passes on another domain, so it is not used; `empty`: no node on DDS is seen
+behind it; `twin`: another bridge in the same DDS domain shows all its nodes."""
+
+
+class SlowedTopics(Message):
+    """Topics of which a bridge passes on so many messages a second at most."""
+
+    topics: str
+    """A regular expression."""
+    rate_hz: float
+
+
+class BridgeView(Message):
+    """A bridge between DDS and Zenoh, as it was started and what is behind it."""
+
+    name: str
+    """Its namespace, else the machine of its nodes."""
+    version: str
+    """Such as `1.10.0`; empty: it does not tell it."""
+    domain: int | None
+    """Of DDS; None: it does not tell it."""
+    namespace: str
+    """In front of all its names; `/` without."""
+    node_count: int
+    """Nodes on DDS behind it, without those that another bridge shows as well."""
+    fast_dds_count: int
+    """Those of them on Fast DDS: of these the bridge brings topics only."""
+    hosts: tuple[str, ...]
+    """The machines of its nodes; the first ones."""
+    state: BridgeState
+    twin: str
+    """The bridge that shows some of the same nodes, or all; empty: none does."""
+    allows: bool
+    """Whether `rules` are what is let through, and not what is kept out."""
+    rules: tuple[str, ...]
+    """Its allow or deny list, as `publishers: /scan|/tf`; empty: it has none."""
+    withheld: tuple[str, ...]
+    """Topics, services and actions of its nodes that it does not let through; the first ones."""
+    withheld_count: int
+    slowed: tuple[SlowedTopics, ...]
+    localhost_only: bool
+    """Whether it meets only nodes of its own machine."""
+
+
 class WireState(Event):
     """State of the studio's connection to a ROS 2 system; sent to every page."""
 
@@ -96,6 +141,10 @@ class WireState(Event):
     nodes: tuple[str, ...]
     """Full names, without the studio's own; the first ones."""
     node_count: int
+    behind: dict[str, str]
+    """Those of `nodes` that are on DDS, each with the name of its bridge."""
+    bridges: tuple[BridgeView, ...]
+    """The first ones, also of other domains."""
     nearby_count: int
     """While not connected: nodes that are met at the router of this machine."""
     trouble: str
@@ -148,8 +197,8 @@ Verdict: TypeAlias = Literal[
     "unseen",
 ]
 """`foreign`: something else holds the place; `not_admitted`: the router wants another name or
-certificate; `alone`: a router without nodes; `bridge`: only one for DDS, which speaks other
-keys; `other_distro`: nodes are there, and types of theirs have another form; `unseen`: processes
+certificate; `alone`: a router without nodes; `bridge`: only one for DDS, behind which no node is
+seen; `other_distro`: nodes are there, and types of theirs have another form; `unseen`: processes
 publish, whose nodes the router does not show, for it is newer than they are."""
 
 
@@ -173,12 +222,15 @@ class WireReport(Event):
     starts_router: bool
     """Connecting would start a router here."""
     nodes: int
-    """Other nodes in the domain."""
+    """Other nodes in the domain, also those on DDS behind bridges."""
     domains: tuple[DomainView, ...]
     """Domains with nodes, sorted; the first ones."""
     distros: tuple[str, ...]
-    """Distributions whose types the nodes of the domain have, as far as their tokens show."""
+    """Distributions whose types the nodes of the domain have, as far as they show it: nodes on DDS
+    that tell no hashes are as those of Humble."""
     types: tuple[str, ...]
     """Types whose hash differs from the studio's; the first ones."""
     unseen: int
     """Processes that publish in the domain, while none of their nodes is seen."""
+    bridges: tuple[BridgeView, ...]
+    """Bridges to DDS that are met there; the first ones."""

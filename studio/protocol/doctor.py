@@ -14,9 +14,9 @@ FINDINGS_MAX = 300
 Level: TypeAlias = Literal["error", "warn", "note"]
 """`error`: it cannot work; `warn`: it works otherwise than it seems; `note`: good to know."""
 SubjectName: TypeAlias = Literal[
-    "router", "network", "domain", "distribution", "versions", "nodes", "topics", "types", "qos",
-    "services", "parameters", "clocks", "rates", "stamps", "frames", "displays", "document",
-    "browser",
+    "router", "network", "domain", "distribution", "versions", "bridges", "nodes", "topics",
+    "types", "qos", "services", "parameters", "clocks", "rates", "stamps", "frames", "displays",
+    "document", "browser",
 ]  # fmt: skip
 ConcernKind: TypeAlias = Literal[
     "node", "topic", "service", "action", "frame", "parameter", "interface", "display", "document",

@@ -28,6 +28,8 @@ class GraphNodeView(Message):
     """How many nodes have this name; more than one is a fault."""
     own: bool
     """Whether it is the studio's."""
+    bridge: str
+    """The bridge to DDS that they are behind, or several; empty: none is on DDS."""
 
 
 class GraphLinkView(Message):

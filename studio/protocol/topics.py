@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from studio.protocol.displays import RosName
 from studio.protocol.message import Command, Event, Message
@@ -48,6 +48,8 @@ class TopicEnd(Message):
     """Full name of its node."""
     own: bool
     """Whether it is the studio's."""
+    bridge: str
+    """The bridge to DDS that its node is behind; empty: it is not on DDS."""
     type_name: str
     reliability: str
     durability: str
@@ -58,16 +60,23 @@ class TopicEnd(Message):
     liveliness: str
     lease_s: float | None
     hash: str
+    """Empty: its node is on DDS and does not tell it, so only the name of its type is compared."""
+
+
+Way: TypeAlias = Literal["zenoh", "bridge", "dds"]
+"""How messages go from a publisher to a subscription. `bridge`: one of them is on DDS, or each
+behind a bridge of its own; `dds`: both are, behind the same bridge."""
 
 
 class Misfit(Message):
-    """A publisher and a subscription that would not meet on DDS."""
+    """A publisher and a subscription that do not fit each other, or would not on DDS."""
 
     publisher: str
     subscriber: str
     reasons: tuple[str, ...]
     heard: bool
-    """On Zenoh the messages come all the same; other types or hashes keep them apart there, too."""
+    """The messages come all the same: by Zenoh, or by a bridge, which brings no earlier ones."""
+    way: Way
 
 
 class TopicEnds(Event):

@@ -9,8 +9,8 @@ import {
   USUAL,
 } from "../../frontend_assets/panels/graph/nodes.js";
 
-/** @param {string} name @param {boolean} [own] */
-const node = (name, own = false) => ({ name, count: 1, own });
+/** @param {string} name @param {boolean} [own] @param {string} [bridge] */
+const node = (name, own = false, bridge = "") => ({ name, count: 1, own, bridge });
 /**
  * @param {string} name @param {number[]} sources @param {number[]} targets
  * @param {Partial<import("../../frontend_assets/types/wire.d.ts").GraphLinkView>} [news]

@@ -35,6 +35,7 @@ from studio.ros.wire.zenoh import (
     open_zenoh,
     read_config,
 )
+from tests.support.dds_settings import LEASE_S, loopback
 from tests.support.ros2_peer import RealNode, RealNodes
 from tests.support.wire import PATIENCE_S, free_endpoint, wait_until
 
@@ -298,6 +299,8 @@ class DdsNetwork:
         domain: int = 0,
         distro: str = "jazzy",
         config: Mapping[str, object] | None = None,
+        zenoh: Mapping[str, object] | None = None,
+        mode: str = "router",
         options: tuple[str, ...] = (),
         waits: bool = True,
     ) -> Bridge:
@@ -310,22 +313,26 @@ class DdsNetwork:
             domain: Of DDS.
             distro: ROS_DISTRO, by which it knows how long gids are.
             config: Further keys of `plugins/ros2dds`.
+            zenoh: Further keys of Zenoh's configuration.
+            mode: `router`, `peer` or `client`, which only connects.
             options: Of its command line.
             waits: Until it is seen at its endpoint.
         """
         endpoint = connect or listen or free_endpoint()
+        assert endpoint.startswith("tcp/"), "only TCP leads into the network"
         port = int(endpoint.rpartition(":")[2])
         zid = secrets.token_hex(16).replace("0", "1")  # none may begin with 0
         path = Path(self._folder.name) / f"{zid[:8]}.sock"
         line = Line.out(path, port) if connect else Line.into(port, path)
         self._lines.append(line)
-        words = ("-e", f"unixsock-stream/{path}", "-l", f"unixsock-stream/{path}.own")
-        words = words if connect else ("-l", f"unixsock-stream/{path}")
+        words = ("-e" if connect else "-l", f"unixsock-stream/{path}")
+        if connect and mode != "client":  # else it listens at a port that the next one wants too
+            words += ("-l", f"unixsock-stream/{path}.own")
         file = Path(self._folder.name) / f"{zid[:8]}.json5"
-        file.write_text(json.dumps({"plugins": {"ros2dds": dict(config or {})}}))
+        file.write_text(json.dumps({**(zenoh or {}), "plugins": {"ros2dds": dict(config or {})}}))
         fixed = ("-i", zid, "-n", namespace, "-d", str(domain), "--no-multicast-scouting")
         process = self._started(
-            (str(bridge_program()), "-c", str(file), *fixed, *words, *options),
+            (str(bridge_program()), "-c", str(file), *fixed, *words, *options, mode),
             {"ROS_DISTRO": distro, "RUST_LOG": "warn,zenoh_plugin_ros2dds=info"},
         )
         bridge = Bridge(process, zid, endpoint, line)
@@ -334,12 +341,26 @@ class DdsNetwork:
             bridge.wait_shown()
         return bridge
 
-    def robot(self, name: str = "", *, distro: str = "jazzy", domain: int = 0) -> DdsRobot:
-        """Start a robot that waits for what it is asked, or the one of that name, `classroom`."""
+    def robot(
+        self,
+        name: str = "",
+        *,
+        distro: str = "jazzy",
+        domain: int = 0,
+        lease_s: float = LEASE_S,
+    ) -> DdsRobot:
+        """Start a robot that waits for what it is asked, or the one of that name, `classroom`.
+
+        When it is killed, others miss it after `lease_s` seconds; who ends is gone at once.
+        """
         words = ("--distro", distro, "--domain", str(domain), *(("--robot", name) if name else ()))
         process = self._started(
             (sys.executable, "-m", "tests.support.dds_robot", *words),
-            {"ROS_DISTRO": distro, "PYTHONPATH": str(_TREE)},
+            {
+                "ROS_DISTRO": distro,
+                "PYTHONPATH": str(_TREE),
+                "CYCLONEDDS_URI": loopback(lease_s, self._domain_settings),
+            },
             stdin=subprocess.PIPE,
         )
         robot = DdsRobot(process)
@@ -378,18 +399,15 @@ class DdsNetwork:
         self, words: tuple[str, ...], variables: Mapping[str, str], stdin: int = subprocess.DEVNULL
     ) -> subprocess.Popen[str]:
         """Start a program in the network; the kernel ends it if this thread ends without it."""
-        from tests.support.dds_wire import LOOPBACK
-
         unwanted = ("ROS", "ZENOH", "RMW", "CYCLONE", "PYTHON")
         kept = {name: value for name, value in os.environ.items() if not name.startswith(unwanted)}
-        uri = LOOPBACK.replace("</Domain>", f"{self._domain_settings}</Domain>")
         entered = ("--user", "--preserve-credentials") if self._has_user else ()
         return subprocess.Popen(
             [
                 *("nsenter", "--target", str(self._holder.pid), *entered, "--net"),
                 *("setpriv", "--pdeathsig", "KILL", *words),
             ],
-            env={**kept, "CYCLONEDDS_URI": uri, **variables},
+            env={**kept, "CYCLONEDDS_URI": loopback(more=self._domain_settings), **variables},
             cwd=_TREE,
             stdin=stdin,
             stdout=subprocess.PIPE,

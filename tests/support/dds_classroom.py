@@ -1,4 +1,7 @@
-"""The robot of a classroom on DDS: a small body with two wheels that drives as /cmd_vel says."""
+"""The robot of a classroom on DDS: a small body with two wheels that drives as /cmd_vel says.
+
+`/driver` has the parameter `speed_max_m_s`, which holds, and the service `/reset_odometry`.
+"""
 
 from __future__ import annotations
 
@@ -25,6 +28,7 @@ _WHEEL_RADIUS_M: Final = 0.05
 _TRACK_M: Final = 0.3
 _COMMAND_LASTS_S: Final = 0.5
 """Older commands move it no more."""
+SPEED_MAX: Final = "speed_max_m_s"
 WHEELS: Final = ("left_wheel", "right_wheel")
 URDF: Final = """<robot name="classroom">
   <link name="base_link">
@@ -53,7 +57,7 @@ URDF: Final = """<robot name="classroom">
 
 
 class ClassroomRobot:
-    """Two nodes: `/driver` with the body, `/laser` with the scan, and `/talker`."""
+    """Three nodes: `/driver` with the body, `/laser` with the scan, and `/talker`."""
 
     def __init__(self, process: DdsProcess, say: Say) -> None:
         self._types, self._say = process.types, say
@@ -79,15 +83,27 @@ class ClassroomRobot:
         self._chatter = talker.create_publisher(kind(text), "/chatter", 10)
         description.publish(kind(text)(data=URDF))
         fixed.publish(kind(tf)(transforms=[self._transform("base_link", "laser", 0.15, 0.0, 0.1)]))
+        driver.open_parameters(driver, self._types)
+        driver.declare_parameter(SPEED_MAX, 1.0)
+        trigger = self._types.service("std_srvs/srv/Trigger")
+        driver.create_service(trigger, "/reset_odometry", self._reset)
         process.every(1.0 / _MOVE_HZ, self._move)
         process.every(1.0 / _SCAN_HZ, self._look)
         process.every(1.0 / _CHAT_HZ, self._talk)
 
     def _command(self, cdr: bytes) -> None:
         told = self._twist.decode(cdr)
-        self._speed_m_s, self._turn_rad_s = float(told.linear.x), float(told.angular.z)
+        fastest_m_s = float(self._driver.get_parameter(SPEED_MAX).value)
+        self._speed_m_s = max(-fastest_m_s, min(fastest_m_s, float(told.linear.x)))
+        self._turn_rad_s = float(told.angular.z)
         self._commanded_s = time.monotonic()
         self._say("cmd_vel", linear_m_s=self._speed_m_s, angular_rad_s=self._turn_rad_s)
+
+    def _reset(self, request: MessageValue, response: MessageValue) -> MessageValue:
+        del request
+        self._x_m = self._y_m = self._yaw = 0.0
+        response.success, response.message = True, "odometry is at zero"
+        return response
 
     def _move(self) -> None:
         if time.monotonic() - self._commanded_s > _COMMAND_LASTS_S:

@@ -105,6 +105,7 @@ class DdsProcess:
             while not self._asked.empty():
                 self._asked.get()()
             self._do_due()
+        self.participant.leave()
 
     def new_number(self) -> int:
         """A number that no other end of a service has."""

@@ -12,6 +12,7 @@ import hashlib
 import json
 import logging
 import signal
+import socket
 import sys
 import threading
 from typing import TYPE_CHECKING, Any, Final
@@ -163,6 +164,13 @@ class Robot:
             return
         for _ in range(count):
             publisher.publish_cdr(cdr)
+
+    def matched(self, topic: str, node: str = "/robot") -> int:
+        """How many readers a publisher has now, or how many writers a subscription has."""
+        publisher = self._publishers.get((node, topic))
+        if publisher is not None:
+            return publisher.writers[0].matched
+        return self._subscriptions[node, topic].readers[0].matched
 
     def stop(self, topic: str) -> None:
         """Send no more at a rate."""
@@ -320,6 +328,25 @@ def _read(process: DdsProcess, robot: Robot) -> None:
     process.end()
 
 
+def _wait(_number: int, _frame: FrameType | None) -> None:
+    """What a signal does to this thread: nothing."""
+
+
+def _end_by_signal(process: DdsProcess) -> None:
+    """The handler itself would wait for this thread, which waits within Cyclone."""
+    come, goes = socket.socketpair()
+    goes.setblocking(False)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _wait)
+    signal.set_wakeup_fd(goes.detach())
+
+    def end() -> None:
+        come.recv(1)
+        process.end()
+
+    threading.Thread(target=end, daemon=True).start()
+
+
 def main() -> None:
     """Do what each line says, until there are no more or SIGTERM comes."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -331,14 +358,10 @@ def main() -> None:
     process = DdsProcess(chosen.distro, chosen.domain)
     robot = Robot(process)
 
-    def end(_number: int, _frame: FrameType | None) -> None:
-        process.end()
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, end)
     if chosen.robot == "classroom":
         robot.classroom()
     threading.Thread(target=_read, args=(process, robot), daemon=True).start()
+    _end_by_signal(process)
     say("ready", participant=process.participant.guid.hex())
     process.run()
 

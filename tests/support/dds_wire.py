@@ -1,5 +1,5 @@
 # pyright: basic, reportMissingImports=false
-# ruff: noqa: ANN401, E402
+# ruff: noqa: ANN401
 """DDS as ROS 2 uses it, for any type: names, QoS, user data and the graph; payloads are raw CDR.
 
 A participant of Cyclone DDS that looks like one of rmw_cyclonedds_cpp. One process has one; what
@@ -14,18 +14,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from studio.ros.cdr import codec_of
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from tests.support.dds_settings import loopback
 
-LOOPBACK: Final = (
-    "<CycloneDDS><Domain><General>"
-    '<Interfaces><NetworkInterface name="lo"/></Interfaces>'
-    "<AllowMulticast>false</AllowMulticast></General>"
-    "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
-    "<MaxAutoParticipantIndex>24</MaxAutoParticipantIndex>"
-    '<Peers><Peer address="127.0.0.1"/></Peers></Discovery>'
-    "</Domain></CycloneDDS>"
-)
-"""CYCLONEDDS_URI of all who meet on a loopback interface, which has no multicast."""
-os.environ.setdefault("CYCLONEDDS_URI", LOOPBACK)
+os.environ.setdefault("CYCLONEDDS_URI", loopback())
 
 from cyclonedds._clayer import ddspy_take, ddspy_write
 from cyclonedds.core import (
@@ -179,6 +170,10 @@ class DdsParticipant:
         ]
         told = self._graph_kind(gid=gids([self.guid])[0], node_entities_info_seq=entries)
         self._graph.write(codec_of(self._graph_kind).encode(told))
+
+    def leave(self) -> None:
+        """Tell the others that all is gone; who only ends is missed after ten seconds."""
+        self._entity.__del__()
 
     def wake(self) -> None:
         """End a `turn` that waits; from any thread."""

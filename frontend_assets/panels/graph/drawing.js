@@ -7,6 +7,7 @@
 /** @import { Signal } from "vendor/preact.js" */
 
 import { html, useEffect, useMemo, useRef, useSignal } from "vendor/preact.js";
+import { ddsMark } from "../../lib/dds-tag.js";
 import { t } from "../../lib/i18n.js";
 import { clamp } from "../../lib/numbers.js";
 import { fitted, resized, zoomed } from "../../lib/pan-zoom.js";
@@ -165,6 +166,8 @@ function BoxShape({ box, at, rates, chosen, onFocus }) {
   const width = boxWidth(box);
   const isChosen = chosen.value === box.id;
   const rate = box.kind === "topic" ? rateWords(rates.get(box.name)) : "";
+  const below = box.bridge ? ddsMark(box.bridge) : rate;
+  const behind = box.bridge ? t("ros.behind", { name: box.bridge }) : "";
   const choose = () => {
     chosen.value = isChosen ? "" : box.id;
   };
@@ -178,12 +181,12 @@ function BoxShape({ box, at, rates, chosen, onFocus }) {
     box.kind === "node" && box.count > 1 && "doubled",
     isChosen && "chosen",
   ].filter(Boolean);
-  return html`<g class=${`graph-box ${names.join(" ")}`} role="button" tabindex="0" aria-pressed=${isChosen} aria-label=${[t(`graph.kind.${box.kind}`), box.name, rate].filter(Boolean).join(" ")}
+  return html`<g class=${`graph-box ${names.join(" ")}`} role="button" tabindex="0" aria-pressed=${isChosen} aria-label=${[t(`graph.kind.${box.kind}`), box.name, below].filter(Boolean).join(" ")}
     transform=${`translate(${at.x - width / 2} ${at.y - BOX_HEIGHT_PX / 2})`} onClick=${choose} onDblClick=${() => onFocus(box)} onKeyDown=${onKeyDown}>
-    <title>${box.name}</title>
+    <title>${[box.name, behind].filter(Boolean).join("\n")}</title>
     <rect width=${width} height=${BOX_HEIGHT_PX} rx=${box.id.startsWith("node:") ? 6 : BOX_HEIGHT_PX / 2} />
     <text x=${width / 2} y=${BOX_HEIGHT_PX / 2} dy="0.35em">${boxLabel(box)}</text>
-    ${rate && html`${" "}<text class="graph-rate" x=${width / 2 + 6} y=${BOX_HEIGHT_PX + 11}>${rate}</text>`}
+    ${below && html`${" "}<text class="graph-rate" x=${width / 2 + 6} y=${BOX_HEIGHT_PX + 11}>${below}</text>`}
   </g>`;
 }
 

@@ -17,6 +17,7 @@ import {
 import { OwnGraph } from "../../app/own-graph.js";
 import { copyText } from "../../lib/clipboard.js";
 import { commandById } from "../../lib/commands.js";
+import { DdsTag } from "../../lib/dds-tag.js";
 import { t } from "../../lib/i18n.js";
 import { remembered } from "../../lib/remembered.js";
 import { EmptyState, Icon, IconButton, ProgressBar, SearchBox } from "../../lib/ui.js";
@@ -62,7 +63,7 @@ function GraphDetails({ chosen, focus, opened, rates }) {
     notify(done ? t("copied") : t("copy.failed"), { bad: !done });
   };
   return html`<section class="graph-details scroll" aria-label=${t("graph.details", { name })}>
-    <header><${Icon} name=${kind === "node" ? "node" : "link"} size=${15} /><h3>${name}</h3>
+    <header><${Icon} name=${kind === "node" ? "node" : "link"} size=${15} /><h3>${name}<${DdsTag} bridge=${bridgeOf(name)} /></h3>
       <${IconButton} icon="copy" label=${t("graph.copy_name")} size=${14} onClick=${copy} />
       ${!isSpace && html`<${IconButton} icon="fit" label=${t("graph.focus_on")} size=${14} pressed=${isFocus} onClick=${toggle} />`}
       <${IconButton} icon="close" label=${t("close")} size=${14} onClick=${close} /></header>
@@ -133,6 +134,9 @@ function Ends({ title, places, chosen }) {
   return html`<${NodeNames} title=${title} names=${names} chosen=${chosen} />`;
 }
 
+/** @param {string} name of a node @returns {string} the bridge to DDS that it is behind; empty: none */
+const bridgeOf = (name) => graph.value.nodes.find((one) => one.name === name)?.bridge ?? "";
+
 /** @param {{title: string, names: readonly string[], chosen: Signal<string>}} props of nodes, each a way to it */
 function NodeNames({ title, names, chosen }) {
   return html`<h4>${title} <span class="muted">${names.length}</span></h4>
@@ -140,7 +144,7 @@ function NodeNames({ title, names, chosen }) {
       (name) =>
         html`<li key=${name}><button type="button" class="link-button" onClick=${() => {
           chosen.value = `node:${name}`;
-        }}>${name}</button></li>`,
+        }}>${name}</button><${DdsTag} bridge=${bridgeOf(name)} /></li>`,
     )}</ul>`;
 }
 

@@ -18,7 +18,7 @@
  * @property {string} focus id of a box: only what is near it is shown; empty: all
  */
 /** @typedef {"node" | "space" | "topic" | "service" | "action"} BoxKind `space`: a namespace */
-/** @typedef {{id: string, kind: BoxKind, name: string, count: number}} Box `count`: nodes of that name, or in that namespace */
+/** @typedef {{id: string, kind: BoxKind, name: string, count: number, bridge?: string}} Box `count`: nodes of that name, or in that namespace; `bridge`: to DDS, that all of them are behind */
 /** @typedef {{id: string, from: string, to: string, names: readonly string[]}} Arrow `names` of what it carries */
 
 /** @type {GraphOptions} */
@@ -112,14 +112,15 @@ const arrow = (from, to, names) => ({ id: `${from} ${to}`, from, to, names });
 function nodeBoxes(graph, arrows) {
   const speaking = new Set(arrows.flatMap(({ from, to }) => [from, to]));
   return graph.nodes
-    .map(({ name, count, own }) => ({
+    .map(({ name, count, own, bridge }) => ({
       id: boxId("node", name),
       own,
       name,
       count,
+      bridge,
     }))
     .filter(({ id, own }) => !own || speaking.has(id))
-    .map(({ id, name, count }) => ({ id, kind: nodeKind(name), name, count }));
+    .map(({ id, name, count, bridge }) => ({ id, kind: nodeKind(name), name, count, bridge }));
 }
 
 /** @param {string} name @returns {BoxKind} */
@@ -180,18 +181,20 @@ export function byNamespace(graph, opened) {
     namespacesOf(name).find((one) => !opened.has(one) && (sizes.get(one) ?? 0) > 1) ?? name;
   /** @type {Map<string, GraphNodeView & {at: number}>} */
   const found = new Map();
-  const places = graph.nodes.map(({ name, count, own }) => {
+  const places = graph.nodes.map(({ name, count, own, bridge }) => {
     const shown = nameOf(name);
     const known = found.get(shown) ?? {
       name: shown,
       count: 0,
       own: true,
+      bridge,
       at: found.size,
     };
     found.set(shown, {
       ...known,
       count: known.count + count,
       own: known.own && own,
+      bridge: known.bridge === bridge ? bridge : "",
     });
     return known.at;
   });

@@ -10,6 +10,7 @@
 
 import { html, useSignal } from "vendor/preact.js";
 import { copyText } from "../../lib/clipboard.js";
+import { DdsTag } from "../../lib/dds-tag.js";
 import { t } from "../../lib/i18n.js";
 import { LongList, siblingPlaces } from "../../lib/long-list.js";
 import { shownNumber } from "../../lib/numbers.js";
@@ -218,7 +219,7 @@ export function TopicEnds({ topic, listed }) {
 function Side({ title, ends }) {
   return html`<h3>${title}</h3><ul>${ends.map(
     (end, n) =>
-      html`<li key=${n}><span>${end.node}${end.own && html` <small class="muted">${t("topics.own")}</small>`}</span><small class="muted">${qosOf(end)}</small></li>`,
+      html`<li key=${n}><span>${end.node}${end.own && html` <small class="muted">${t("topics.own")}</small>`}<${DdsTag} bridge=${end.bridge} /></span><small class="muted">${qosOf(end)}</small></li>`,
   )}</ul>`;
 }
 
@@ -231,15 +232,17 @@ function qosOf(end) {
     end.deadline_s === null ? "" : t("topics.deadline", { time: end.deadline_s }),
     end.lifespan_s === null ? "" : t("topics.lifespan", { time: end.lifespan_s }),
     end.liveliness === "automatic" ? "" : end.liveliness,
+    end.hash === "" && end.bridge !== "" ? t("topics.no_hash") : "",
   ];
   return words.filter(Boolean).join(" · ");
 }
 
-/** @param {{misfit: Misfit}} props what DDS would do, and what Zenoh does */
+/** @param {{misfit: Misfit}} props what DDS does or would do, and what Zenoh does */
 function Apart({ misfit }) {
-  const { publisher, subscriber, reasons, heard } = misfit;
+  const { publisher, subscriber, reasons, heard, way } = misfit;
+  const key = heard ? (way === "bridge" ? "bridge" : "dds") : way === "dds" ? "on_dds" : "all";
   return html`<p class="topics-apart"><${Icon} name="alert" size=${13} /><span>${t(
-    heard ? "topics.apart.dds" : "topics.apart.all",
+    `topics.apart.${key}`,
     { publisher, subscriber, reasons: reasons.join("; ") },
   )}</span></p>`;
 }

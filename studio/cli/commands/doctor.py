@@ -19,9 +19,12 @@ from studio.errors import NoRouterError, SettingsError
 from studio.ros.names import is_hidden
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from studio.live.doctor.examination import Examination
     from studio.live.doctor.seen import Ends, Seen, System
     from studio.protocol.doctor import Finding
+    from studio.ros.graph.endpoints import GraphNode
 
 
 _Section = tuple[str, list[tuple[str, object]]]
@@ -29,7 +32,7 @@ _KINDS: Final = {"qos": "QoS", "foreign-hash": "hash"}
 """Findings that are called otherwise than by their code."""
 _BELOW: Final = ""
 """Name of a row that goes on with the one above it."""
-_NOBODY: Final = frozenset({"no-nodes", "other-domain"})
+_NOBODY: Final = frozenset({"no-nodes", "other-domain", "bridge-empty", "bridge-domain"})
 """That nobody is there is no fault."""
 _NOT_JOINED: Final = 2
 """As of every verb that joins no router."""
@@ -185,6 +188,7 @@ def _sections(seen: Seen) -> list[_Section]:
         return []
     answers = seen.answers
     versions = sorted(set(answers.routers.values())) if answers else []
+    bridges = [("BRIDGES TO DDS", [*_bridges(system)])] if system.bridges else []
     return [
         (
             "PLATFORM INFORMATION",
@@ -206,7 +210,8 @@ def _sections(seen: Seen) -> list[_Section]:
                 ("session", next(iter(system.own))),
             ],
         ),
-        ("NODE LIST", [(node.path, f"session {node.zid}") for node in system.nodes]),
+        *bridges,
+        ("NODE LIST", [(node.path, _place(node)) for node in system.nodes]),
         ("TOPIC LIST", [(name, _topic(ends)) for name, ends in system.topics.items()]),
         (
             "SERVICE LIST",
@@ -226,9 +231,29 @@ def _interfaces(seen: Seen) -> list[tuple[str, object]]:
 
     return [
         (one.name, f"{said(one.is_up, 'up', 'down')}, "
-         f"{said(one.has_multicast, 'multicast', 'no multicast')} (rmw_zenoh needs none)")
+         f"{said(one.has_multicast, 'multicast', 'no multicast')} (DDS needs it, rmw_zenoh not)")
         for one in seen.here.interfaces
     ]  # fmt: skip
+
+
+def _bridges(system: System) -> Iterator[tuple[str, object]]:
+    """Say of each bridge what it tells of itself, a line each."""
+    for one in system.bridges:
+        settings, nodes = one.settings, f"nodes {len(one.nodes)}"
+        version = f"version {one.version or 'unknown'}"
+        domain = f"domain {settings.domain}" if settings else "domain unknown"
+        yield one.name, f"{version}, {domain}, {nodes}, session {one.zid}"
+        if settings is not None and settings.localhost_only:
+            yield _BELOW, "it meets only nodes of its own machine"
+        if one.rules is not None:
+            word = "allow" if one.rules.allows else "deny"
+            yield from ((_BELOW, f"{word} {text}") for text in one.rules.texts())
+        for topic, rate in settings.slowed if settings else ():
+            yield _BELOW, f"at most {rate:g} a second of {topic}"
+
+
+def _place(node: GraphNode) -> str:
+    return f"behind {node.bridge}" if node.bridge else f"session {node.zid}"
 
 
 def _listened(seen: Seen) -> list[tuple[str, object]]:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from studio.live.topics.request import Fit
     from studio.live.topics.subscription import Stream
+    from studio.ros.graph.endpoints import GraphNode
     from studio.ros.graph.graph import Graph
     from studio.ros.types.library import TypeLibrary
     from studio.ros.wire.settings import WireSettings
@@ -123,9 +124,13 @@ class WireLink:
         """The graph of nodes and endpoints."""
         return self._graph
 
+    def other_nodes(self) -> list[GraphNode]:
+        """The nodes of others."""
+        return [one for one in self._graph.nodes() if one.zid != self._wire.zid]
+
     def node_names(self) -> list[str]:
         """Full names of the nodes of others."""
-        return [one.path for one in self._graph.nodes() if one.zid != self._wire.zid]
+        return [one.path for one in self.other_nodes()]
 
     def publishers(self, topic: str) -> list[str]:
         """Full names of the nodes of others that publish a topic."""

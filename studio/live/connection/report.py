@@ -5,18 +5,20 @@ It imports Zenoh (through `ros`), so it is imported when a report is asked for.
 
 from __future__ import annotations
 
+import time
 from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
 from studio.errors import NoRouterError, TokenError
+from studio.live.connection.bridges import bridge_views
 from studio.live.connection.plan import planned_wire
 from studio.protocol.connection import DomainView, Verdict, WireReport
 from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, unseen_nodes
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
 from studio.ros.messages import types_of
-from studio.ros.profiles import PROFILES
-from studio.ros.tokens import ADMIN_SPACE, EndpointToken, NodeToken, parse_token
+from studio.ros.profiles import NO_HASH, PROFILES
+from studio.ros.tokens import ADMIN_SPACE, EndpointKind, NodeToken, parse_token
 from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
 from studio.ros.wire.session import open_session
 from studio.ros.wire.zenoh import live_tokens
@@ -24,13 +26,16 @@ from studio.ros.wire.zenoh import live_tokens
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
+    from studio.ros.wire.bridges.bridge import Bridge
     from studio.ros.wire.session import WireSession
     from studio.ros.wire.settings import WireSettings
     from studio.settings import WireChoice
 
 _QUERY_TIMEOUT_S: Final = 3.0
-_BRIDGES: Final = "@/*/@ros2_lv/**"
-"""Tokens of zenoh-bridge-ros2dds, whose keys are others than rmw_zenoh's."""
+_TOPICS: Final = {EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION}
+_OF_ACTION: Final = "/_action/"
+_LOOKS: Final = 4
+_LOOK_PAUSE_S: Final = 0.15
 _SHOWN_MAX: Final = 20
 _TYPES_MAX: Final = 400
 """At most so many types are compared with every distribution: it is slow, and they suffice."""
@@ -38,12 +43,12 @@ _TYPES_MAX: Final = 400
 
 @dataclass(slots=True)
 class Census:
-    """Who is there, by their liveliness tokens.
+    """Who is there, by their liveliness tokens and by what bridges to DDS tell.
 
     Attributes:
-        nodes: Number of other nodes by domain.
+        nodes: Number of other nodes by domain, also of those on DDS.
         endpoints: Of others in the domain examined, one for each form of a type.
-        has_bridge: Whether there is a bridge to DDS.
+        bridges: Bridges to DDS, of every domain.
         unseen: Number of processes that publish in that domain and have no node in the graph.
     """
 
@@ -51,7 +56,7 @@ class Census:
     endpoints: dict[tuple[str, str], GraphEndpoint] = field(
         default_factory=dict[tuple[str, str], GraphEndpoint]
     )
-    has_bridge: bool = False
+    bridges: tuple[Bridge, ...] = ()
     unseen: int = 0
 
     def take(self, token: str, domain: int, own: Collection[str]) -> None:
@@ -66,12 +71,24 @@ class Census:
         if isinstance(parsed, NodeToken):
             self.nodes[node.domain] += 1
         elif node.domain == domain:
-            self._take_form(token, parsed)
+            self._take_form(GraphEndpoint.of(token, parsed, GraphNode.of(parsed.node)))
 
-    def _take_form(self, text: str, token: EndpointToken) -> None:
-        form = (token.type_name, token.type_hash)
+    def take_bridges(self, bridges: tuple[Bridge, ...], domain: int) -> None:
+        """Count the nodes behind bridges; one that does not tell its domain has the `domain`."""
+        self.bridges = bridges
+        for bridge in bridges:
+            settings = bridge.settings
+            self.nodes[settings.domain if settings else domain] += len(bridge.nodes)
+            for end in bridge.ends if bridge.is_used else ():
+                # Before Iron, DDS tells no hash of topics; of services and actions, mostly none.
+                if end.type_hash or (end.kind in _TOPICS and _OF_ACTION not in end.name):
+                    node = GraphNode.behind(bridge, end.participant, end.node)
+                    self._take_form(GraphEndpoint.behind(end, node))
+
+    def _take_form(self, end: GraphEndpoint) -> None:
+        form = (end.type_name, end.type_hash)
         if form not in self.endpoints and len(self.endpoints) < _TYPES_MAX:
-            self.endpoints[form] = GraphEndpoint.of(text, token, GraphNode.of(token.node))
+            self.endpoints[form] = end
 
 
 def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireReport:
@@ -103,18 +120,36 @@ def examine(choice: WireChoice, own: Collection[str], request: int = 0) -> WireR
 
 
 def count(wire: WireSession, own: Collection[str]) -> Census:
-    """Ask the router for the tokens of every domain, once."""
+    """Count who is there in every domain, and behind bridges to DDS.
+
+    A router that was just joined may show only a part at first, or nothing: so it is looked at
+    until two looks have found the same.
+    """
+    census = _counted(wire, own)
+    for _ in range(_LOOKS):
+        time.sleep(_LOOK_PAUSE_S)
+        before, census = census, _counted(wire, own)
+        found = census.nodes, len(census.bridges)
+        if any(found) and found == (before.nodes, len(before.bridges)):
+            break
+    return census
+
+
+def _counted(wire: WireSession, own: Collection[str]) -> Census:
     census = Census()
     for token in set(live_tokens(wire.zenoh, f"{ADMIN_SPACE}/*/**", _QUERY_TIMEOUT_S)):
         census.take(token, wire.domain, own)
-    if not census.nodes:
-        census.has_bridge = any(live_tokens(wire.zenoh, _BRIDGES, _QUERY_TIMEOUT_S))
+    wire.bridges.settle(_QUERY_TIMEOUT_S)
+    census.take_bridges(wire.bridges.current, wire.domain)
     return census
 
 
 def seen_distros(endpoints: Iterable[GraphEndpoint], hashes: DistroHashes) -> tuple[str, ...]:
-    """Return the distributions that most of these types match; empty if nothing decides it."""
-    forms = [(one.type_name, one.type_hash) for one in endpoints]
+    """Return the distributions that most of these types match; empty if nothing decides it.
+
+    On DDS, those before Iron tell no hashes: of these that is Humble.
+    """
+    forms = [(one.type_name, one.type_hash or NO_HASH) for one in endpoints]
     fitting = {
         distro: sum(hashes(distro, name) == form for name, form in forms) for distro in PROFILES
     }
@@ -155,7 +190,7 @@ def _verdict(domain: int, census: Census, *, is_foreign: bool) -> Verdict:
         return "other_distro" if is_foreign else "fine"
     if census.nodes.total():
         return "other_domain"
-    return "bridge" if census.has_bridge else "alone"
+    return "bridge" if census.bridges else "alone"
 
 
 def _report(  # noqa: PLR0913 - the fields of one answer
@@ -182,4 +217,5 @@ def _report(  # noqa: PLR0913 - the fields of one answer
         distros=distros,
         types=types,
         unseen=census.unseen if census else 0,
+        bridges=bridge_views(census.bridges) if census else (),
     )

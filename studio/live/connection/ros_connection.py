@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from studio.debounce import Throttle
 from studio.errors import CommandError, StudioError
+from studio.live.connection.bridges import bridge_views
 from studio.live.connection.nearby import Nearby
 from studio.live.connection.plan import planned_wire
 from studio.live.time.keeping import Keeping
@@ -219,6 +220,8 @@ class RosConnection:
             distro=distro,
             nodes=(),
             node_count=0,
+            behind={},
+            bridges=(),
             nearby_count=self._nearby.node_count,
             trouble=trouble,
         )
@@ -235,15 +238,18 @@ def _nobody(_link: WireLink | None) -> None:
 def _state_with(link: WireLink) -> WireState:
     """Return the state of a connection; thread-safe."""
     is_connected = link.is_connected
-    nodes = link.node_names() if is_connected else []
+    nodes = link.other_nodes() if is_connected else []
+    shown = nodes[:_NODES_SHOWN]
     return WireState(
         state="connected" if is_connected else "lost",
         router="own" if link.has_own_router else "joined",
         endpoint=link.endpoint,
         domain=link.domain,
         distro=link.distro,
-        nodes=tuple(nodes[:_NODES_SHOWN]),
+        nodes=tuple(one.path for one in shown),
         node_count=len(nodes),
+        behind={one.path: one.bridge for one in shown if one.bridge},
+        bridges=bridge_views(link.graph.bridges) if is_connected else (),
         nearby_count=0,
         trouble="",
     )

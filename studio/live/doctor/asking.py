@@ -12,9 +12,11 @@ import secrets
 import socket
 import time
 from collections import Counter
+from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from studio.live.doctor.passing import announcing_sessions, unrouted_ends
 from studio.live.doctor.seen import Answers, Ends, Here, Interface, System, short
 from studio.live.doctor.subjects.network import NAMES
 from studio.ros.attachment import GID_BYTES, packed
@@ -25,6 +27,7 @@ from studio.ros.graph.diagnosis import (
     versions_by_session,
 )
 from studio.ros.tokens import DataKey, EndpointKind
+from studio.ros.wire.bridges.dialect import bridge_key
 from studio.ros.wire.zenoh import Replies, ZError, declare_querier
 
 if TYPE_CHECKING:
@@ -101,6 +104,9 @@ def look(
         malformed=(malformed, last or ""),
         types=types,
         hash_of=hashes,
+        form_of=hashes.form_of,
+        zenoh=metadata.version("eclipse-zenoh"),
+        bridges=graph.bridges,
     )
 
 
@@ -129,22 +135,31 @@ def ask(wire: WireSession, system: System, before: Answers | None = None) -> Ans
     nodes = _nodes_by_domain(wire, system)
     unseen = unseen_nodes(wire)
     asked, silent = _silent_nodes(wire, system)
-    sessions = versions_by_session(wire, "peer")
-    known = frozenset(before.sessions) | before.lost if before else frozenset[str]()
+    routers, sessions = versions_by_session(wire, "router"), versions_by_session(wire, "peer")
+    known = before.sessions.keys() | before.routers.keys() | before.lost if before else set[str]()
+    there = {one.zid for one in system.nodes} | {one.zid for one in system.bridges}
     return Answers(
         nodes_by_domain=nodes,
         unseen=unseen,
-        routers=versions_by_session(wire, "router"),
+        routers=routers,
         sessions=sessions,
         asked=asked,
         silent=silent,
-        lost=(known - sessions.keys()) & {one.zid for one in system.nodes},
+        lost=frozenset((known - sessions.keys() - routers.keys()) & there),
+        unrouted=unrouted_ends(wire, system) if system.bridges else (),
+        announcing=announcing_sessions(wire) if system.bridges else frozenset(),
     )
 
 
 def _nodes_by_domain(wire: WireSession, system: System) -> dict[int, int]:
-    """Count others' nodes; a router answers with a part of its tokens, or none, now and then."""
+    """Count others' nodes; a router answers with a part of its tokens, or none, now and then.
+
+    Nodes on DDS show no token: those of bridges count in the domains of these.
+    """
     most = Counter({system.domain: len(system.others)})
+    for bridge in system.bridges:
+        if not bridge.is_used and bridge.settings is not None:
+            most[bridge.settings.domain] += len(bridge.nodes)
     for _ in range(_LOOKS):
         most |= Counter(nodes_by_domain(wire, own=system.own))
     return {domain: nodes for domain, nodes in sorted(most.items()) if nodes}
@@ -171,10 +186,15 @@ class _Question:
     """A request for no parameters, which only shows whether a node answers."""
 
     def __init__(self, wire: WireSession, server: GraphEndpoint) -> None:
+        is_bridged = bool(server.node.bridge)
         key = DataKey(wire.domain, server.name, server.type_name, server.type_hash)
-        attachment = packed(1, time.time_ns(), secrets.token_bytes(GID_BYTES))
+        name = bridge_key(server.name) if is_bridged else str(key)
+        number = packed(1, time.time_ns(), secrets.token_bytes(GID_BYTES))
+        attachment = None if is_bridged else number  # bridges take their own or none
         self._answered = False
-        self._querier: Querier = declare_querier(wire.zenoh, str(key), ANSWER_S)
+        self._querier: Querier = declare_querier(
+            wire.zenoh, name, ANSWER_S, is_for_bridge=is_bridged
+        )
         self._replies = Replies(self._querier, _NO_PARAMETERS, attachment)
 
     def is_answered(self) -> bool:

@@ -14,6 +14,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias, cast, get_args
 
+from studio.live.doctor.seen import short
 from studio.protocol.doctor import Level
 from studio.settings import repository_or_wheel
 
@@ -31,6 +32,7 @@ _FACTS: Final = {
     "domain": "Domain",
     "distribution": "Distribution",
     "nodes": "Nodes",
+    "bridges": "DDS",
 }
 """In German as in English."""
 _TITLE: Final[dict[Language, str]] = {
@@ -103,8 +105,12 @@ def facts_of(seen: Seen) -> tuple[tuple[str, str], ...]:
     else:
         return ()
     router, domain, distro = place
-    nodes = (("nodes", str(len(seen.system.others))),) if seen.system else ()
-    return (("router", router), ("domain", str(domain)), ("distribution", distro), *nodes)
+    facts = [("router", router), ("domain", str(domain)), ("distribution", distro)]
+    if seen.system is not None:
+        facts.append(("nodes", str(len(seen.system.others))))
+        bridges = [f"{short(one.name)} {one.version}".strip() for one in seen.system.bridges[:8]]
+        facts += [("bridges", ", ".join(bridges))] if bridges else []
+    return tuple(facts)
 
 
 def words_of(assets: Path, language: Language) -> dict[str, str]:

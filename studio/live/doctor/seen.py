@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
     from studio.ros.profiles import WireProfile
     from studio.ros.types.library import TypeLibrary
+    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.dialect import RouteKind
     from studio.tf.report import FrameReport
     from studio.tf.transforms import Notice
 
@@ -47,6 +49,9 @@ class System:
         own: Sessions of the studio, whose nodes are its own.
         malformed: How many tokens were none, and what was wrong with the last.
         hash_of: The hash of a type as a distribution has it in keys; None: it has no such type.
+        form_of: The same as it is computed, also where keys of the distribution hold none.
+        zenoh: Its version here.
+        bridges: To DDS, also those of other domains.
     """
 
     endpoint: str
@@ -61,6 +66,9 @@ class System:
     malformed: tuple[int, str]
     types: TypeLibrary
     hash_of: Callable[[str, str], str | None]
+    form_of: Callable[[str, str], str | None]
+    zenoh: str
+    bridges: tuple[Bridge, ...]
 
     def is_own(self, end: GraphEndpoint) -> bool:
         """Whether an endpoint is of the studio."""
@@ -78,7 +86,8 @@ class Header:
 
     Attributes:
         stamp_ns: As the message has it.
-        sent_ns: By the clock of its sender, as its attachment has it.
+        sent_ns: By the clock of its sender, as its attachment has it; of what comes from DDS, when
+            a bridge passed it on, by that one's clock.
         received_ns: By the clock of this machine.
         sender: The node that sent it; empty: it is not known.
     """
@@ -94,13 +103,16 @@ class Header:
 class Offset:
     """How much later than they were sent samples of one process came, by two clocks.
 
-    `least_ns` is negative where the sender's clock is ahead of this machine's.
+    Attributes:
+        least_ns: Negative where the sender's clock is ahead of this machine's.
+        bridge: The bridge to DDS whose clock it is; empty: it is that of the nodes.
     """
 
     process: str
     nodes: tuple[str, ...]
     least_ns: int
     samples: int
+    bridge: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,6 +207,18 @@ class Heard:
     offsets: tuple[Offset, ...]
 
 
+class Unrouted(NamedTuple):
+    """An end of the studio that a bridge to DDS does not pass on, though one on DDS waits for it.
+
+    `kind` and `name` are those by which the bridge knows it: of an action all parts are one.
+    """
+
+    own: GraphEndpoint
+    other: GraphEndpoint
+    kind: RouteKind
+    name: str
+
+
 @dataclass(frozen=True, slots=True)
 class Answers:
     """What routers and nodes answered.
@@ -204,9 +228,11 @@ class Answers:
         unseen: Processes whose nodes the router does not show.
         routers: Zenoh's version of each router that can be reached, by its id.
         sessions: Zenoh's version of each process that tells it, by its id.
-        lost: Processes that told it before, and do no more.
+        lost: Processes that told it before, and do no more; bridges to DDS, too.
         asked: Nodes that were asked whether they answer.
         silent: Those of them that did not.
+        unrouted: What bridges to DDS should pass on for the studio, and do not.
+        announcing: Sessions that bridges to DDS hear of; nodes of rmw_zenoh_cpp are in none.
     """
 
     nodes_by_domain: Mapping[int, int]
@@ -216,6 +242,8 @@ class Answers:
     asked: int
     silent: tuple[str, ...]
     lost: frozenset[str] = frozenset()
+    unrouted: tuple[Unrouted, ...] = ()
+    announcing: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -332,6 +360,12 @@ def short(name: str, most: int = NAME_MAX) -> str:
 def shown_nodes(ends: Iterable[GraphEndpoint]) -> tuple[str, ...]:
     """Return the first nodes of endpoints, each once."""
     return tuple(dict.fromkeys(short(one.node.path) for one in ends))[:NAMED_MAX]
+
+
+def called(bridge: Bridge | str) -> str:
+    """Return how a bridge to DDS is called in a sentence; one without a name is known by its id."""
+    name = bridge if isinstance(bridge, str) else bridge.name
+    return name if name.startswith("bridge ") else f"bridge {short(name)}"
 
 
 def listed(names: Iterable[str], most: int = NAMED_MAX) -> str:

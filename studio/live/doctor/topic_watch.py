@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from studio.errors import AttachmentError
 from studio.live.doctor.pace import Pace
 from studio.ros.attachment import unpack
+from studio.ros.node.samples import bridged_attachment, sender_of
 from studio.ros.node.topic_statistics import RING, TopicStatistics
 
 if TYPE_CHECKING:
@@ -125,6 +126,14 @@ class TopicWatch(TopicStatistics):
         return self._clock() - self.began_s
 
     def _count(self, samples: Sequence[Sample]) -> None:
+        self._note(samples, self._sent)
+
+    def _count_bridged(self, samples: Sequence[Sample]) -> None:
+        self._note(samples, self._passed_on)
+
+    def _note(
+        self, samples: Sequence[Sample], read: Callable[[Sample, int], Attachment | None]
+    ) -> None:
         now_ns, now_s = time.time_ns(), self._clock()
         size = sum(len(one.payload) for one in samples)
         self._arrivals.count(time.monotonic_ns(), len(samples), size)
@@ -132,7 +141,7 @@ class TopicWatch(TopicStatistics):
             self.samples += len(samples)
             self._pace.count(now_s, len(samples))
             self._forget_offsets()
-            noted = [(one, sent) for one in samples if (sent := self._sent(one, now_ns))]
+            noted = [(one, sent) for one in samples if (sent := read(one, now_ns))]
         if self._take is not None:
             for sample, sent in noted:
                 self._take(sample.payload.to_bytes(), sent, now_ns)
@@ -146,6 +155,16 @@ class TopicWatch(TopicStatistics):
         except AttachmentError:
             self.not_understood += 1
             return None
+        return self._timed(sent, now_ns)
+
+    def _passed_on(self, sample: Sample, now_ns: int) -> Attachment | None:
+        """Return what is known of a sample from DDS: its time is when the bridge passed it on."""
+        sender = sender_of(self._context.wire.bridges, self.topic, sample)
+        if sender is None:
+            return None
+        return self._timed(bridged_attachment(sender, sample, now_ns), now_ns)
+
+    def _timed(self, sent: Attachment, now_ns: int) -> Attachment:
         if not self.is_latched:  # else it may have been sent long ago
             self._note_offset(sent.gid, now_ns - sent.source_time_ns)
         return sent

@@ -20,14 +20,16 @@ from studio.live.doctor.seen import (
     HeardFrames,
     HeardTopic,
     Offset,
+    called,
     short,
 )
 from studio.live.doctor.topic_watch import LeastOffset, Reading, TopicWatch
 from studio.live.topics.topic_rates import TOPICS_MAX, TopicRates
 from studio.ros.columns.transforms import TransformCodec
 from studio.ros.names import is_hidden
+from studio.ros.profiles import NO_HASH
 from studio.ros.qos import DurabilityPolicy
-from studio.ros.tokens import DataKey
+from studio.ros.tokens import DataKey, gid_of
 from studio.tf.buffer import TransformBuffer
 
 if TYPE_CHECKING:
@@ -35,7 +37,7 @@ if TYPE_CHECKING:
 
     from studio.live.doctor.seen import Ends, System
     from studio.ros.attachment import Attachment
-    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
     from studio.ros.node.context import Context
     from studio.ros.types.library import TypeLibrary
     from studio.tf.transforms import Notice
@@ -144,7 +146,7 @@ class Watching:
                 Reading(
                     has_header(self._types, publisher.type_name),
                     takers.get(topic),
-                    _key_of(publisher, self._context) if topic == _TF_STATIC else "",
+                    _latched_key(ends.senders, self._context) if topic == _TF_STATIC else "",
                 ),
                 self._clock,
             )
@@ -182,23 +184,31 @@ class Watching:
 
     def _offsets(self, watches: Iterable[TopicWatch], own: frozenset[str]) -> Iterable[Offset]:
         """Return the least offset of each process of others, of all its topics."""
-        found: dict[str, list[tuple[LeastOffset, str]]] = defaultdict(list)
+        found: dict[str, list[tuple[LeastOffset, GraphNode]]] = defaultdict(list)
         for watch in watches:
             for gid, offset in watch.offsets().items():
                 end = self._context.graph.endpoint_of_gid(gid)
                 if end is not None and end.node.zid not in own:
-                    found[end.node.zid].append((offset, end.node.path))
+                    found[end.node.zid].append((offset, end.node))
         for process, offsets in found.items():
             yield Offset(
                 process,
-                tuple(dict.fromkeys(path for _, path in offsets))[:_NODES_NAMED],
+                tuple(dict.fromkeys(node.path for _, node in offsets))[:_NODES_NAMED],
                 min(one.least_ns for one, _ in offsets),
                 sum(one.samples for one, _ in offsets),
+                offsets[0][1].bridge,
             )
 
     def _name_of(self, gid: bytes) -> str:
         found = self._context.graph.endpoint_of_gid(gid)
-        return found.node.path if found else ""
+        return found.node.path if found else self._bridge_of(gid)
+
+    def _bridge_of(self, gid: bytes) -> str:
+        """Name the bridge that passed on a transform of one of several nodes on DDS."""
+        for bridge in self._system.bridges if self._system else ():
+            if gid in {gid_of(f"{bridge.zid}/{topic}") for topic in (_TF, _TF_STATIC)}:
+                return f"a node behind the {called(bridge)}"
+        return ""
 
 
 class _Frames:
@@ -277,9 +287,11 @@ def has_header(types: TypeLibrary, type_name: str) -> bool:
     return bool(fields) and fields[0].type.base == _HEADER
 
 
-def _key_of(publisher: GraphEndpoint, context: Context) -> str:
-    domain = context.wire.domain
-    return str(DataKey(domain, publisher.name, publisher.type_name, publisher.type_hash))
+def _latched_key(publishers: tuple[GraphEndpoint, ...], context: Context) -> str:
+    """Return the key of rmw_zenoh's publishers; a bridge to DDS has one that is known by itself."""
+    one = next((end for end in publishers if not end.node.bridge), publishers[0])
+    type_hash = one.type_hash or NO_HASH
+    return str(DataKey(context.wire.domain, one.name, one.type_name, type_hash))
 
 
 def _chosen(system: System) -> tuple[list[str], int]:

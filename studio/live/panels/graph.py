@@ -87,7 +87,12 @@ def _nodes(found: Iterable[GraphNode], own: str) -> list[GraphNodeView]:
     for one in found:
         by_name.setdefault(one.path, []).append(one)
     return [
-        GraphNodeView(name=name, count=len(same), own=all(one.zid == own for one in same))
+        GraphNodeView(
+            name=name,
+            count=len(same),
+            own=all(one.zid == own for one in same),
+            bridge=", ".join(dict.fromkeys(one.bridge for one in same if one.bridge)),
+        )
         for name, same in by_name.items()
     ]
 

@@ -88,7 +88,8 @@ class RecordedGraph:
         """Return the bag as one node that publishes all; nothing if that is known."""
         topics = self._source.catalogue() if command.known else []
         nodes = tuple(
-            GraphNodeView(name=one.publishers[0].node, count=1, own=False) for one in topics[:1]
+            GraphNodeView(name=one.publishers[0].node, count=1, own=False, bridge="")
+            for one in topics[:1]
         )
         links = tuple(
             GraphLinkView(

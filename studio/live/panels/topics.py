@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import itertools
 from typing import TYPE_CHECKING, Final, Protocol
 
 from studio.live.connection.topic_kinds import carried_types, kind_for
@@ -15,8 +16,10 @@ from studio.protocol.topics import (
     TopicEnds,
     TopicRow,
     TopicTable,
+    Way,
 )
-from studio.ros.qos import why_unmatched
+from studio.ros.profiles import NO_HASH
+from studio.ros.qos import QoSProfile, why_unmatched
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -25,7 +28,6 @@ if TYPE_CHECKING:
     from studio.live.connection.ros_connection import RosConnection
     from studio.ros.duration import Duration
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.qos import QoSProfile
 
 ENDS_MAX: Final = 100
 """Endpoints listed of one side; `/rosout` has one for every node."""
@@ -129,15 +131,17 @@ def _others(ends: Iterable[GraphEndpoint], own_zid: str) -> int:
 
 
 def _end(endpoint: GraphEndpoint, own_zid: str) -> TopicEnd:
-    return end_of(endpoint.node.path, endpoint, own=endpoint.node.zid == own_zid)
+    node = endpoint.node
+    return end_of(node.path, endpoint, own=node.zid == own_zid, bridge=node.bridge)
 
 
-def end_of(node: str, endpoint: OffersQos, *, own: bool) -> TopicEnd:
-    """Return the view of an endpoint of a node."""
+def end_of(node: str, endpoint: OffersQos, *, own: bool, bridge: str = "") -> TopicEnd:
+    """Return the view of an endpoint of a node, which may be behind a bridge to DDS."""
     qos = endpoint.qos
     return TopicEnd(
         node=node,
         own=own,
+        bridge=bridge,
         type_name=endpoint.type_name,
         reliability=_policy(qos.reliability.name),
         durability=_policy(qos.durability.name),
@@ -164,28 +168,57 @@ def _seconds(span: Duration) -> float | None:
 def _misfits(
     publishers: Sequence[GraphEndpoint], subscribers: Sequence[GraphEndpoint]
 ) -> tuple[Misfit, ...]:
-    found: list[Misfit] = []
-    for publisher in publishers:
-        for subscriber in subscribers:
-            reasons = (*_why_deaf(publisher, subscriber),)
-            unmatched = why_unmatched(publisher.qos, subscriber.qos)
-            if (reasons or unmatched) and len(found) < MISFITS_MAX:
-                found.append(
-                    Misfit(
-                        publisher=publisher.node.path,
-                        subscriber=subscriber.node.path,
-                        reasons=(*reasons, *unmatched),
-                        heard=not reasons,
-                    )
-                )
-    return tuple(found)
+    pairs = ((one, other) for one in publishers for other in subscribers)
+    found = (misfit for one, other in pairs if (misfit := _misfit(one, other)))
+    return tuple(itertools.islice(found, MISFITS_MAX))
 
 
-def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
-    """Return what keeps them from matching on Zenoh, whose keys have type and hash."""
+def _misfit(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> Misfit | None:
+    way = _way(publisher, subscriber)
+    deaf = _why_deaf(publisher, subscriber, way)
+    unmatched = (
+        _why_late(publisher, subscriber)
+        if way == "bridge"
+        else why_unmatched(publisher.qos, subscriber.qos)
+    )
+    if not deaf and not unmatched:
+        return None
+    return Misfit(
+        publisher=publisher.node.path,
+        subscriber=subscriber.node.path,
+        reasons=(*deaf, *unmatched),
+        heard=not deaf and way != "dds",
+        way=way,
+    )
+
+
+def _way(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> Way:
+    """Return how messages go from one to the other."""
+    if not publisher.node.bridge and not subscriber.node.bridge:
+        return "zenoh"
+    return "dds" if publisher.node.zid == subscriber.node.zid else "bridge"
+
+
+def _why_late(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:
+    """Return what a bridge does not make up for.
+
+    On DDS it takes the QoS of whom it meets there, and on Zenoh all is heard: so only earlier
+    messages, which a volatile publisher does not keep, are missing.
+    """
+    offered = QoSProfile(depth=1, durability=publisher.qos.durability)
+    return why_unmatched(offered, QoSProfile(depth=1, durability=subscriber.qos.durability))
+
+
+def _why_deaf(publisher: GraphEndpoint, subscriber: GraphEndpoint, way: Way) -> list[str]:
+    """Return what keeps them from matching, whatever their QoS.
+
+    Keys of rmw_zenoh have type and hash. On DDS only names are compared, what comes in another
+    form is misread, and nodes before Iron tell no hash.
+    """
     if publisher.type_name != subscriber.type_name:
         return [f"one sends {publisher.type_name}, the other wants {subscriber.type_name}"]
-    if publisher.type_hash != subscriber.type_hash:
+    untold = set[str]() if way == "zenoh" else {"", NO_HASH}
+    if len({publisher.type_hash, subscriber.type_hash} - untold) > 1:
         return [
             f"their {publisher.type_name} are of different forms: they come from different "
             "distributions or versions of its package"

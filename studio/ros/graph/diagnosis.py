@@ -104,13 +104,17 @@ class DistroHashes:
 
     def __call__(self, distro: str, type_name: str) -> str | None:
         """Return the hash in keys; None for a type that the distribution does not know."""
+        computed = self.form_of(distro, type_name)
+        return None if computed is None else PROFILES[distro].type_hash(computed)
+
+    def form_of(self, distro: str, type_name: str) -> str | None:
+        """Return the same as computed, also where keys of the distribution hold none."""
         if distro not in self._libraries:
             self._libraries[distro] = TypeLibrary(distro)
         try:
-            computed = self._libraries[distro].hash_of(type_name)
+            return self._libraries[distro].hash_of(type_name)
         except InterfaceError:
             return None
-        return PROFILES[distro].type_hash(computed)
 
 
 def why_not_received(found: ForeignHashes, profile: WireProfile) -> str:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from studio.ros.qos import QoSProfile
     from studio.ros.tokens import EndpointToken
-    from studio.ros.wire.bridges.bridges import Bridge, BridgedEnd
+    from studio.ros.wire.bridges.bridge import Bridge, BridgedEnd
 
 TOKENS_MAX = 200_000
 """Limit: more is an attack and no robot; tokens beyond it are counted."""

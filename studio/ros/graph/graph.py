@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
-    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.bridge import Bridge
     from studio.ros.wire.session import WireSession
 
 _GOAL = "/_action/send_goal"
@@ -45,6 +45,7 @@ class Graph:
         self._version = 0
         self._listeners: list[Callable[[], None]] = []
         self._withdrawn: OrderedDict[str, None] = OrderedDict()
+        self._bridges: tuple[Bridge, ...] = ()
         self._leave_own = wire.own_tokens.follow(self._take_own)
         tokens = watch_tokens(wire.zenoh, tokens_of_domain(wire.domain))
         self._thread = ReadingThread("ros-graph", tokens, self._take)
@@ -76,8 +77,10 @@ class Graph:
     @property
     def malformed(self) -> tuple[int, str | None]:
         """The number of malformed tokens, and what was wrong with the last."""
+        bridges = self._wire.bridges
         with self._changed:
-            return self._table.malformed, self._table.last_malformed
+            count = self._table.malformed + bridges.malformed
+            return count, self._table.last_malformed or bridges.last_malformed or None
 
     def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
         """Call a listener after each batch of changes, in the graph's thread; return its end.
@@ -220,9 +223,12 @@ class Graph:
 
     def _take_bridges(self) -> None:
         """Take in what bridges to DDS show, in their thread."""
-        bridges = [one for one in self._wire.bridges.current if one.is_used]
         with self._changed:
-            self._table.set_bridged(bridges)
+            bridges = self._wire.bridges.current
+            if bridges == self._bridges:
+                return  # who waits until the version rests asks for this again and again
+            self._bridges = bridges
+            self._table.set_bridged(one for one in bridges if one.is_used)
             self._version += 1
             self._changed.notify_all()
             listeners = list(self._listeners)
@@ -232,7 +238,7 @@ class Graph:
     @property
     def bridges(self) -> tuple[Bridge, ...]:
         """The bridges to DDS that the session meets, also those of other domains."""
-        return self._wire.bridges.current
+        return self._bridges
 
     def _take_own(self, token: str, is_alive: bool) -> None:  # noqa: FBT001
         """Take in what the session itself shows; listeners are called when it comes by the wire."""

@@ -14,7 +14,8 @@ from studio.ros.profiles import NO_HASH
 
 if TYPE_CHECKING:
     from studio.ros.tokens import EndpointToken
-    from studio.ros.wire.bridges.bridges import Bridges, Sender
+    from studio.ros.wire.bridges.bridge import Sender
+    from studio.ros.wire.bridges.bridges import Bridges
     from studio.ros.wire.zenoh import Sample
 
 BLINK_NS = 20_000_000
@@ -67,9 +68,19 @@ def bridged_sample(
     told = sender.type_hash
     if told and token.type_hash not in {told, NO_HASH}:
         return None
-    # NTP64: 2**32 are a second since the Unix epoch.
+    attachment = _attachment(sender, time_text, now_ns)
+    return RawSample(sample.payload.to_bytes(), attachment, now_ns)
+
+
+def bridged_attachment(sender: Sender, sample: Sample, now_ns: int) -> Attachment:
+    """Return what rmw_zenoh would have attached: no number, and when the bridge passed it on."""
+    return _attachment(sender, _stamp_of(sample)[0], now_ns)
+
+
+def _attachment(sender: Sender, time_text: str, now_ns: int) -> Attachment:
+    """Read the time of a Zenoh stamp, NTP64: 2**32 are a second since the Unix epoch."""
     time_ns = int(time_text) * 1_000_000_000 >> 32 if time_text else now_ns
-    return RawSample(sample.payload.to_bytes(), Attachment(0, time_ns, sender.gid), now_ns)
+    return Attachment(0, time_ns, sender.gid)
 
 
 def _stamp_of(sample: Sample) -> tuple[str, str]:

@@ -185,7 +185,7 @@ class TopicStatistics:
             self._count(samples)
         bridged = self._bridged.declared
         if bridged is not None and (from_dds := self._of_dds(bridged.take(_BRIDGED_RING))):
-            self._count(from_dds)
+            self._count_bridged(from_dds)
         if self._clock() - self._asked_s > self._kept_s:
             self.close()
         return len(samples)
@@ -194,6 +194,10 @@ class TopicStatistics:
         """Return what bridges brought, and no other way does."""
         bridges = self._context.wire.bridges
         return [one for one in samples if sender_of(bridges, self._topic, one) is not None]
+
+    def _count_bridged(self, samples: Sequence[Sample]) -> None:
+        """Count what bridges brought, which has no number."""
+        self._count(samples)
 
     def _count(self, samples: Sequence[Sample]) -> None:
         sizes, missed = [len(one.payload) for one in samples], self._missed(samples)

@@ -110,11 +110,11 @@ class WireSession:
 
     def close(self) -> None:
         """End the session, all that was declared on it, and our router; again is harmless."""
+        close(self.zenoh)
         with self._lock:
             bridges = self._bridges
         if bridges is not None:
             bridges.close()
-        close(self.zenoh)
         if self.router is not None:
             self.router.close()
 

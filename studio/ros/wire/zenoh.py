@@ -50,6 +50,7 @@ __all__ = [
     "router_change",
     "token_change",
     "use_few_threads",
+    "wait_for_thread",
     "watch_tokens",
     "watch_transports",
 ]
@@ -123,7 +124,7 @@ def close(session: Session) -> None:
     except RuntimeError:  # since Python 3.12 none starts any more while the process ends
         _close(session)
     else:
-        _wait_for(closing, _CLOSE_TIMEOUT_S)
+        wait_for_thread(closing, _CLOSE_TIMEOUT_S)
 
 
 def _close(session: Session) -> None:
@@ -131,7 +132,8 @@ def _close(session: Session) -> None:
         cast("Any", session).close()
 
 
-def _wait_for(thread: threading.Thread, timeout_s: float) -> None:
+def wait_for_thread(thread: threading.Thread, timeout_s: float = _END_TIMEOUT_S) -> None:
+    """Wait so long for the end of a thread that may be inside Zenoh, and again as Python ends."""
     thread.join(timeout_s)
     if thread.is_alive():
         _late_threads.difference_update([one for one in _late_threads if not one.is_alive()])
@@ -224,7 +226,7 @@ class ReadingThread(Generic[ItemT]):
         """Undeclare the source and end; again is harmless, and so is a session that has ended."""
         self._source.undeclare()
         if self._thread is not threading.current_thread():
-            _wait_for(self._thread, _END_TIMEOUT_S)
+            wait_for_thread(self._thread, _END_TIMEOUT_S)
 
     def _run(self) -> None:
         for first in self._source:

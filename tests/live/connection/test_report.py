@@ -9,10 +9,16 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.live.connection.report import Census, examine
+from studio.live.connection.nearby import nodes_nearby
+from studio.live.connection.report import Census, examine, seen_distros
 from studio.live.connection.ros_connection import RosConnection
-from studio.ros.wire.zenoh import declare_token
+from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes
+from studio.ros.profiles import JAZZY
+from studio.ros.tokens import EndpointKind
+from studio.ros.types.library import TypeLibrary
 from studio.settings import WireChoice
+from tests.support.dds_bridge import DdsNetwork
+from tests.support.dds_bridges import bridge, bridged_end, started
 from tests.support.wire import (
     free_endpoint,
     open_test_session,
@@ -26,7 +32,6 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from studio.protocol.connection import WireReport
-    from studio.ros.types.library import TypeLibrary
     from studio.ros.wire.session import WireSession
 
 pytestmark = pytest.mark.network
@@ -110,12 +115,71 @@ def test_nodes_of_another_distribution_are_told_with_its_name():
         assert seen(at(endpoint, distro="humble"), "fine").types == ()
 
 
-def test_a_bridge_of_dds_alone_is_told():
-    with running_router() as endpoint, open_test_session(endpoint, 0) as wire:
-        token = f"@/{wire.zid}/@ros2_lv/MP/chatter/std_msgs§msg§String/:1:1:1,10"
-        held = declare_token(wire.zenoh, token)
-        assert seen(at(endpoint), "bridge").nodes == 0
-        held.undeclare()
+def test_nodes_on_dds_count_and_ends_that_tell_no_hash_are_of_humble():
+    hashes = DistroHashes(TypeLibrary("jazzy"))
+    census = Census()
+    census.take_bridges((bridge("/talker", ends=(bridged_end("/chatter"),)),), DOMAIN)
+    assert census.nodes == {0: 1}
+    assert seen_distros(census.endpoints.values(), hashes) == ("humble",)
+    assert foreign_hashes(census.endpoints.values(), JAZZY, hashes) == []
+
+
+def test_services_and_actions_on_dds_say_nothing_of_a_distribution():
+    service = bridged_end("/add", kind=EndpointKind.SERVICE, type_name="a/srv/Add")
+    status = bridged_end("/turn/_action/status", type_name="action_msgs/msg/GoalStatusArray")
+    census = Census()
+    census.take_bridges((bridge("/talker", ends=(service, status)),), DOMAIN)
+    assert not census.endpoints
+
+
+def test_nodes_behind_a_bridge_of_another_domain_count_there():
+    census = Census()
+    other = bridge("/a", "/b", settings=started(5), is_used=False, ends=(bridged_end("/chatter"),))
+    census.take_bridges((other,), DOMAIN)
+    assert (census.nodes, census.endpoints) == ({5: 2}, {})
+
+
+@pytest.fixture(scope="module")
+def network() -> Generator[DdsNetwork]:
+    with DdsNetwork() as made:
+        yield made
+
+
+def test_a_robot_on_dds_is_fine_and_counted_before_the_studio_connects(network: DdsNetwork):
+    shown = network.bridge(config={"deny": {"publishers": ["/odom", "/scan"]}})
+    robot = network.robot("classroom")
+    told = seen(at(shown.endpoint, 0), "fine")
+    wait_until("all", lambda: examine(at(shown.endpoint, 0), ()).bridges[0].withheld_count == 2)
+    (view,) = examine(at(shown.endpoint, 0), ()).bridges
+    assert (view.state, view.withheld, view.allows) == ("used", ("/odom", "/scan"), False)
+    assert "jazzy" in told.distros
+    assert nodes_nearby(at(shown.endpoint, 0)) == view.node_count > 1
+    told = seen(at(shown.endpoint, 3), "other_domain")
+    assert [one.domain for one in told.domains] == [0]
+    assert told.bridges[0].state == "other_domain"
+    for one in (robot, shown):
+        one.kill()
+
+
+def test_a_bridge_behind_which_no_node_is_seen_is_told_as_such(network: DdsNetwork):
+    shown = network.bridge(domain=9, options=("--ros-localhost-only",))
+    told = seen(at(shown.endpoint, 9), "bridge")
+    (view,) = told.bridges
+    assert (told.nodes, view.state, view.domain, view.localhost_only) == (0, "empty", 9, True)
+    assert view.version.startswith("1.")
+    shown.kill()
+
+
+def test_nodes_of_humble_on_dds_are_fine_and_said_to_be_of_humble(network: DdsNetwork):
+    shown, robot = (
+        network.bridge(domain=4, distro="humble"),
+        network.robot("classroom", distro="humble", domain=4),
+    )
+    told = seen(at(shown.endpoint, 4), "fine")
+    wait_until("its types", lambda: examine(at(shown.endpoint, 4), ()).distros == ("humble",))
+    assert told.types == ()
+    for one in (robot, shown):
+        one.kill()
 
 
 def test_the_studios_own_nodes_do_not_count():

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import NAME_MAX, Looked, listed, short
+from studio.live.doctor.seen import NAME_MAX, Looked, called, listed, short
+from studio.live.doctor.subjects.nodes import place_of
 from studio.protocol.displays import Mend
 from studio.protocol.doctor import Concern, Finding
 
@@ -48,7 +49,9 @@ def _is_off(offset: Offset) -> bool:
 def _of_offset(offset: Offset) -> Iterator[Finding]:
     if not _is_off(offset):
         return
-    off_s, who = abs(offset.least_ns) / 1e9, listed(offset.nodes)
+    off_s = abs(offset.least_ns) / 1e9
+    # Samples from DDS carry the time at which their bridge passed them on.
+    who = f"the {called(offset.bridge)}" if offset.bridge else listed(offset.nodes)
     about = tuple(Concern(kind="node", name=one) for one in offset.nodes[:3])
     if offset.least_ns < 0:
         sentence = (
@@ -67,7 +70,7 @@ def _of_offset(offset: Offset) -> Iterator[Finding]:
         sentence=sentence,
         evidence=(
             f"the quickest of {offset.samples} samples came {offset.least_ns / 1e9:+.4f} s after "
-            "it was sent, by both clocks",
+            f"it was {'passed on' if offset.bridge else 'sent'}, by both clocks",
         ),
         line="timedatectl status",
         about=about,
@@ -126,7 +129,7 @@ def _of_simulated_time(system: System) -> Iterator[Finding]:
             subject=SUBJECT,
             sentence=f"/clock is published by {listed(publishers)}: time jumps between them.",
             evidence=tuple(
-                f"{short(one.node.path)} of process {one.node.zid[:8]}" for one in clock.senders[:8]
+                f"{short(one.node.path)} {place_of(one.node)}" for one in clock.senders[:8]
             ),
             about=(Concern(kind="topic", name=_CLOCK),),
         )

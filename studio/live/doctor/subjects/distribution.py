@@ -68,5 +68,16 @@ def _forms(system: System) -> dict[tuple[str, str], GraphEndpoint]:
         for one in (*ends.senders, *ends.receivers):
             if len(forms) >= _FORMS_MAX:
                 return forms
-            forms.setdefault((one.type_name, one.type_hash), one)
+            if not _is_as_here(one, system):
+                forms.setdefault((one.type_name, one.type_hash), one)
     return forms
+
+
+def _is_as_here(end: GraphEndpoint, system: System) -> bool:
+    """Whether a node on DDS tells no form of a type, or the one that is known here.
+
+    Where keys hold no form, as of Humble, what comes from DDS is read all the same.
+    """
+    if not end.node.bridge:
+        return False
+    return end.type_hash in {"", system.form_of(system.profile.distro, end.type_name)}

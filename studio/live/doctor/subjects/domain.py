@@ -81,6 +81,9 @@ def _why_nobody(
 ) -> str | None:
     if system is not None and (system.others or not system.is_connected):
         return None
+    others = any(count for one, count in counts.items() if one != domain)
+    if system is not None and not others and any(one.is_used for one in system.bridges):
+        return None  # why no node is behind it, its own subject says
     return why_nobody(endpoint or "the configured address", domain, counts)
 
 

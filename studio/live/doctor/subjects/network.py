@@ -11,13 +11,14 @@ from studio.protocol.doctor import Finding
 from studio.ros.wire.endpoints import parse_endpoint
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from studio.live.doctor.seen import Interface, Seen
     from studio.protocol.doctor import SubjectName
 
 SUBJECT: Final[SubjectName] = "network"
 _ZENOH: Final = "rmw_zenoh_cpp"
+_BRIDGE: Final = "zenoh-bridge-ros2dds"
 _OF_DDS: Final = (
     "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY",
     "ROS_DISCOVERY_SERVER", "FASTRTPS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI",
@@ -55,7 +56,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
             subject=SUBJECT,
             sentence=(
                 "No network interface has multicast. rmw_zenoh needs none, for its nodes find each "
-                "other by the router; nodes on DDS would not."
+                "other by the router; nodes on DDS would not, nor would a bridge to DDS find them."
             ),
             evidence=tuple(map(_described, others[:8])),
             about=(CONNECTION,),
@@ -78,14 +79,20 @@ def findings(seen: Seen) -> Iterator[Finding]:
 def _of_variables(seen: Seen) -> Iterator[Finding]:
     variables = seen.here.variables
     rmw = variables.get("RMW_IMPLEMENTATION", "")
+    is_bridged = seen.system is not None and any(one.is_used for one in seen.system.bridges)
     if rmw and rmw != _ZENOH:
         yield Finding(
             code="other-rmw",
-            level="warn",
+            level="note" if is_bridged else "warn",
             subject=SUBJECT,
             sentence=(
                 f"RMW_IMPLEMENTATION is {short(rmw)} where the studio was started: nodes that are "
-                f"started there speak that, and {_ZENOH} nodes do not hear them."
+                f"started there speak that, and {_ZENOH} nodes do not hear them. The studio meets "
+                + (
+                    "those on DDS through the bridge that is there."
+                    if is_bridged
+                    else f"those on DDS through {_BRIDGE}, which is to be started beside them."
+                )
             ),
             evidence=(f"RMW_IMPLEMENTATION={short(rmw)}",),
             line=f"export RMW_IMPLEMENTATION={_ZENOH}",
@@ -99,11 +106,19 @@ def _of_variables(seen: Seen) -> Iterator[Finding]:
             subject=SUBJECT,
             sentence=(
                 f"{listed(idle)} {'is' if len(idle) == 1 else 'are'} set, which rmw_zenoh does not "
-                "read: its nodes are found by the router alone."
+                "read: its nodes are found by the router alone. A bridge to DDS that is started "
+                "here, and nodes on DDS, do read such settings"
+                + (" and meet only nodes of this machine then." if _is_local(variables) else ".")
             ),
             evidence=tuple(f"{name} is set" for name in idle),
             about=(CONNECTION,),
         )
+
+
+def _is_local(variables: Mapping[str, str]) -> bool:
+    """Whether DDS is to stay on this machine."""
+    ranged = variables.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper()
+    return variables.get("ROS_LOCALHOST_ONLY") == "1" or ranged in {"LOCALHOST", "OFF"}
 
 
 def _is_here_only(seen: Seen) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.seen import Looked, listed, short
+from studio.live.doctor.seen import Looked, called, listed, short
 from studio.live.doctor.subjects.router import CONNECTION
 from studio.protocol.doctor import Concern, Finding
 from studio.ros.graph.diagnosis import why_unseen
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from studio.live.doctor.seen import Answers, Seen, System
     from studio.protocol.doctor import SubjectName
+    from studio.ros.graph.endpoints import GraphNode
 
 SUBJECT: Final[SubjectName] = "nodes"
 
@@ -67,13 +68,18 @@ def _twice(system: System) -> Iterator[Finding]:
                 f"{count} nodes are called {short(path)}: start all but one with another name."
             ),
             evidence=tuple(
-                f"{short(one.path)} of process {one.zid[:8]}"
+                f"{short(one.path)} {place_of(one)}"
                 f"{' (the studio)' if one.zid in system.own else ''}"
                 for one in same[:8]
             ),
             line="ros2 run PACKAGE EXECUTABLE --ros-args -r __node:=OTHER_NAME",
             about=(Concern(kind="node", name=path),),
         )
+
+
+def place_of(node: GraphNode) -> str:
+    """Say where a node runs, as far as it is known."""
+    return f"behind the {called(node.bridge)}" if node.bridge else f"of process {node.zid[:8]}"
 
 
 def _unseen(answers: Answers) -> Iterator[Finding]:
@@ -94,7 +100,8 @@ def _unseen(answers: Answers) -> Iterator[Finding]:
 
 def _silent(answers: Answers, system: System) -> Iterator[Finding]:
     there = {one.path: one for one in system.nodes}
-    dead = {one.path for one in system.nodes if one.zid in answers.lost}
+    dead = {one.path for one in system.nodes if one.zid in answers.lost and not one.bridge}
+    cut_off = {one.path for one in system.nodes if one.zid in answers.lost and one.bridge}
     for path in sorted(dead):
         yield Finding(
             code="dead-node",
@@ -108,15 +115,17 @@ def _silent(answers: Answers, system: System) -> Iterator[Finding]:
             about=(Concern(kind="node", name=path),),
         )
     for path in answers.silent:
-        if path not in there or path in dead:  # it ended meanwhile, or is said above
+        if path not in there or path in dead | cut_off:  # it ended meanwhile, or is said elsewhere
             continue
+        bridge = there[path].bridge
+        asked = f" when asked through the {called(bridge)}" if bridge else ""
         yield Finding(
             code="silent-node",
             level="warn",
             subject=SUBJECT,
             sentence=(
-                f"{short(path)} is listed and does not answer: it is busy in a callback, is not "
-                "spun, was stopped, or is dead and its token not yet gone."
+                f"{short(path)} is listed and does not answer{asked}: it is busy in a callback, is "
+                "not spun, was stopped, or is dead and not yet gone from the list."
             ),
             evidence=(f"{short(path)}/get_parameters gave no answer in 2 s",),
             line=f"ros2 param list {short(path)}",

@@ -1,4 +1,4 @@
-"""QoS: what DDS would not match though Zenoh carries it, and promises that nobody watches."""
+"""QoS: what DDS does not match, or would not though Zenoh carries it; promises nobody watches."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from studio.live.doctor.seen import Ends, Heard, Seen
-    from studio.protocol.doctor import SubjectName
+    from studio.protocol.doctor import Level, SubjectName
     from studio.ros.graph.endpoints import GraphEndpoint
 
 SUBJECT: Final[SubjectName] = "qos"
@@ -36,48 +36,83 @@ def findings(seen: Seen) -> Iterator[Finding]:
     if seen.system is None:
         return
     written = Written()
+    announcing = seen.answers.announcing if seen.answers else frozenset[str]()
     for name, ends in seen.system.topics.items():
         if ends.senders and ends.receivers:
-            yield from _unmatched(name, ends, written)
+            yield from _unmatched(name, ends, written, seen.system.own | announcing)
         if ends.senders:
             yield from _on_the_wire(name, ends, seen.heard)
 
 
-def _unmatched(name: str, ends: Ends, written: Written) -> Iterator[Finding]:
-    for publisher in _of_each_kind(ends.senders):
-        for subscription in _of_each_kind(ends.receivers):
+def _unmatched(
+    name: str, ends: Ends, written: Written, announcing: frozenset[str]
+) -> Iterator[Finding]:
+    is_bridged = any(one.node.bridge for one in (*ends.senders, *ends.receivers))
+    met = announcing if is_bridged else frozenset[str]()
+    for publisher in _of_each_kind(ends.senders, met):
+        for subscription in _of_each_kind(ends.receivers, met):
             if publisher.type_name != subscription.type_name:
+                continue
+            code = _way(publisher, subscription, announcing)
+            if not code:
                 continue
             for reason in why_unmatched(publisher.qos, subscription.qos):
                 yield written(
-                    "qos", partial(_would_not_match, name, reason, publisher, subscription)
+                    code, partial(_would_not_match, code, name, reason, publisher, subscription)
                 )
 
 
+def _way(publisher: GraphEndpoint, subscription: GraphEndpoint, announcing: frozenset[str]) -> str:
+    """Return the code of profiles that do not match on their way; empty: there is no way at all."""
+    zids = publisher.node.zid, subscription.node.zid
+    on_dds = [bool(one.node.bridge) for one in (publisher, subscription)]
+    if not any(on_dds):
+        return "qos"
+    if all(on_dds):
+        return "qos-on-dds" if zids[0] == zids[1] else "qos-through-bridge"
+    on_zenoh = zids[0] if on_dds[1] else zids[1]
+    return "qos-through-bridge" if on_zenoh in announcing else ""
+
+
+_WAYS: Final[dict[str, tuple[Level, str]]] = {
+    "qos": ("warn", "Zenoh carries it, DDS would not."),
+    "qos-on-dds": ("error", "both are on DDS, so not a single message comes."),
+    "qos-through-bridge": (
+        "warn",
+        "a bridge to DDS has the profile of the end that it met first, so that it comes or not by "
+        "which one was started first. Give both the same.",
+    ),
+}
+"""By the way between two ends: how grave it is, and what becomes of messages."""
+
+
 def _would_not_match(
-    name: str, reason: str, publisher: GraphEndpoint, subscription: GraphEndpoint
+    code: str, name: str, reason: str, publisher: GraphEndpoint, subscription: GraphEndpoint
 ) -> Finding:
     source, target = short(publisher.node.path), short(subscription.node.path)
+    level, outcome = _WAYS[code]
     return Finding(
-        code="qos",
-        level="warn",
+        code=code,
+        level=level,
         subject=SUBJECT,
-        sentence=(
-            f"{short(name)}: {reason} ({source} to {target}); Zenoh carries it, DDS would not."
-        ),
+        sentence=f"{short(name)}: {reason} ({source} to {target}); {outcome}",
         evidence=(
             f"{source} offers {_profile(publisher)}",
             f"{target} asks for {_profile(subscription)}",
         ),
         line=f"ros2 topic info -v {short(name)}",
         about=(Concern(kind="topic", name=name),),
-        talk=Talk(sources=(source,), name=short(name), targets=(target,), meets=True),
+        talk=Talk(
+            sources=(source,), name=short(name), targets=(target,), meets=code != "qos-on-dds"
+        ),
     )
 
 
 def _on_the_wire(name: str, ends: Ends, heard: Heard | None) -> Iterator[Finding]:
     """What rmw_zenoh does not do of a profile, and what a publisher promised and does not keep."""
-    promised = [one for one in _of_each_kind(ends.senders) if _promises(one)]
+    # Nodes on DDS are watched by DDS, and a bridge may slow a topic down.
+    kinds = (one for one in _of_each_kind(ends.senders) if not one.node.bridge)
+    promised = [one for one in kinds if _promises(one)]
     topic = heard.topics.get(name) if heard else None
     rate_hz = topic.pace.recent_hz if topic and topic.pace else 0.0
     for one in promised[:NAMED_MAX]:
@@ -127,13 +162,21 @@ def _promises(end: GraphEndpoint) -> list[str]:
     return found
 
 
-def _of_each_kind(ends: Iterable[GraphEndpoint]) -> list[GraphEndpoint]:
-    """Return one endpoint of each type and profile: a thousand nodes have the same of /rosout."""
-    kinds: dict[tuple[str, str], GraphEndpoint] = {}
+def _of_each_kind(
+    ends: Iterable[GraphEndpoint], announcing: frozenset[str] = frozenset()
+) -> list[GraphEndpoint]:
+    """Return one endpoint of each type, profile and way: thousands have the same of /rosout.
+
+    Args:
+        ends: All of one side.
+        announcing: Sessions that bridges to DDS hear of, which is a way of their own.
+    """
+    kinds: dict[tuple[str, str, str], GraphEndpoint] = {}
     for one in ends:
         if len(kinds) >= _KINDS_MAX:
             break
-        kinds.setdefault((one.type_name, qos_text(one.qos)), one)
+        way = one.node.zid if one.node.bridge or one.node.zid in announcing else ""
+        kinds.setdefault((one.type_name, qos_text(one.qos), way), one)
     return list(kinds.values())
 
 

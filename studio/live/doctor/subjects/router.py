@@ -46,7 +46,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
             line=_START,
             about=(CONNECTION,),
         )
-    routers = dict(seen.answers.routers) if seen.answers else dict[str, str]()
+    routers = routers_alone(seen)
     if len(routers) > 1:
         yield Finding(
             code="several-routers",
@@ -58,6 +58,13 @@ def findings(seen: Seen) -> Iterator[Finding]:
             evidence=tuple(f"{zid}: Zenoh {version}" for zid, version in list(routers.items())[:8]),
             about=(CONNECTION,),
         )
+
+
+def routers_alone(seen: Seen) -> dict[str, str]:
+    """Return Zenoh's version of routers by their ids, but not of bridges, which are some, too."""
+    bridges = {one.zid for one in seen.system.bridges} if seen.system else set[str]()
+    routers = seen.answers.routers.items() if seen.answers else ()
+    return {zid: version for zid, version in routers if zid not in bridges}
 
 
 def _of_place(place: WireReport) -> Iterator[Finding]:
@@ -89,7 +96,7 @@ _SAID: Final[dict[Verdict, str]] = {
     "no_router": "nothing answers",
     "foreign": "something answers that is not Zenoh",
     "not_admitted": "a router refuses the studio",
-    "bridge": "only keys of a bridge to DDS are there",
+    "bridge": "a bridge to DDS is there, and no node",
 }
 _CODES: Final[dict[Verdict, str]] = {
     "no_router": "no-router",
@@ -119,9 +126,10 @@ _SENTENCES: Final[dict[Verdict, tuple[str, Level]]] = {
         "error",
     ),
     "bridge": (
-        "Only a bridge to DDS is at {endpoint}, which speaks other keys than rmw_zenoh: "
-        "start the nodes with RMW_IMPLEMENTATION=rmw_zenoh_cpp.",
-        "error",
+        "A bridge to DDS is at {endpoint}, and no node is seen behind it: start the robot's nodes "
+        "in its ROS_DOMAIN_ID, and see that it can reach them: ROS_LOCALHOST_ONLY keeps a bridge "
+        "and a robot to their own machines, and between machines DDS needs multicast.",
+        "warn",
     ),
     "fine": (_CONNECTABLE, "warn"),
     "alone": (_CONNECTABLE, "warn"),

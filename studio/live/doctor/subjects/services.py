@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from studio.live.doctor.seen import Looked, listed, short
-from studio.live.doctor.subjects.nodes import duplicates
+from studio.live.doctor.subjects.nodes import duplicates, place_of
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.graph.graph import goal_service
 from studio.ros.names import is_hidden
@@ -69,7 +69,7 @@ def _served_twice(name: str, ends: Ends, twice: dict[str, int]) -> Iterator[Find
         subject=SUBJECT,
         sentence=f"{short(name)} is served {len(servers)} times, by {shown}: keep one.",
         evidence=tuple(
-            f"{short(one.node.path)} of process {one.node.zid[:8]}: {short(one.type_name)}"
+            f"{short(one.node.path)} {place_of(one.node)}: {short(one.type_name)}"
             for one in servers[:8]
         ),
         about=(Concern(kind="service", name=name),),

@@ -8,6 +8,7 @@ from studio.live.doctor.seen import Looked, listed, short
 from studio.live.doctor.subjects.clocks import set_simulated_time
 from studio.live.doctor.subjects.frames import is_placed
 from studio.protocol.doctor import Concern, Finding
+from studio.ros.qos import DurabilityPolicy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -83,7 +84,7 @@ def _of_data(
             "known there yet, so it waits or is dropped.",
             header,
         )
-    elif ahead_ns < -_OLD_NS:
+    elif ahead_ns < -_OLD_NS and not _comes_late(topic, system):
         yield _found(
             "stamp-past",
             topic,
@@ -91,6 +92,15 @@ def _of_data(
             "kept so long, so it cannot be placed. A recording wants --clock and use_sim_time.",
             header,
         )
+
+
+def _comes_late(topic: HeardTopic, system: System | None) -> bool:
+    """Whether messages may have waited on DDS: a bridge tells only when it passed them on."""
+    ends = system.topics.get(topic.topic) if system else None
+    return any(
+        one.node.bridge and one.qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        for one in (ends.senders if ends else ())
+    )
 
 
 def _of_frames(frames: HeardFrames, clock: HeardClock | None) -> Iterator[Finding]:

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.errors import StudioError
-from studio.live.doctor.seen import NAMED_MAX, Ends, Looked, Written, short, shown_nodes
+from studio.live.doctor.seen import NAMED_MAX, Ends, Looked, Written, listed, short, shown_nodes
+from studio.live.doctor.subjects.router import CONNECTION
+from studio.protocol.displays import Mend
 from studio.protocol.doctor import Concern, ConcernKind, Finding, Talk
+from studio.ros.names import is_hidden
+from studio.ros.profiles import HUMBLE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from studio.errors import InterfaceTextError
-    from studio.live.doctor.seen import Seen
+    from studio.live.doctor.seen import Seen, System
     from studio.protocol.doctor import SubjectName
-    from studio.ros.graph.endpoints import GraphEndpoint
+    from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
     from studio.ros.types.library import TypeLibrary
 
 SUBJECT: Final[SubjectName] = "types"
+_OLD: Final = HUMBLE.distro
+"""The newest of the distributions whose nodes tell no hashes on DDS."""
 
 
 def looked_at(seen: Seen) -> Looked | None:
@@ -39,6 +46,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
         yield from _of_name(_Named(name, ends, "service"), unknown, written)
     for type_name, error in system.types.faults().items():
         yield _faulty_text(type_name, error)
+    yield from _told_by_name(system)
 
 
 def _faulty_text(type_name: str, error: InterfaceTextError) -> Finding:
@@ -51,6 +59,60 @@ def _faulty_text(type_name: str, error: InterfaceTextError) -> Finding:
         evidence=(f"{short(type_name)} is not known because of {place}",),
         about=(Concern(kind="interface", name=type_name),),
     )
+
+
+def _told_by_name(system: System) -> Iterator[Finding]:
+    """Types of nodes on DDS that tell no hash at all, as before Iron: they are read as known here.
+
+    Of services and actions hashes are missing everywhere, so that topics alone tell such a node.
+    """
+    by_node: dict[GraphNode, list[GraphEndpoint]] = defaultdict(list)
+    for ends in system.topics.values():
+        for one in (*ends.senders, *ends.receivers):
+            if one.node.bridge and not is_hidden(one.name):
+                by_node[one.node].append(one)
+    by_name = [ends for ends in by_node.values() if not any(one.type_hash for one in ends)]
+    topics: dict[str, GraphEndpoint] = {}
+    for ends in by_name:
+        for one in ends:
+            topics.setdefault(one.type_name, one)
+    if not topics:
+        return
+    differing = [one for name, one in topics.items() if _differs(system, name)]
+    shown = differing or list(topics.values())
+    who = listed(ends[0].node.path for ends in by_name)
+    who += f" {'tells' if len(by_name) == 1 else 'tell'} types by name only, as nodes of {_OLD} do"
+    here = system.profile.distro
+    yield Finding(
+        code="other-form" if differing else "by-name-only",
+        level="warn" if differing else "note",
+        subject=SUBJECT,
+        sentence=(
+            f"{who}, and {listed(one.type_name for one in differing)} of {_OLD} is another than of "
+            f"{here}: it may be misread. Choose --distro {_OLD}, if the robot has that."
+            if differing
+            else f"{who}: they are read as {here} has them."
+        ),
+        evidence=tuple(
+            f"{short(one.name)}: {short(one.type_name)} by name only" for one in shown[:8]
+        ),
+        mend=_speak_old(system) if differing else None,
+        about=(CONNECTION, *(Concern(kind="topic", name=one.name) for one in shown[:3])),
+    )
+
+
+def _speak_old(system: System) -> Mend | None:
+    """Return the click that speaks as they do; None: others are there that would not be heard."""
+    if not all(one.bridge for one in system.others):
+        return None
+    command: dict[str, bool | int | float | str] = {"type": "connect_wire", "distro": _OLD}
+    return Mend(label=f"Speak {_OLD}", command=command)
+
+
+def _differs(system: System, type_name: str) -> bool:
+    """Whether a type is another in the last distribution without hashes than in the one spoken."""
+    forms = (system.form_of(_OLD, type_name), system.form_of(system.profile.distro, type_name))
+    return None not in forms and forms[0] != forms[1]
 
 
 class _Unknown:
@@ -84,8 +146,9 @@ def _of_name(named: _Named, unknown: _Unknown, written: Written) -> Iterator[Fin
     if len(types) > 1:
         yield written("type", partial(_several_types, named, sorted(types)))
     for type_name in types:
-        if len({one.type_hash for one in both if one.type_name == type_name}) > 1:
-            yield written("hash", partial(_several_forms, named, type_name))
+        told = [one for one in both if one.type_name == type_name and one.type_hash]
+        if len({one.type_hash for one in told}) > 1:
+            yield written("hash", partial(_several_forms, named, told))
         if why := unknown(type_name):
             yield written("unknown-type", partial(_not_known, named, type_name, why))
 
@@ -105,17 +168,17 @@ def _several_types(named: _Named, types: list[str]) -> Finding:
     )
 
 
-def _several_forms(named: _Named, type_name: str) -> Finding:
-    both = (*named.ends.senders, *named.ends.receivers)
-    same = [one for one in both if one.type_name == type_name]
+def _several_forms(named: _Named, same: list[GraphEndpoint]) -> Finding:
+    type_name = same[0].type_name
+    is_on_dds = all(one.node.bridge for one in same)
+    # DDS compares names of types only.
+    outcome = "which are misread on DDS" if is_on_dds else "which never meet"
     who = ", ".join(f"{short(one.node.path)} {one.type_hash[:15]}" for one in same[:NAMED_MAX])
     return Finding(
         code="hash",
         level="error",
         subject=SUBJECT,
-        sentence=(
-            f"{short(named.name)}: {short(type_name)} has several forms, which never meet ({who})."
-        ),
+        sentence=(f"{short(named.name)}: {short(type_name)} has several forms, {outcome} ({who})."),
         evidence=_evidence(same),
         about=(Concern(kind=named.kind, name=named.name),),
         talk=_talk(named),
@@ -138,7 +201,10 @@ def _not_known(named: _Named, type_name: str, why: str) -> Finding:
 
 
 def _evidence(ends: Iterable[GraphEndpoint]) -> tuple[str, ...]:
-    lines = (f"{short(one.node.path)}: {short(one.type_name)} {one.type_hash[:15]}" for one in ends)
+    lines = (
+        f"{short(one.node.path)}: {short(one.type_name)} {one.type_hash[:15] or 'by name only'}"
+        for one in ends
+    )
     return tuple(dict.fromkeys(lines))[:8]
 
 

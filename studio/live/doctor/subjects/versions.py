@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Final
 
 import studio
 from studio.live.doctor.seen import Looked, listed, short
-from studio.live.doctor.subjects.router import CONNECTION
+from studio.live.doctor.subjects.router import CONNECTION, routers_alone
 from studio.protocol.doctor import Concern, Finding
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from studio.live.doctor.seen import Answers, Seen
     from studio.protocol.doctor import SubjectName
@@ -23,15 +23,17 @@ def looked_at(seen: Seen) -> Looked:
     """All versions that are known."""
     known = [f"studio {studio.__version__}", f"Python {platform.python_version()}"]
     if seen.answers:
-        known += [f"router's Zenoh {one}" for one in sorted(set(seen.answers.routers.values()))]
+        known += [f"router's Zenoh {one}" for one in sorted(set(routers_alone(seen).values()))]
         known += [f"nodes' Zenoh {one}" for one in sorted(set(seen.answers.sessions.values()))]
+    bridges = seen.system.bridges if seen.system else ()
+    known += sorted({f"bridge to DDS {one.version}" for one in bridges if one.version})
     return Looked(len(known), ", ".join(known))
 
 
 def findings(seen: Seen) -> Iterator[Finding]:
     """Find versions that do not go together."""
     if seen.answers is not None:
-        yield from _of_zenoh(seen.answers)
+        yield from _of_zenoh(seen.answers, routers_alone(seen))
     for one in seen.heard.topics.values() if seen.heard else ():
         if one.not_understood:
             yield Finding(
@@ -51,7 +53,7 @@ def findings(seen: Seen) -> Iterator[Finding]:
             )
 
 
-def _of_zenoh(answers: Answers) -> Iterator[Finding]:
+def _of_zenoh(answers: Answers, alone: Mapping[str, str]) -> Iterator[Finding]:
     routers = sorted(set(answers.routers.values()))
     sessions = sorted(set(answers.sessions.values()))
     majors = {one.partition(".")[0] for one in (*routers, *sessions)}
@@ -70,14 +72,15 @@ def _of_zenoh(answers: Answers) -> Iterator[Finding]:
             ),
             about=(CONNECTION,),
         )
-    elif len(routers) > 1:
+    elif len(set(alone.values())) > 1:
         yield Finding(
             code="router-versions",
             level="note",
             subject=SUBJECT,
-            sentence=f"The routers have different versions of Zenoh: {listed(routers)}.",
-            evidence=tuple(
-                f"{zid}: {version}" for zid, version in list(answers.routers.items())[:8]
+            sentence=(
+                "The routers have different versions of Zenoh: "
+                f"{listed(sorted(set(alone.values())))}."
             ),
+            evidence=tuple(f"{zid}: {version}" for zid, version in list(alone.items())[:8]),
             about=(CONNECTION,),
         )

@@ -17,14 +17,16 @@ from studio.ros.names import check_full_name, split_type_name
 from studio.ros.wire.bridges.dialect import RouteKind, dds_qos, type_hash_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from studio.ros.qos import QoSProfile
 
 ANSWERS_MAX: Final = 50_000
-"""Answers of one bridge that are read; a robot with a hundred nodes gives some five thousand."""
+"""Answers that are read; a robot with a hundred nodes gives some five thousand."""
 _TEXT_MAX: Final = 2_000
 _ANSWER_BYTES_MAX: Final = 1 << 20
+_BYTES_MAX: Final = 64 << 20
+_HOST_MAX: Final = 60
 _INFINITE_NS: Final = 2**63 - 1
 _LISTS: Final = {
     "publishers": RouteKind.PUBLISHER,
@@ -34,6 +36,15 @@ _LISTS: Final = {
     "action_servers": RouteKind.ACTION_SERVER,
     "action_clients": RouteKind.ACTION_CLIENT,
 }
+_FACING: Final = {
+    ("topic", "sub"): RouteKind.PUBLISHER,
+    ("topic", "pub"): RouteKind.SUBSCRIPTION,
+    ("service", "cli"): RouteKind.SERVICE,
+    ("service", "srv"): RouteKind.CLIENT,
+    ("action", "cli"): RouteKind.ACTION_SERVER,
+    ("action", "srv"): RouteKind.ACTION_CLIENT,
+}
+"""What a session announces, by where a bridge tells of the route that it makes for it."""
 _OF_ROUTES: Final = {kind: name for name, kind in _LISTS.items()}
 
 Json: TypeAlias = "dict[str, object]"
@@ -118,21 +129,70 @@ class Told:
     )
 
 
-def read_answers(answers: Iterable[tuple[str, bytes]]) -> Told:
-    """Read the answers to `@/ZID/ros2/**`, keys and JSON."""
-    told = Told()
+def read_answers(answers: Iterable[tuple[str, bytes]], zids: Collection[str]) -> dict[str, Told]:
+    """Read the answers to `@/ZID/ros2/**`, keys and JSON.
+
+    Args:
+        answers: As they come; those beyond the limits are passed over.
+        zids: The bridges that were asked.
+
+    Returns:
+        What each bridge told that answered.
+    """
+    found: dict[str, Told] = {}
+    read_bytes = 0
     for count, (key, data) in enumerate(answers):
-        if count >= ANSWERS_MAX:
+        read_bytes += len(data)
+        if count >= ANSWERS_MAX or read_bytes > _BYTES_MAX:
             break
-        parts = key.split("/")[3:]
-        if not parts or len(data) > _ANSWER_BYTES_MAX:
+        _, _, rest = key.partition("/")
+        zid, _, rest = rest.partition("/")
+        parts = rest.split("/")[1:]
+        if zid not in zids or not parts or len(data) > _ANSWER_BYTES_MAX:
             continue
         try:
             value: object = json.loads(data)
         except (ValueError, RecursionError):
             continue
-        _read_one(told, parts, value)
-    return told
+        _read_one(found.setdefault(zid, Told()), parts, value)
+    return found
+
+
+def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[tuple[RouteKind, str]]:
+    """Read the answers to `@/BRIDGE/ros2/route/**`: what of a session it passes on now.
+
+    Args:
+        answers: Keys and JSON.
+        zid: The session.
+
+    Returns:
+        Kind and full name of each end, as the session announced them.
+    """
+    found: set[tuple[RouteKind, str]] = set()
+    for count, (key, data) in enumerate(answers):
+        parts = key.split("/")[3:]
+        if count >= ANSWERS_MAX:
+            break
+        if len(parts) < 4 or parts[0] != "route" or len(data) > _ANSWER_BYTES_MAX:
+            continue
+        kind = _FACING.get((parts[1], parts[2]))
+        name = "/".join(parts[3:])
+        try:
+            value: object = json.loads(data)
+        except (ValueError, RecursionError):
+            continue
+        if kind is None or not isinstance(value, dict):
+            continue
+        if _is_passing(cast("Json", value), f"{zid}:{name}"):
+            found.add((kind, f"/{name}"))
+    return frozenset(found)
+
+
+def _is_passing(route: Json, remote: str) -> bool:
+    """Whether a route serves a session, and has its end on DDS where it tells of that."""
+    served = route.get("remote_routes")
+    is_served = isinstance(served, list) and remote in cast("list[object]", served)
+    return is_served and route.get("is_active") is not False and route.get("dds_reader") != ""
 
 
 def _read_one(told: Told, parts: list[str], value: object) -> None:
@@ -148,7 +208,7 @@ def _read_one(told: Told, parts: list[str], value: object) -> None:
         case ["dds", participant] if isinstance(value, dict):
             properties = _of(_of(cast("Json", value), "qos"), "properties")
             if host := _text(properties.get("__Hostname")):
-                told.hosts[participant] = host
+                told.hosts[participant] = host[:_HOST_MAX]
         case ["dds", participant, "reader" | "writer" as side, _, *topic] if topic:
             _read_end(told, participant, side, "/".join(topic), value)
         case _:

@@ -33,6 +33,7 @@ _SLASH: Final = "§"
 _TYPE_HASH: Final = "typehash="
 _HASH: Final = "RIHS01_"
 _HASH_TEXT: Final = re.compile(r"RIHS01_[0-9a-f]{64}")
+_ZID: Final = re.compile(r"[0-9a-f]{1,32}")
 _DEPTH_MAX: Final = 2**31 - 1
 _ACTION: Final = "/_action/"
 _SEND_GOAL: Final = "send_goal"
@@ -93,7 +94,7 @@ def parse_bridge_token(token: str) -> str | Route:
         TokenError: It is none of a bridge.
     """
     chunks = token.split("/")
-    if len(chunks) < 3 or chunks[0] != "@" or chunks[2] != _MARK or not chunks[1]:
+    if len(chunks) < 3 or chunks[0] != "@" or chunks[2] != _MARK or not _ZID.fullmatch(chunks[1]):
         raise TokenError(token, "it is no token of a bridge")
     if len(chunks) == 3:
         return chunks[1]

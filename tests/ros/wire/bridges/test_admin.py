@@ -1,0 +1,151 @@
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from studio.ros.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
+from studio.ros.wire.bridges.admin import Told, read_answers, version_number
+from studio.ros.wire.bridges.dialect import RouteKind
+
+ZID = "808efd252658c6e9d13dc2de319edea7"
+ROBOT = "0110148101bf2c19a5072d13000001c1"
+HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+
+
+def told(**answers: Any) -> Told:  # noqa: ANN401 - whatever JSON is
+    """Read answers by what follows `@/ZID/ros2/`, with + for each slash."""
+    pairs = [
+        (f"@/{ZID}/ros2/{key.replace('+', '/')}", json.dumps(value).encode())
+        for key, value in answers.items()
+    ]
+    return read_answers(pairs, {ZID}).get(ZID, Told())
+
+
+def writer(**qos: object) -> dict[str, object]:
+    return {"key": "1", "qos": qos, "topic_name": "rt/chatter", "type_name": "x"}
+
+
+def test_settings_are_read():
+    config = {
+        "domain": 7, "namespace": "/robot1", "nodename": "my_bridge", "ros_localhost_only": True,
+        "allow": {"publishers": "^/scan$|^/tf$", "service_servers": "^/add$"},
+        "pub_max_frequencies": ["/image.*=5", "/a=b=2.5", "/wrong", "/no=x"],
+    }  # fmt: skip
+    settings = told(config=config).settings
+    assert settings is not None
+    assert (settings.domain, settings.namespace, settings.node_name) == (7, "/robot1", "my_bridge")
+    assert settings.localhost_only
+    assert settings.rules is not None
+    assert settings.rules.allows
+    assert settings.rules.texts() == ("publishers: ^/scan$|^/tf$", "service_servers: ^/add$")
+    assert settings.slowed == (("/image.*", 5.0), ("/a=b", 2.5))
+
+
+def test_a_deny_list_is_told_from_an_allow_list():
+    settings = told(config={"domain": 0, "deny": {"subscribers": "^/cmd_vel$"}}).settings
+    assert settings is not None
+    assert settings.rules is not None
+    assert not settings.rules.allows
+    assert settings.rules.patterns == {RouteKind.SUBSCRIPTION: "^/cmd_vel$"}
+
+
+def test_nodes_are_read_with_their_ends():
+    found = told(
+        **{
+            f"node+{ROBOT}+arm+driver": {
+                "publishers": [{"name": "/chatter", "type": "std_msgs/msg/String"}],
+                "action_servers": [{"name": "/turn", "type": "a/action/Turn"}],
+                "subscribers": [{"name": "no slash", "type": "std_msgs/msg/String"}, 3],
+                "service_servers": "none",
+            },
+            f"node+{ROBOT}+9wrong": {"publishers": []},
+        }
+    )
+    (node,) = found.nodes
+    assert (node.participant, node.path) == (ROBOT, "/arm/driver")
+    assert node.ends == (
+        (RouteKind.PUBLISHER, "/chatter", "std_msgs/msg/String"),
+        (RouteKind.ACTION_SERVER, "/turn", "a/action/Turn"),
+    )
+
+
+def test_the_qos_and_hash_of_each_dds_end_are_read():
+    qos = {
+        "reliability": {"kind": "BEST_EFFORT"},
+        "durability": {"kind": "TRANSIENT_LOCAL"},
+        "history": {"kind": "KEEP_LAST", "depth": 4},
+        "deadline": {"period": 500_000_000},
+        "user_data": list(f"typehash={HASH};".encode()),
+    }
+    found = told(**{f"dds+{ROBOT}+writer+1+rt+chatter": writer(**qos)})
+    end = found.dds_ends[ROBOT, RouteKind.PUBLISHER, "/chatter"]
+    assert end.type_hash == HASH
+    assert end.qos.reliability is ReliabilityPolicy.BEST_EFFORT
+    assert end.qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+    assert (end.qos.history, end.qos.depth) == (HistoryPolicy.KEEP_LAST, 4)
+    assert end.qos.deadline.nanoseconds == 500_000_000
+
+
+def test_what_a_dds_end_leaves_out_is_the_default_of_dds():
+    found = told(
+        **{
+            f"dds+{ROBOT}+writer+1+rt+a": writer(),
+            f"dds+{ROBOT}+reader+2+rt+a": writer(),
+            f"dds+{ROBOT}+reader+3+rq+addRequest": writer(),
+            f"dds+{ROBOT}+writer+4+rr+addReply": writer(),
+        }
+    )
+    reliability = {key[1:]: one.qos.reliability for key, one in found.dds_ends.items()}
+    assert reliability == {
+        (RouteKind.PUBLISHER, "/a"): ReliabilityPolicy.RELIABLE,
+        (RouteKind.SUBSCRIPTION, "/a"): ReliabilityPolicy.BEST_EFFORT,
+        (RouteKind.SERVICE, "/add"): ReliabilityPolicy.BEST_EFFORT,
+    }
+
+
+def test_machines_are_known_by_participant():
+    properties = {"qos": {"properties": {"__Hostname": "turtlebot"}}}
+    assert told(**{f"dds+{ROBOT}": properties}).hosts == {ROBOT: "turtlebot"}
+
+
+def test_answers_of_a_bridge_that_was_not_asked_are_passed_over():
+    assert read_answers([(f"@/{ZID}/ros2/version", b'"v1.10.0"')], {"ff"}) == {}
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [("v1.10.0-modified", "1.10.0"), ("v1.2.1", "1.2.1"), ("", ""), ("v<b>", ""), ("v" * 99, "")],
+)
+def test_a_version_is_its_number(text: str, number: str):
+    assert version_number(text) == number
+
+
+json_values = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=20),
+    lambda inner: (
+        st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=12), inner, max_size=4)
+    ),
+    max_leaves=12,
+)
+words = st.sampled_from(
+    ["domain", "namespace", "allow", "publishers", "name", "type", "qos", "history", "depth",
+     "kind", "pub_max_frequencies", "user_data", "properties", "__Hostname", "deadline", "period"]
+)  # fmt: skip
+keys = st.sampled_from(
+    ["config", "version", f"node/{ROBOT}/x", f"dds/{ROBOT}", f"dds/{ROBOT}/writer/1/rt/a",
+     f"dds/{ROBOT}/reader/1/rq/addRequest", "route/topic/pub/a", "", "node", "dds"]
+)  # fmt: skip
+
+
+@given(keys, st.recursive(json_values, lambda inner: st.dictionaries(words, inner, max_size=4)))
+def test_no_answer_breaks_the_reader(key: str, value: object):
+    read_answers([(f"@/{ZID}/ros2/{key}", json.dumps(value).encode())], {ZID})
+
+
+@given(st.binary(max_size=60))
+def test_what_is_no_json_is_passed_over(data: bytes):
+    read_answers([(f"@/{ZID}/ros2/config", data)], {ZID})
