@@ -1,10 +1,10 @@
 """A robot on DDS beside one on rmw_zenoh: delays, processor and losses of the same messages.
 
 Robot, router or bridge, and studio are processes in one network namespace. Nothing goes by shared
-memory, for robots are other machines. DDS is given larger buffers of its sockets, as ROS's manual of
-tuning has it for pictures, and once those that it has by itself, which hold less than a picture. The
-bridge is a build for tests, not made for speed: what it takes, and how much later samples come, is
-more than with a released one; the studio's part is not.
+memory, for robots are other machines. DDS is given larger buffers of its sockets, as ROS's manual
+of tuning has it for pictures, and once those that it has by itself, which hold less than a picture.
+The bridge is a build for tests, not made for speed: what it takes, and how much later samples come,
+is more than with a released one; the studio's part is not.
 """
 
 from __future__ import annotations
