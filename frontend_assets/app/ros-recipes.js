@@ -56,7 +56,7 @@ export function Recipes() {
       <p class="ros-hint">${t(`ros.recipe.${situation}.text`)}</p>
       ${recipeLines(situation, isHere ? endpoint : "").map((code) => html`<${CodeLine} key=${code} code=${code} />`)}
       <p class="ros-hint">${t(`ros.recipe.${situation}.then`)}</p>
-      ${ON_DDS.has(situation) && html`<p class="ros-hint">${t("ros.recipe.version")}</p>`}
+      ${ON_DDS.has(situation) && html`<p class="ros-hint">${t("ros.recipe.cyclone")}</p><p class="ros-hint">${t("ros.recipe.version")}</p>`}
     </section>
   </details>`;
 }

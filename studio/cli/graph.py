@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -21,6 +22,10 @@ if TYPE_CHECKING:
 _NamesOf: TypeAlias = "Callable[[Graph], list[tuple[str, list[str]]]]"
 _FIRST_TOKENS_S = 1.0
 _QUIET_S = 0.1
+_NOBODY_ON_DDS = (
+    "A bridge to DDS is there, but no DDS node is seen behind it: it needs the ROS_DOMAIN_ID of "
+    "the nodes, their ROS_DISTRO if that is humble, and a network on which DDS finds them."
+)
 
 
 def add_graph_options(parser: argparse.ArgumentParser) -> None:
@@ -45,14 +50,19 @@ def opened_graph(options: argparse.Namespace) -> Generator[Graph]:
 
 
 def why_empty(wire: WireSession) -> str:
-    """Return why no node is seen: the router shows none, or they are in other domains."""
+    """Return why no node is seen: none is shown, or they are in other domains."""
     from studio.ros.graph.diagnosis import nodes_by_domain, unseen_nodes, why_nobody, why_unseen
 
     unseen = unseen_nodes(wire)
     if unseen is not None:
         return why_unseen(unseen)
-    counts = dict(nodes_by_domain(wire))
+    counts = Counter(nodes_by_domain(wire))
+    for bridge in wire.bridges.current:
+        if bridge.settings is not None:
+            counts[bridge.settings.domain] += len(bridge.nodes)
     counts.pop(wire.domain, None)  # what came while this was asked
+    if wire.bridges.current and not counts.total():
+        return _NOBODY_ON_DDS
     endpoint = ", ".join(wire.settings.connect) or "the configured address"
     return why_nobody(endpoint, wire.domain, counts) or ""
 

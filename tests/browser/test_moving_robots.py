@@ -20,6 +20,7 @@ import pytest
 from studio.course.rover.room import clearance_m
 from studio.ros.messages import message
 from tests.support.demos import heard, node_at, running, running_demo
+from tests.support.scene_nodes import points_below, poses_below
 from tests.support.server import running_studio
 from tests.support.studio_page import studio_page, wait_until
 from tests.support.wire import running_router
@@ -43,35 +44,6 @@ R2D2 = Path(__file__).parents[2] / "models" / "r2d2_description" / "urdf" / "r2d
 TOPIC = "/r2d2/robot_description"
 _PATIENCE_S = 120.0
 _MAY_DRIVE_OUT = "the robot may drive out of it"
-_POSES = """(root) => {
-  const { nodeRefFromName } = document.querySelector("iframe").contentWindow.__viserMutable;
-  const found = {};
-  for (const [name, node] of Object.entries(nodeRefFromName)) {
-    const below = name.slice(root.length);
-    if (!node?.visible || !name.startsWith(root) || below.includes("/")) continue;
-    const { x, y, z, w } = node.quaternion;
-    found[below] = [...node.position.toArray(), w, x, y, z];
-  }
-  return found;
-}"""
-"""Position and quaternion of all that is seen right below a node, at one moment."""
-_POINTS = """(root) => {
-  const { nodeRefFromName } = document.querySelector("iframe").contentWindow.__viserMutable;
-  const found = [];
-  nodeRefFromName["/live"].updateWorldMatrix(true, true);
-  const fixed = nodeRefFromName["/live"].matrixWorld.clone().invert();
-  nodeRefFromName[root]?.traverse((object) => {
-    if (!object.isPoints) return;
-    const { position } = object.geometry.attributes;
-    const place = object.position.clone();
-    for (let at = 0; at < position.count; at += 1) {
-      place.set(position.getX(at), position.getY(at), position.getZ(at));
-      found.push(place.applyMatrix4(object.matrixWorld).applyMatrix4(fixed).toArray());
-    }
-  });
-  return found;
-}"""
-"""All points below a node, in the fixed frame."""
 
 
 class Scene:
@@ -100,12 +72,11 @@ class Scene:
 
     def poses(self, root: str) -> dict[str, NDArray[np.float64]]:
         """x, y, z in m and w, x, y, z of each node that is seen there, by its name."""
-        found: dict[str, list[float]] = self._tab.page.evaluate(_POSES, f"{root}/")
-        return {name: np.array(pose) for name, pose in found.items()}
+        return poses_below(self._tab.page, root)
 
     def points(self, root: str) -> NDArray[np.float64]:
         """Shape (N, 3), m."""
-        return np.array(self._tab.page.evaluate(_POINTS, root), np.float64).reshape(-1, 3)
+        return points_below(self._tab.page, root)
 
     def different(self, root: str, link: str, count: int) -> list[dict[str, NDArray[np.float64]]]:
         """All poses at several moments, between which one link moved."""

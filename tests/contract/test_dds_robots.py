@@ -154,6 +154,51 @@ def test_what_we_keep_comes_to_who_is_late_on_dds(world: World):
     world.node.destroy_publisher(publisher)
 
 
+def test_a_subscription_that_ends_takes_nothing_from_another_of_its_session(world: World):
+    world.robot.ask("publish", topic="/pulse", type_name=STRING, values={"data": "p"}, rate_hz=50)
+    wait_for_publisher(world.node, "/pulse")
+    heard: list[str] = []
+
+    def hear(one: MessageValue) -> None:
+        heard.append(one.data)
+
+    short = world.node.create_subscription(message(STRING), "/pulse", hear, 5)
+    wait_until("it is heard", lambda: bool(heard))
+    long = world.node.create_subscription(message(STRING), "/pulse", hear, 4096)
+    world.node.destroy_subscription(short)
+    routed(world, "/pulse")
+    heard.clear()
+    wait_until("it is still heard", lambda: len(heard) > 5, 10)
+    world.node.destroy_subscription(long)
+    world.robot.ask("stop", topic="/pulse")
+
+
+def test_a_publisher_that_ends_takes_nothing_from_another_of_its_session(world: World):
+    world.robot.ask("subscribe", topic="/wishes", type_name=STRING)
+    wait_for_subscription(world.node, "/wishes")
+    short = world.node.create_publisher(message(STRING), "/wishes", 5)
+    wait_until("DDS counts", lambda: short.get_subscription_count() == 1)
+    long = world.node.create_publisher(message(STRING), "/wishes", 50)
+    world.node.destroy_publisher(short)
+    routed(world, "/wishes")
+    long.publish(message(STRING)(data="still"))
+    assert world.robot.wait_heard("/wishes")["data"] == "still"
+    world.node.destroy_publisher(long)
+
+
+def routed(world: World, topic: str) -> None:
+    """Wait until the bridge has taken in what was announced before: it takes it in by turns."""
+    marker = world.node.create_publisher(message(STRING), f"{topic}_marker", 10)
+    world.robot.ask("subscribe", topic=f"{topic}_marker", type_name=STRING)
+
+    def reaches() -> bool:
+        marker.publish(message(STRING)(data="here"))
+        return bool(world.robot.all_said("heard", topic=f"{topic}_marker"))
+
+    wait_until("the bridge has gone on", reaches)
+    world.node.destroy_publisher(marker)
+
+
 def test_both_dialects_meet_on_one_topic_and_nothing_comes_twice(world: World):
     heard: list[str] = []
 
@@ -196,6 +241,21 @@ def test_statistics_count_what_comes_from_dds(world: World):
     wait_until("a rate is known", lambda: 40 < statistics.flow().rate_hz < 60)
     statistics.close()
     world.robot.ask("stop", topic="/beat")
+
+
+def test_who_subscribes_again_beside_a_rate_that_is_counted_hears_again(world: World):
+    world.robot.ask("publish", topic="/tick", type_name=STRING, values={"data": "t"}, rate_hz=50)
+    wait_for_publisher(world.node, "/tick")
+    heard: list[MessageValue] = []
+    statistics = TopicStatistics(world.node.context, "/tick", 30.0)
+    for _ in range(2):
+        heard.clear()
+        subscription = world.node.create_subscription(message(STRING), "/tick", heard.append, 5)
+        wait_until("it is heard", lambda: len(heard) > 5, 10)
+        world.node.destroy_subscription(subscription)
+        routed(world, "/tick")
+    statistics.close()
+    world.robot.ask("stop", topic="/tick")
 
 
 def test_services_are_called_both_ways(world: World):

@@ -108,6 +108,16 @@ test("nodes of one namespace are one box, until it is opened", () => {
   assert.ok(ids(found).includes("node:/a/arm/left"), "who seeks a node finds it");
 });
 
+test("a box is marked with the bridge to DDS that all its nodes are behind", () => {
+  const nodes = [node("/a/one", false, "/a"), node("/a/two", false, "/a"), node("/pilot")];
+  const mixed = [...nodes, node("/a/three")];
+  const marks = (/** @type {typeof nodes} */ those, spaces = false) =>
+    drawnGraph({ nodes: those, links: [] }, { ...USUAL, spaces }).boxes.map(({ bridge }) => bridge);
+  assert.deepEqual(marks(nodes), ["/a", "/a", ""]);
+  assert.deepEqual(marks(nodes, true), ["/a", ""]);
+  assert.deepEqual(marks(mixed, true), ["", ""]);
+});
+
 test("a topic that a namespace publishes to itself and to others keeps both of its ends", () => {
   const { links } = byNamespace(FLEET, new Set());
   assert.deepEqual(

@@ -359,7 +359,7 @@ class DdsNetwork:
             {
                 "ROS_DISTRO": distro,
                 "PYTHONPATH": str(_TREE),
-                "CYCLONEDDS_URI": loopback(lease_s, self._domain_settings),
+                "CYCLONEDDS_URI": self._settings(lease_s),
             },
             stdin=subprocess.PIPE,
         )
@@ -395,6 +395,9 @@ class DdsNetwork:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def _settings(self, lease_s: float) -> str:
+        return loopback(lease_s).replace("</Domain>", f"{self._domain_settings}</Domain>")
+
     def _started(
         self, words: tuple[str, ...], variables: Mapping[str, str], stdin: int = subprocess.DEVNULL
     ) -> subprocess.Popen[str]:
@@ -407,7 +410,7 @@ class DdsNetwork:
                 *("nsenter", "--target", str(self._holder.pid), *entered, "--net"),
                 *("setpriv", "--pdeathsig", "KILL", *words),
             ],
-            env={**kept, "CYCLONEDDS_URI": loopback(more=self._domain_settings), **variables},
+            env={**kept, "CYCLONEDDS_URI": self._settings(LEASE_S), **variables},
             cwd=_TREE,
             stdin=stdin,
             stdout=subprocess.PIPE,

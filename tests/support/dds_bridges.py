@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind
 from studio.ros.wire.bridges.admin import Rules, Settings
@@ -66,3 +67,8 @@ def bridged_end(
     identity = f"b0b0b0/0110aa{node}/{kind}{name}"
     found = qos or QoSProfile(depth=10)
     return BridgedEnd(identity, kind, name, type_name, type_hash, found, node, "0110aa")
+
+
+def graph_end(end: BridgedEnd) -> GraphEndpoint:
+    """The same as the graph has it, behind the bridge `robot`."""
+    return GraphEndpoint.behind(end, GraphNode.behind(bridge(end.node), "0110aa", end.node))

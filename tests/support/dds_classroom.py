@@ -24,6 +24,7 @@ _SCAN_HZ: Final = 10.0
 _CHAT_HZ: Final = 2.0
 _RAYS: Final = 180
 _ROOM_M: Final = 3.0
+_LASER_X_M: Final = 0.15
 _WHEEL_RADIUS_M: Final = 0.05
 _TRACK_M: Final = 0.3
 _COMMAND_LASTS_S: Final = 0.5
@@ -82,7 +83,9 @@ class ClassroomRobot:
         self._scan = laser.create_publisher(kind("sensor_msgs/msg/LaserScan"), "/scan", _SENSOR)
         self._chatter = talker.create_publisher(kind(text), "/chatter", 10)
         description.publish(kind(text)(data=URDF))
-        fixed.publish(kind(tf)(transforms=[self._transform("base_link", "laser", 0.15, 0.0, 0.1)]))
+        fixed.publish(
+            kind(tf)(transforms=[self._transform("base_link", "laser", _LASER_X_M, 0.0, 0.1)])
+        )
         driver.open_parameters(driver, self._types)
         driver.declare_parameter(SPEED_MAX, 1.0)
         trigger = self._types.service("std_srvs/srv/Trigger")
@@ -156,8 +159,11 @@ class ClassroomRobot:
         )
 
     def _wall_m(self, angle: float) -> float:
+        """From the laser, which stands ahead of the middle of the body."""
         reach: list[float] = []
-        for at, direction in ((self._x_m, math.cos(angle)), (self._y_m, math.sin(angle))):
+        x_m = self._x_m + _LASER_X_M * math.cos(self._yaw)
+        y_m = self._y_m + _LASER_X_M * math.sin(self._yaw)
+        for at, direction in ((x_m, math.cos(angle)), (y_m, math.sin(angle))):
             if abs(direction) > 1e-9:
                 reach.append((math.copysign(_ROOM_M, direction) - at) / direction)
         return max(0.0, min(reach))

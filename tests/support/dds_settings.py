@@ -14,10 +14,10 @@ _SETTINGS: Final = (
     "<MaxAutoParticipantIndex>24</MaxAutoParticipantIndex>"
     "<LeaseDuration>{lease_ms:.0f} ms</LeaseDuration>"
     '<Peers><Peer address="127.0.0.1"/></Peers></Discovery>'
-    "{more}</Domain></CycloneDDS>"
+    "</Domain></CycloneDDS>"
 )
 
 
-def loopback(lease_s: float = LEASE_S, more: str = "") -> str:
-    """The value of CYCLONEDDS_URI; `more` is XML that its `Domain` has as well."""
-    return _SETTINGS.format(lease_ms=lease_s * 1000, more=more)
+def loopback(lease_s: float = LEASE_S) -> str:
+    """The value of CYCLONEDDS_URI."""
+    return _SETTINGS.format(lease_ms=lease_s * 1000)

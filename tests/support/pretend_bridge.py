@@ -77,6 +77,8 @@ class PretendBridge:
     def _tell(self, query: Any) -> None:  # noqa: ANN401
         for rest, value in dict(self.told).items():
             key = f"@/{self.zid}/ros2/{rest}"
+            if not query.key_expr.intersects(key):
+                continue
             payload = value if isinstance(value, bytes) else json.dumps(value).encode()
             query.reply(key, payload)
 

@@ -167,10 +167,12 @@ def _nodes_by_domain(wire: WireSession, system: System) -> dict[int, int]:
 
 def _silent_nodes(wire: WireSession, system: System) -> tuple[int, tuple[str, ...]]:
     """Ask nodes of others, all at once; return how many were asked, and who did not answer."""
+    cannot = system.fast_dds
     servers = [
         ends.senders[0]
         for name, ends in system.services.items()
         if name.endswith(_ANSWERING) and ends.senders and not system.is_own(ends.senders[0])
+        if ends.senders[0].node.path not in cannot
     ][:ASKED_MAX]
     asked = [(one.node.path, _Question(wire, one)) for one in servers]
     end_s = time.monotonic() + ANSWER_S

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
     from studio.ros.profiles import WireProfile
     from studio.ros.types.library import TypeLibrary
-    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.bridge import Bridge
     from studio.ros.wire.bridges.dialect import RouteKind
     from studio.tf.report import FrameReport
     from studio.tf.transforms import Notice
@@ -73,6 +73,11 @@ class System:
     def is_own(self, end: GraphEndpoint) -> bool:
         """Whether an endpoint is of the studio."""
         return end.node.zid in self.own
+
+    @property
+    def fast_dds(self) -> frozenset[str]:
+        """Nodes of which a bridge brings topics only, and no answer."""
+        return frozenset(path for one in self.bridges for path in one.fast_dds_nodes)
 
     @property
     def others(self) -> tuple[GraphNode, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from studio.errors import AttachmentError
 from studio.live.doctor.pace import Pace
 from studio.ros.attachment import unpack
-from studio.ros.node.samples import bridged_attachment, sender_of
+from studio.ros.node.samples import bridged_attachment
 from studio.ros.node.topic_statistics import RING, TopicStatistics
 
 if TYPE_CHECKING:
@@ -159,10 +159,8 @@ class TopicWatch(TopicStatistics):
 
     def _passed_on(self, sample: Sample, now_ns: int) -> Attachment | None:
         """Return what is known of a sample from DDS: its time is when the bridge passed it on."""
-        sender = sender_of(self._context.wire.bridges, self.topic, sample)
-        if sender is None:
-            return None
-        return self._timed(bridged_attachment(sender, sample, now_ns), now_ns)
+        found = bridged_attachment(self._context.wire.bridges, self.topic, sample, now_ns)
+        return None if found is None else self._timed(found[0], now_ns)
 
     def _timed(self, sent: Attachment, now_ns: int) -> Attachment:
         if not self.is_latched:  # else it may have been sent long ago

@@ -48,6 +48,25 @@ def sender_of(bridges: Bridges, topic: str, sample: Sample) -> Sender | None:
     return bridges.sender(_stamp_of(sample)[1], topic)
 
 
+def bridged_attachment(
+    bridges: Bridges, topic: str, sample: Sample, now_ns: int
+) -> tuple[Attachment, str] | None:
+    """Return what rmw_zenoh would have attached to a sample from DDS, and the hash of its type.
+
+    DDS's own number and time stay behind: the number is 0, and the time is when the bridge passed
+    it on. The hash is empty where DDS does not tell it. None: as for `sender_of`.
+    """
+    if sample.attachment is not None:
+        return None
+    time_text, zid = _stamp_of(sample)  # read once for both: it takes most of the time
+    sender = bridges.sender(zid, topic)
+    if sender is None:
+        return None
+    # NTP64: 2**32 are a second since the Unix epoch.
+    time_ns = int(time_text) * 1_000_000_000 >> 32 if time_text else now_ns
+    return Attachment(0, time_ns, sender.gid), sender.type_hash
+
+
 def bridged_sample(
     bridges: Bridges, token: EndpointToken, sample: Sample, now_ns: int
 ) -> RawSample | None:
@@ -55,32 +74,14 @@ def bridged_sample(
 
     It is not where it comes by another way as well, nor where its sender told another hash of the
     type: DDS compares names only, and its bytes would be misread.
-
-    DDS's own number and time stay behind: its number is 0, and its time is when the bridge passed
-    it on.
     """
-    if sample.attachment is not None:  # as in `sender_of`, but the stamp is read once for both
+    found = bridged_attachment(bridges, token.name, sample, now_ns)
+    if found is None:
         return None
-    time_text, zid = _stamp_of(sample)
-    sender = bridges.sender(zid, token.name)
-    if sender is None:
-        return None
-    told = sender.type_hash
+    attachment, told = found
     if told and token.type_hash not in {told, NO_HASH}:
         return None
-    attachment = _attachment(sender, time_text, now_ns)
     return RawSample(sample.payload.to_bytes(), attachment, now_ns)
-
-
-def bridged_attachment(sender: Sender, sample: Sample, now_ns: int) -> Attachment:
-    """Return what rmw_zenoh would have attached: no number, and when the bridge passed it on."""
-    return _attachment(sender, _stamp_of(sample)[0], now_ns)
-
-
-def _attachment(sender: Sender, time_text: str, now_ns: int) -> Attachment:
-    """Read the time of a Zenoh stamp, NTP64: 2**32 are a second since the Unix epoch."""
-    time_ns = int(time_text) * 1_000_000_000 >> 32 if time_text else now_ns
-    return Attachment(0, time_ns, sender.gid)
 
 
 def _stamp_of(sample: Sample) -> tuple[str, str]:

@@ -12,6 +12,7 @@ from studio.ros.messages import message, service
 from studio.ros.qos import QoSProfile, ReliabilityPolicy
 from tests.support.command_line import comes_to, studio
 from tests.support.demos import node_at
+from tests.support.pretend_bridge import PretendBridge, talking_bridge
 from tests.support.wire import free_endpoint, wait_until
 
 if TYPE_CHECKING:
@@ -211,3 +212,26 @@ def test_reports_say_that_the_nodes_are_in_another_domain(node: Node, endpoint: 
         comes_to(lambda ran: said in ran.out, "doctor", *option, *at)
         ran = studio("doctor", *option, *at)
         assert ("all is well" in ran.out, ran.code) == (False, 0)
+
+
+def test_bridges_to_dds_and_nodes_behind_them_are_reported(endpoint: str, at: tuple[str, ...]):
+    config = {"namespace": "/robot1", "ros_localhost_only": True, "pub_max_frequencies": ["/a=5"]}
+    with talking_bridge(endpoint, **config) as bridge:
+        ran = studio("doctor", "--report", *at)
+        for text in (
+            "\n   BRIDGES TO DDS\n",
+            f"/robot1 : version 1.10.0, domain 0, nodes 1, session {bridge.zid}\n",
+            "it meets only nodes of its own machine\n",
+            "at most 5 a second of /a\n",
+            "/robot1/talker : behind /robot1\n",
+        ):
+            assert text in ran.out
+        told = json.loads(studio("doctor", "--json", *at).out)
+    assert told["facts"]["bridges"] == "/robot1 1.10.0"
+
+
+def test_a_bridge_that_finds_nobody_is_said_and_no_fault(endpoint: str, at: tuple[str, ...]):
+    with PretendBridge(endpoint) as bridge:
+        bridge.show()
+        comes_to(lambda ran: "finds no node on DDS" in ran.out, "doctor", *at)
+        assert studio("doctor", *at).code == 0

@@ -158,7 +158,7 @@ def test_a_robot_on_dds_is_fine_and_counted_before_the_studio_connects(network: 
     assert [one.domain for one in told.domains] == [0]
     assert told.bridges[0].state == "other_domain"
     for one in (robot, shown):
-        one.kill()
+        one.end()
 
 
 def test_a_bridge_behind_which_no_node_is_seen_is_told_as_such(network: DdsNetwork):
@@ -167,7 +167,7 @@ def test_a_bridge_behind_which_no_node_is_seen_is_told_as_such(network: DdsNetwo
     (view,) = told.bridges
     assert (told.nodes, view.state, view.domain, view.localhost_only) == (0, "empty", 9, True)
     assert view.version.startswith("1.")
-    shown.kill()
+    shown.end()
 
 
 def test_nodes_of_humble_on_dds_are_fine_and_said_to_be_of_humble(network: DdsNetwork):
@@ -179,7 +179,7 @@ def test_nodes_of_humble_on_dds_are_fine_and_said_to_be_of_humble(network: DdsNe
     wait_until("its types", lambda: examine(at(shown.endpoint, 4), ()).distros == ("humble",))
     assert told.types == ()
     for one in (robot, shown):
-        one.kill()
+        one.end()
 
 
 def test_the_studios_own_nodes_do_not_count():

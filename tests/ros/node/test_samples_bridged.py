@@ -45,7 +45,8 @@ def test_a_bridged_sample_has_the_time_and_the_sender_of_its_stamp():
         assert came is not None
         assert sender is not None
         assert sender_of(ours.bridges, "/chatter", sample) == sender
-        assert came.attachment == bridged_attachment(sender, sample, 7)
+        attached = bridged_attachment(ours.bridges, "/chatter", sample, 7)
+        assert attached == (came.attachment, sender.type_hash)
         assert came.attachment.gid == sender.gid
         stamp = cast("Any", sample.timestamp).get_time()
         sent = datetime.fromtimestamp(came.attachment.source_time_ns / 1e9, UTC)

@@ -19,10 +19,11 @@ if TYPE_CHECKING:
     from studio.live.doctor.seen import Answers, Ends, Seen, System, Unrouted
     from studio.protocol.doctor import ConcernKind, SubjectName
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.wire.bridges.bridges import Bridge
+    from studio.ros.wire.bridges.bridge import Bridge
 
 SUBJECT: Final[SubjectName] = "bridges"
 _PROGRAM: Final = "zenoh-bridge-ros2dds"
+_CYCLONE: Final = "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp"
 _DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {_PROGRAM}"
 _KEEPS_LATCHED: Final = (1, 5, 1)
 """From this version on a bridge keeps transient local messages as rmw_zenoh does."""
@@ -153,6 +154,8 @@ def _of_used(bridge: Bridge, system: System) -> Iterator[Finding]:
     yield from _withheld(bridge, system)
     if bridge.settings is not None and bridge.settings.slowed:
         yield _slowed(bridge, bridge.settings.slowed)
+    if bridge.fast_dds_nodes:
+        yield _fast_dds(bridge)
     if bridge.twin:
         yield _twin(bridge)
 
@@ -322,16 +325,36 @@ def _slowed(bridge: Bridge, slowed: tuple[tuple[str, float], ...]) -> Finding:
     )
 
 
+def _fast_dds(bridge: Bridge) -> Finding:
+    nodes = bridge.fast_dds_nodes
+    return Finding(
+        code="fast-dds",
+        level="warn",
+        subject=SUBJECT,
+        sentence=(
+            f"{listed(nodes)} {'is' if len(nodes) == 1 else 'are'} on Fast DDS, of which the "
+            f"{called(bridge)} brings topics, and no answer of services, actions and parameters. "
+            f"Start {'it' if len(nodes) == 1 else 'them'} with {_CYCLONE}, if they matter."
+        ),
+        evidence=(
+            f"nodes on Fast DDS: {len(nodes)} of {len(bridge.nodes)}",
+            "the bridge writes the headers of requests as Cyclone DDS does",
+        ),
+        line=f"export {_CYCLONE}",
+        about=tuple(Concern(kind="node", name=one) for one in nodes[:3]),
+    )
+
+
 def _twin(bridge: Bridge) -> Finding:
     settings = bridge.settings
     return Finding(
         code="two-bridges",
-        level="warn",
+        level="error",
         subject=SUBJECT,
         sentence=(
             f"The {called(bridge.twin)} and another one ({bridge.zid[:6]}) pass on the same nodes "
-            "on DDS: what they send comes twice and is counted once, what is published here "
-            "reaches them twice, and services run twice. Stop one."
+            "on DDS, and each passes on what the other brings: one message or call can go round "
+            "without end, and a service runs again and again. Stop one."
         ),
         evidence=(
             f"both are in domain {settings.domain}" if settings else "both show the same nodes",
@@ -354,11 +377,12 @@ def _shared_nodes(bridges: list[Bridge]) -> Iterator[Finding]:
     for names, paths in together.items():
         yield Finding(
             code="shared-domain",
-            level="warn",
+            level="error",
             subject=SUBJECT,
             sentence=(
                 f"The bridges {listed(names)} found the same nodes on DDS, so each robot is here "
-                f"under several names ({listed(paths, 3)}): start each bridge on its robot with "
+                f"under several names ({listed(paths, 3)}), and what one bridge brings the other "
+                "passes on again, without end. Start each bridge on its robot with "
                 "--ros-localhost-only, or give each robot a ROS_DOMAIN_ID of its own."
             ),
             evidence=tuple(

@@ -11,6 +11,7 @@ from studio.errors import TokenError
 from studio.ros.condition import Condition
 from studio.ros.tokens import EndpointKind, gid_of
 from studio.ros.wire.bridges.admin import read_answers
+from studio.ros.wire.bridges.announcements import Announcements
 from studio.ros.wire.bridges.bridge import Bridge, Met, Sender, bridges_of, senders_of
 from studio.ros.wire.bridges.dialect import BRIDGES, TOKENS, Route, parse_bridge_token
 from studio.ros.wire.zenoh import (
@@ -74,6 +75,8 @@ class Bridges:
         """By topic."""
         self.is_used = False
         """Whether a bridge of the session's domain is there."""
+        self.announcements = Announcements(zenoh)
+        """What bridges are told of the session's ends."""
         self._due = threading.Event()
         self._closed = threading.Event()
         self._asking: threading.Thread | None = None
@@ -84,6 +87,7 @@ class Bridges:
         self._closed.set()
         self._due.set()
         self._reader.close()
+        self.announcements.close()
         asking = self._asking
         if asking is not None and asking is not threading.current_thread():
             wait_for_thread(asking)

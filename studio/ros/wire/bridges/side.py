@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from studio.ros.tokens import EndpointKind
 from studio.ros.wire.bridges.dialect import announcement, bridge_key
-from studio.ros.wire.zenoh import Declaration, Session, ZError, declare_token
+from studio.ros.wire.zenoh import Declaration, Session, ZError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,7 +31,7 @@ class BridgeSide(Generic[DeclaredT]):
     Args:
         zenoh: The session.
         bridges: Those that it meets.
-        token: The end; None: nothing is announced, and it is a subscriber of `topic`.
+        token: The end; None: it announces nothing by itself, and is a subscriber of `topic`.
         topic: Its full name.
         declare: Declares what takes or sends samples or requests, at a data key.
     """
@@ -46,8 +46,8 @@ class BridgeSide(Generic[DeclaredT]):
     ) -> None:
         self._zenoh, self._bridges, self._declare = zenoh, bridges, declare
         self._token = announcement(token) if token else None
-        self._needs_route = token is None or token.kind is EndpointKind.SUBSCRIPTION
-        self._announced: Declaration | None = None
+        self._kind = token.kind if token else EndpointKind.SUBSCRIPTION
+        self._needs_route = self._kind is EndpointKind.SUBSCRIPTION
         self.topic = topic
         self.declared: DeclaredT | None = None
         """None while no bridge is there, or none needs it."""
@@ -64,14 +64,13 @@ class BridgeSide(Generic[DeclaredT]):
         try:
             if is_needed and self.declared is None:
                 self.declared = self._declare(bridge_key(self.topic))
-            if is_used and self._announced is None and self._token is not None:
-                self._announced = declare_token(self._zenoh, self._token)
+            if is_used:
+                self._bridges.announcements.hold(self._kind, self.topic, self, self._token)
         except ZError as error:
             if not self._zenoh.is_closed():
                 _log.warning("Bridges to DDS do not get %s. %s", self.topic, error)
         if not is_used:
-            announced, self._announced = self._announced, None
-            self._undeclare(announced)
+            self._bridges.announcements.release(self._kind, self.topic, self)
         if not is_needed:
             declared, self.declared = self.declared, None
             self._undeclare(declared)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 import time
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.live.doctor.seen import Offset
+from studio.live.doctor.subjects.clocks import findings
 from studio.live.topics.topic_rates import KEPT_S
 from studio.protocol.parameters import SetParameter
 from studio.ros.attachment import packed
@@ -106,3 +109,12 @@ def test_clocks_that_agree_are_well(patient: Patient):
 
     wait_until("some samples", lambda: heard() > 5)
     assert not patient.codes("/robot") & {"clock-ahead", "clock-behind"}
+
+
+def test_the_clock_of_nodes_on_dds_is_that_of_their_bridge(patient: Patient):
+    seen = patient.seen()
+    assert seen.heard is not None
+    offset = Offset("b0b0b0", ("/driver",), -2 * 10**9, 9, "robot")
+    (found,) = findings(replace(seen, system=None, heard=replace(seen.heard, offsets=(offset,))))
+    assert found.sentence.startswith("The clock of the machine of the bridge robot is at least 2 s")
+    assert "it was passed on" in found.evidence[0]

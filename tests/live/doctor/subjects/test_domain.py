@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from studio.live.doctor.asking import ask
 from studio.live.doctor.examination import examine
 from studio.live.doctor.seen import Here
+from tests.support.dds_bridges import bridge, started
 from tests.support.wire import open_test_session, show_endpoints
 
 if TYPE_CHECKING:
@@ -51,3 +53,24 @@ def test_a_router_without_any_node_is_said(patient: Patient):
 def test_another_domain_of_the_terminal_is_a_note(patient: Patient):
     seen = replace(patient.seen(asks=True), here=Here(variables={"ROS_DOMAIN_ID": "5"}))
     assert "other-domain-here" in {one.code for one in examine(seen).findings}
+
+
+def test_nodes_of_a_bridge_count_in_its_domain(patient: Patient):
+    seen = patient.seen()
+    assert seen.system is not None
+    elsewhere = bridge("/driver", "/laser", settings=started(5), is_used=False)
+    system = replace(seen.system, bridges=(elsewhere,))
+    assert ask(patient.context.wire, system).nodes_by_domain[5] == 2
+
+
+def test_why_no_node_is_behind_a_bridge_its_own_subject_says(patient: Patient):
+    seen = patient.seen(asks=True)
+    assert seen.system is not None
+    assert seen.answers is not None
+    nobody = replace(
+        seen,
+        system=replace(seen.system, nodes=(), bridges=(bridge(),)),
+        answers=replace(seen.answers, nodes_by_domain={}),
+    )
+    codes = {one.code for one in examine(nobody).findings}
+    assert ("no-nodes" in codes, "bridge-empty" in codes) == (False, True)

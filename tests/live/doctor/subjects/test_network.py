@@ -15,7 +15,7 @@ def place(endpoint: str) -> WireReport:
     """Where a router is."""
     return WireReport(
         request=0, endpoint=endpoint, domain=0, distro="jazzy", verdict="fine",
-        starts_router=False, nodes=1, domains=(), distros=(), types=(), unseen=0,
+        starts_router=False, nodes=1, domains=(), distros=(), types=(), unseen=0, bridges=(),
     )  # fmt: skip
 
 
@@ -48,6 +48,13 @@ def test_variables_that_start_other_nodes_than_meant_are_found():
     assert found(cable, RMW_IMPLEMENTATION="rmw_zenoh_cpp") == set()
     assert found(cable, RMW_IMPLEMENTATION="rmw_fastrtps_cpp") == {"other-rmw"}
     assert found(cable, ROS_LOCALHOST_ONLY="1") == {"settings-of-dds"}
+
+
+def test_nodes_on_dds_that_are_started_here_need_a_bridge_and_it_reads_their_settings():
+    variables = {"RMW_IMPLEMENTATION": "rmw_cyclonedds_cpp", "ROS_LOCALHOST_ONLY": "1"}
+    codes = {one.code: one for one in findings(Seen(here=Here((LOOP,), variables)))}
+    assert "through zenoh-bridge-ros2dds" in codes["other-rmw"].sentence
+    assert "only nodes of this machine then" in codes["settings-of-dds"].sentence
 
 
 def test_this_machine_is_looked_at_without_any_address_of_it():

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from studio.live.doctor.seen import Answers, Ends
+from studio.live.doctor.subjects.qos import findings
 from studio.ros.duration import Duration
 from studio.ros.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
+from studio.ros.tokens import EndpointKind
+from tests.support.dds_bridges import bridged_end, graph_end
 from tests.support.patient import STRING, Patient, stamped
 
 pytestmark = pytest.mark.network
@@ -74,3 +80,30 @@ def test_profiles_that_match_are_well(patient: Patient):
     patient.publisher(STRING, "/qos_well", 10)
     patient.subscribe(STRING, "/qos_well", QoSProfile(reliability=ReliabilityPolicy.BEST_EFFORT))
     assert patient.codes("/qos_well") == set()
+
+
+@pytest.mark.parametrize(
+    ("way", "code"), [("dds", "qos-on-dds"), ("announced", "qos-through-bridge"), ("zenoh", "")]
+)
+def test_what_becomes_of_profiles_on_dds_goes_by_the_way(patient: Patient, way: str, code: str):
+    offered = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+    out = graph_end(bridged_end("/on_dds", qos=offered))
+    into = graph_end(bridged_end("/on_dds", "/listener", kind=EndpointKind.SUBSCRIPTION))
+    if way != "dds":
+        into = replace(into, node=replace(into.node, zid="c0c0c0", bridge=""))
+    seen = patient.seen()
+    assert seen.system is not None
+    system = replace(seen.system, topics={"/on_dds": Ends((out,), (into,))})
+    announcing = frozenset({"c0c0c0"}) if way == "announced" else frozenset[str]()
+    answers = Answers({}, None, {}, {}, 0, (), announcing=announcing)
+    found = [one.code for one in findings(replace(seen, system=system, answers=answers))]
+    assert found == ([code] if code else [])
+
+
+def test_dds_watches_what_its_nodes_promise(patient: Patient):
+    promised = QoSProfile(depth=5, deadline=SECOND)
+    seen = patient.seen()
+    assert seen.system is not None
+    ends = Ends((graph_end(bridged_end("/on_dds", qos=promised)),), ())
+    system = replace(seen.system, topics={"/on_dds": ends})
+    assert list(findings(replace(seen, system=system))) == []

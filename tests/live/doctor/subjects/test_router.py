@@ -55,13 +55,14 @@ def test_another_program_at_its_address_is_an_error():
 
 
 @pytest.mark.parametrize(
-    ("verdict", "code"), [("not_admitted", "not-admitted"), ("bridge", "only-a-bridge")]
+    ("verdict", "code", "level"),
+    [("not_admitted", "not-admitted", "error"), ("bridge", "only-a-bridge", "warn")],
 )
-def test_a_router_that_does_not_serve_the_studio_is_an_error(verdict: Verdict, code: str):
+def test_a_router_without_use_for_the_studio_is_found(verdict: Verdict, code: str, level: str):
     nowhere = examine_place(WireChoice("off", (free_endpoint(),), 0, "jazzy"), ())
     place = nowhere.model_copy(update={"verdict": verdict})
     found = {one.code: one for one in examine(Seen(place=place)).findings}[code]
-    assert found.level == "error"
+    assert found.level == level
     assert found.evidence[0].startswith(f"{place.endpoint}: ")
 
 

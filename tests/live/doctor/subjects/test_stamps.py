@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import pytest
 
+from studio.live.doctor.seen import Ends, Header, HeardTopic
+from studio.live.doctor.subjects.stamps import findings
+from studio.ros.qos import DurabilityPolicy, QoSProfile
+from tests.support.dds_bridges import bridged_end, graph_end
 from tests.support.patient import CLOCK, SCAN, TF, Patient, clock_at, stamped, transform
 from tests.support.wire import wait_until
 
@@ -74,3 +79,23 @@ def test_transforms_of_another_time_are_a_warning(patient: Patient, code: str, o
     )
     assert "by /robot" in found.sentence
     assert [(one.kind, one.name) for one in found.about] == [("frame", child)]
+
+
+@pytest.mark.parametrize(
+    "durability", [DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL]
+)
+def test_what_waited_on_dds_is_old_and_well(patient: Patient, durability: DurabilityPolicy):
+    seen = patient.seen()
+    assert seen.system is not None
+    assert seen.heard is not None
+    end = graph_end(bridged_end("/map", qos=QoSProfile(depth=1, durability=durability)))
+    now_ns = time.time_ns()
+    header = Header(now_ns - 300 * SECOND_NS, "map", now_ns, now_ns, "/driver")
+    topic = HeardTopic("/map", SCAN, 5.0, 1, None, header, has_header=True, not_understood=0)
+    now = replace(
+        seen,
+        system=replace(seen.system, topics={"/map": Ends((end,), ())}),
+        heard=replace(seen.heard, topics={"/map": topic}, clock=None),
+    )
+    is_old = "stamp-past" in {one.code for one in findings(now)}
+    assert is_old is (durability is DurabilityPolicy.VOLATILE)

@@ -10,6 +10,7 @@ from studio.live.doctor.examination import examine
 from studio.live.doctor.seen import Answers, Seen
 from studio.ros.tokens import whatever_type_key
 from studio.ros.wire.zenoh import declare_publisher
+from tests.support.dds_bridges import bridge
 from tests.support.patient import STRING, Patient
 
 pytestmark = pytest.mark.network
@@ -54,3 +55,20 @@ def test_all_versions_that_are_known_are_said(patient: Patient):
         one for one in examine(replace(seen, answers=None)).subjects if one.subject == "versions"
     )
     assert "Zenoh" not in blind.detail
+
+
+def test_a_bridge_that_is_a_router_is_said_as_what_it_is(patient: Patient):
+    seen = patient.seen(asks=True)
+    assert seen.system is not None
+    assert seen.answers is not None
+    routers = {**seen.answers.routers, "b0b0b0": "1.9.0"}
+    now = replace(
+        seen,
+        system=replace(seen.system, bridges=(bridge("/driver"),)),
+        answers=replace(seen.answers, routers=routers),
+    )
+    found = examine(now)
+    assert not {"several-routers", "router-versions"} & {one.code for one in found.findings}
+    (told,) = (one for one in found.subjects if one.subject == "versions")
+    assert "bridge to DDS 1.10.0" in told.detail
+    assert "1.9.0" not in told.detail

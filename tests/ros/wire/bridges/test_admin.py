@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -8,9 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
-from studio.ros.wire.bridges.admin import Told, read_answers, version_number
+from studio.ros.wire.bridges.admin import Told, read_answers, read_routes, version_number
 from studio.ros.wire.bridges.dialect import RouteKind
 
+GOLDEN = Path(__file__).parents[3] / "golden" / "dds_bridge"
 ZID = "808efd252658c6e9d13dc2de319edea7"
 ROBOT = "0110148101bf2c19a5072d13000001c1"
 HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
@@ -149,3 +151,40 @@ def test_no_answer_breaks_the_reader(key: str, value: object):
 @given(st.binary(max_size=60))
 def test_what_is_no_json_is_passed_over(data: bytes):
     read_answers([(f"@/{ZID}/ros2/config", data)], {ZID})
+
+
+def golden_routes(zid: str) -> frozenset[tuple[RouteKind, str]]:
+    """What the real bridge passed on for a session while it was recorded."""
+    lines = (GOLDEN / "jazzy.jsonl").read_text(encoding="utf-8").splitlines()
+    told = [one for one in map(json.loads, lines) if one["what"] == "admin"]
+    return read_routes(((one["key"], json.dumps(one["value"]).encode()) for one in told), zid)
+
+
+def test_routes_that_a_bridge_made_for_a_session_are_read():
+    first = (GOLDEN / "jazzy.jsonl").read_text(encoding="utf-8").partition("\n")[0]
+    assert golden_routes("elsewhere") == frozenset()
+    assert {
+        (RouteKind.SERVICE, "/add_remote"),
+        (RouteKind.ACTION_SERVER, "/remote_fibonacci"),
+    } <= golden_routes(json.loads(first)["zid"])
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        {"remote_routes": ["me:x"], "is_active": False},
+        {"remote_routes": ["me:x"], "dds_reader": ""},
+        {"remote_routes": ["you:x"]},
+        {"remote_routes": "me:x"},
+        {},
+        [],
+        None,
+    ],
+)
+def test_a_route_that_does_not_serve_a_session_is_none_for_it(value: object):
+    def routes(one: object) -> frozenset[tuple[RouteKind, str]]:
+        answer = (f"@/{ZID}/ros2/route/topic/pub/x", json.dumps(one).encode())
+        return read_routes([answer, (f"@/{ZID}/ros2/route/topic/pub/y", b"{")], "me")
+
+    assert routes(value) == frozenset()
+    assert routes({"remote_routes": ["me:x"]}) == {(RouteKind.SUBSCRIPTION, "/x")}
