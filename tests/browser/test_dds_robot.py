@@ -83,6 +83,7 @@ def room(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator
         tab.page.goto(studio.url)
         connect(tab)
         open_from_ros(tab)
+        draw(tab)
         yield Classroom(robot, node, tab, data)
         assert tab.errors == []
 
@@ -105,6 +106,15 @@ def open_from_ros(tab: StudioPage) -> None:
     window.get_by_role("button", name="Open", exact=True).click()
     tab.page.wait_for_function("location.pathname === '/d/robot-description'")
     wait_until("the robot to be drawn", tab.has_drawn_robot)
+
+
+def draw(tab: StudioPage) -> None:
+    """Draw what it sees and tells of itself, where its odometry says that it is."""
+    kinds = [["LaserScan", "/scan"], ["TF", ""], ["RobotModel", "/robot_description"]]
+    tab.page.evaluate(_SHOW, kinds)
+    frame = tab.page.get_by_role("textbox", name="Fixed frame")
+    frame.fill("odom")
+    frame.press("Enter")
 
 
 def test_it_is_opened_from_its_description_and_its_wheels_follow(room: Classroom):
@@ -160,11 +170,6 @@ def number(text: str) -> list[float]:
 
 def test_its_scan_frames_and_model_are_drawn(room: Classroom):
     page = room.tab.page
-    kinds = [["LaserScan", "/scan"], ["TF", ""], ["RobotModel", "/robot_description"]]
-    page.evaluate(_SHOW, kinds)
-    frame = page.get_by_role("textbox", name="Fixed frame")
-    frame.fill("odom")
-    frame.press("Enter")
     wait_until("the scan on the walls", lambda: is_on_walls(points_below(page, "/live/d1")))
     wait_until("the model in odom", lambda: "base_link" in poses_below(page, "/live/d3"))
     model = poses_below(page, "/live/d3")
@@ -250,6 +255,7 @@ def test_it_is_driven_by_hand_and_the_page_shows_how_far(room: Classroom):
     teleop = room.panel("teleop", "Teleop")
     topic = teleop.get_by_label("Topic", exact=True)
     assert topic.input_value() == "/cmd_vel"
+    wait_until("it is where its odometry says", lambda: "robot" in poses_below(page, ""))
     before = poses_below(page, "")["robot"]
     forward = teleop.get_by_role("button", name="Forward", exact=True)
     box = forward.bounding_box()

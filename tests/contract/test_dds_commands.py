@@ -113,18 +113,24 @@ def test_it_is_called_led_and_given_goals_and_parameters(world: World):
 def test_it_is_recorded_and_played_back_to_it(world: World, tmp_path: Path, storage: str):
     bag = recorded(world, tmp_path / "bag", storage)
     whole(bag)
-    again = f"/again_{storage}"
-    world.robot.ask("subscribe", topic=again, type_name="std_msgs/msg/String")
-    words = ("--topics", "/chatter", "--remap", f"/chatter:={again}", "--loop")
-    with started(world.endpoint, "bag", "play", str(bag), *words):
-        heard = world.robot.wait_heard(again)["data"]
-    assert heard.startswith("The robot says ")
+    played_back(world, bag, f"/again_{storage}")
 
 
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
-def test_a_robot_without_hashes_of_types_is_recorded(tmp_path: Path, storage: str):
+def test_a_robot_without_hashes_of_types_is_recorded_and_hears_it(tmp_path: Path, storage: str):
     with classroom("humble") as world:
-        whole(recorded(world, tmp_path / "bag", storage))
+        bag = recorded(world, tmp_path / "bag", storage)
+        whole(bag)
+        played_back(world, bag, "/again")
+
+
+def played_back(world: World, bag: Path, topic: str) -> None:
+    """The robot hears what it said."""
+    world.robot.ask("subscribe", topic=topic, type_name="std_msgs/msg/String")
+    words = ("--topics", "/chatter", "--remap", f"/chatter:={topic}", "--loop")
+    with started(world.endpoint, "bag", "play", str(bag), *words):
+        heard = world.robot.wait_heard(topic)["data"]
+    assert heard.startswith("The robot says ")
 
 
 def recorded(world: World, bag: Path, storage: str) -> Path:

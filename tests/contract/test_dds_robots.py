@@ -293,6 +293,28 @@ def test_who_subscribes_again_beside_a_rate_that_is_counted_hears_again(world: W
     world.robot.ask("stop", topic="/tick")
 
 
+def test_a_rate_is_counted_on_when_the_subscription_of_another_session_ends(world: World):
+    world.robot.ask("publish", topic="/tock", type_name=STRING, values={"data": "t"}, rate_hz=50)
+    wait_for_publisher(world.node, "/tock")
+    heard: list[MessageValue] = []
+    statistics = TopicStatistics(world.node.context, "/tock", 30.0)
+    wait_until("it is counted", lambda: statistics.flow().rate_hz > 20)
+    with context_at(world.endpoint) as context:
+        other = Node("other_studio", context=context)
+        subscription = other.create_subscription(message(STRING), "/tock", heard.append, 5)
+        with spun(context, other):
+            wait_until("it is heard", lambda: len(heard) > 5, 10)
+            other.destroy_subscription(subscription)
+    wait_until("the other is gone", lambda: world.node.graph.node("/other_studio") is None)
+    routed(world, "/tock")
+    heard.clear()
+    subscription = world.node.create_subscription(message(STRING), "/tock", heard.append, 5)
+    wait_until("it is heard again", lambda: len(heard) > 5, 10)
+    world.node.destroy_subscription(subscription)
+    statistics.close()
+    world.robot.ask("stop", topic="/tock")
+
+
 def test_services_are_called_both_ways(world: World):
     world.robot.ask("serve", service="/add", type_name=ADD, behaviour="add")
     client = world.node.create_client(service(ADD), "/add")

@@ -1,0 +1,60 @@
+"""One token for all ends of a kind and name, kept until the last of them has gone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import pytest
+
+from studio.ros.wire.bridges.announcements import Announcements
+from studio.ros.wire.zenoh import live_tokens
+from tests.support.wire import session_pair, wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from studio.ros.wire.session import WireSession
+
+pytestmark = pytest.mark.network
+HEAD = "@/1a/@ros2_lv"
+FIRST = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:0:0,5"
+OTHER = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:0:0,50"
+SERVER = f"{HEAD}/SS/chatter/std_srvs§srv§Empty"
+MARKER = f"{HEAD}/MP/marker/std_msgs§msg§String/:1:0:0,5"
+
+
+class Met(NamedTuple):
+    """What is announced, and a session that sees it."""
+
+    announcements: Announcements
+    other: WireSession
+
+    def shown(self) -> set[str]:
+        return set(live_tokens(self.other.zenoh, f"{HEAD}/*/**", 5.0))
+
+
+@pytest.fixture
+def met() -> Generator[Met]:
+    with session_pair() as (one, other):
+        yield Met(Announcements(one.zenoh), other)
+
+
+def test_the_first_token_stands_until_the_last_end_is_gone(met: Met):
+    met.announcements.hold(FIRST, "one")
+    met.announcements.hold(OTHER, "other")
+    wait_until("it is shown", lambda: met.shown() == {FIRST})
+    met.announcements.release(FIRST, "one")
+    met.announcements.release(FIRST, "one")
+    met.announcements.hold(MARKER, "marker")
+    wait_until("what came later is shown", lambda: MARKER in met.shown())
+    assert met.shown() == {FIRST, MARKER}
+    met.announcements.release(OTHER, "other")
+    wait_until("it is gone", lambda: met.shown() == {MARKER})
+
+
+def test_kinds_of_one_name_are_apart(met: Met):
+    met.announcements.hold(FIRST, "one")
+    met.announcements.hold(SERVER, "one")
+    wait_until("both are shown", lambda: met.shown() == {FIRST, SERVER})
+    met.announcements.release(FIRST, "one")
+    wait_until("one is left", lambda: met.shown() == {SERVER})
