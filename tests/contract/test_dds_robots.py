@@ -16,9 +16,11 @@ from studio.ros.parameter_client import ParameterClient
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
+from studio.ros.wire.zenoh import admin_answers
 from tests.support.dds_bridge import Bridge, DdsNetwork, DdsRobot
 from tests.support.demos import spun
 from tests.support.node_pair import context_at
+from tests.support.pretend_bridge import PretendBridge
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
@@ -27,7 +29,6 @@ if TYPE_CHECKING:
     from studio.ros.action import ServerGoalHandle
     from studio.ros.node.publisher import Publisher
     from studio.ros.node.samples import MessageInfo
-    from studio.ros.node.subscription import Subscription
     from studio.ros.types.classes import MessageValue
 
 pytestmark = pytest.mark.network
@@ -151,23 +152,31 @@ def test_a_subscription_that_waits_takes_the_qos_of_the_publisher_that_comes(wor
     world.node.destroy_subscription(subscription)
 
 
-def test_a_subscription_that_ends_leaves_the_topic_to_another(world: World):
-    heard: dict[str, list[str]] = {"first": [], "second": []}
+def test_a_subscription_goes_on_when_another_bridge_needs_the_topic_no_more(world: World):
+    heard: list[str] = []
 
-    def hear(who: str) -> Subscription:
-        def take(one: MessageValue) -> None:
-            heard[who].append(one.data)
+    def hear(one: MessageValue) -> None:
+        heard.append(one.data)
 
-        return world.node.create_subscription(message(STRING), "/shared", take, 10)
+    world.robot.ask("publish", topic="/left", type_name=STRING, values={"data": "l"}, rate_hz=50)
+    subscription = world.node.create_subscription(message(STRING), "/left", hear, 10)
+    wait_until("it is heard", lambda: bool(heard))
+    with PretendBridge(world.endpoint) as other:
+        rest = "MS/left/std_msgs§msg§String/:1:0:0,10"
+        other.announce(rest)
+        path = f"@/{world.bridge.zid}/ros2/route/topic/pub/left"
 
-    world.robot.ask("publish", topic="/shared", type_name=STRING, values={"data": "s"}, rate_hz=50)
-    first, second = hear("first"), hear("second")
-    wait_until("both hear", lambda: all(heard.values()))
-    world.node.destroy_subscription(first)
-    count = len(heard["second"])
-    wait_until("the other goes on", lambda: len(heard["second"]) > count + 10)
-    world.robot.ask("stop", topic="/shared")
-    world.node.destroy_subscription(second)
+        def serves_other() -> bool:
+            answers = admin_answers(world.node.wire.zenoh, path, 5.0)
+            return any(other.zid.encode() in data for _, data in answers)
+
+        wait_until("the bridge knows of the other", serves_other)
+        other.retire(rest)
+        wait_until("it knows of its end", lambda: not serves_other())
+    count = len(heard)
+    wait_until("ours goes on", lambda: len(heard) > count + 10)
+    world.robot.ask("stop", topic="/left")
+    world.node.destroy_subscription(subscription)
 
 
 def test_a_message_of_ours_is_heard_on_dds(world: World):

@@ -148,7 +148,8 @@ def read_answers(answers: Iterable[tuple[str, bytes]], zids: Collection[str]) ->
         _, _, rest = key.partition("/")
         zid, _, rest = rest.partition("/")
         parts = rest.split("/")[1:]
-        if zid not in zids or not parts or len(data) > _ANSWER_BYTES_MAX:
+        is_wanted = zid in zids and bool(parts) and parts[0] != "route"
+        if not is_wanted or len(data) > _ANSWER_BYTES_MAX:
             continue
         try:
             value: object = json.loads(data)

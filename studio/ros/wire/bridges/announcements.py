@@ -4,32 +4,38 @@ from __future__ import annotations
 
 import contextlib
 import threading
+import time
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from studio.ros.wire.bridges.dialect import RouteKind
 from studio.ros.wire.zenoh import Declaration, Session, ZError, declare_token
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
+    from collections.abc import Callable, Hashable
+
+_LINGERS_S: Final = 1.0
 
 
 @dataclass(slots=True)
 class _Shown:
-    """A token, and the ends that need it."""
+    """A token, the ends that need it, and since when none does."""
 
     declared: Declaration
     holders: set[Hashable] = field(default_factory=set["Hashable"])
+    idle_since_s: float = 0.0
 
 
 class Announcements:
     """Shows one token for all ends of a kind and name, as long as there is one of them.
 
     A bridge notes sessions by kind and name. With the first token that goes it ends what it has
-    for the session, whatever others there are.
+    for the session, whatever others there are. So the token of subscriptions also outlives the
+    last of them for a second: a bridge might hear of the end after the next has begun.
     """
 
-    def __init__(self, zenoh: Session) -> None:
-        self._zenoh = zenoh
+    def __init__(self, zenoh: Session, clock: Callable[[], float] = time.monotonic) -> None:
+        self._zenoh, self._clock = zenoh, clock
         self._lock = threading.Lock()
         self._shown: dict[str, _Shown] = {}
         """By what the token says before type and QoS."""
@@ -52,15 +58,34 @@ class Announcements:
         place = _place(token)
         with self._lock:
             shown = self._shown.get(place)
-            if shown is None:
+            if shown is None or holder not in shown.holders:
                 return
             shown.holders.discard(holder)
             if shown.holders:
                 return
-            del self._shown[place]
-            if not self._zenoh.is_closed():
-                with contextlib.suppress(ZError):
-                    shown.declared.undeclare()
+            shown.idle_since_s = self._clock()
+            if not place.startswith(RouteKind.SUBSCRIPTION):
+                self._end(place)
+
+    def sweep(self, *, at_once: bool = False) -> bool:
+        """End tokens that nobody holds any more; whether some are left for later.
+
+        Args:
+            at_once: Whether also those that were let go just now, as when no bridge is left.
+        """
+        with self._lock:
+            idle = {place: one for place, one in self._shown.items() if not one.holders}
+            due_s = self._clock() - (0.0 if at_once else _LINGERS_S)
+            ended = [place for place, one in idle.items() if one.idle_since_s <= due_s]
+            for place in ended:
+                self._end(place)
+        return len(ended) < len(idle)
+
+    def _end(self, place: str) -> None:
+        declared = self._shown.pop(place).declared
+        if not self._zenoh.is_closed():
+            with contextlib.suppress(ZError):
+                declared.undeclare()
 
 
 def _place(token: str) -> str:

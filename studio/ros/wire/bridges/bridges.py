@@ -12,7 +12,7 @@ from studio.ros.condition import Condition
 from studio.ros.tokens import EndpointKind, gid_of
 from studio.ros.wire.bridges.admin import read_answers
 from studio.ros.wire.bridges.announcements import Announcements
-from studio.ros.wire.bridges.bridge import Bridge, Met, Sender, bridges_of, senders_of
+from studio.ros.wire.bridges.bridge import Bridge, BridgedEnd, Met, Sender, bridges_of, senders_of
 from studio.ros.wire.bridges.dialect import BRIDGES, TOKENS, Route, parse_bridge_token
 from studio.ros.wire.zenoh import (
     ReadingThread,
@@ -39,6 +39,8 @@ _SETTLE_S: Final = 0.15
 """A robot that starts announces its ends one by one."""
 _ASK_EVERY_S: Final = 5.0
 """Nodes that join or leave a topic which others have change no token."""
+_SWEEP_EVERY_S: Final = 1.0
+"""While tokens stand that nobody needs."""
 _REST: Final = 5
 """So many times what the last question took is waited before the next."""
 
@@ -54,7 +56,7 @@ class Bridges:
 
     def __init__(self, zenoh: Session, domain: int) -> None:
         self._zenoh, self._domain = zenoh, domain
-        self._own_zid = str(zenoh.info.zid())
+        self.zid = str(zenoh.info.zid())
         self._changed = Condition()
         self._met: dict[str, Met] = {}
         self._dirty: set[str] = set()
@@ -64,7 +66,8 @@ class Bridges:
         self._route_count = 0
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
-        self._routed: frozenset[str] = frozenset()
+        self._brought: dict[str, BridgedEnd] = {}
+        """A publisher of each topic that a bridge brings."""
         self._listeners: tuple[Callable[[], None], ...] = ()
         self.malformed = 0
         """How many tokens were none of a bridge."""
@@ -138,10 +141,10 @@ class Bridges:
             same_topic.pop(side, None)
             if not same_topic:
                 self._sides.pop(side.topic, None)
-            side.update(is_used=False, is_routed=False)
+            side.update(is_used=False, brought=None)
 
     def _update(self, side: BridgeSide[Any]) -> None:
-        side.update(is_used=self.is_used, is_routed=side.topic in self._routed)
+        side.update(is_used=self.is_used, brought=self._brought.get(side.topic))
 
     def _forget(self, listener: Callable[[], None]) -> None:
         with self._changed:
@@ -165,7 +168,7 @@ class Bridges:
             return ""
         if isinstance(found, Route):
             return self._take_route(token, found, is_alive=is_alive)
-        if found == self._own_zid:
+        if found == self.zid:
             return ""
         if not is_alive:
             return "gone" if self._met.pop(found, None) else ""
@@ -216,7 +219,8 @@ class Bridges:
                     _log.exception("Bridges could not be asked")
             if self._closed.wait(_REST * (time.monotonic() - began_s)):
                 return
-            if not self._due.wait(_ASK_EVERY_S if self._met else None):
+            pause_s = _SWEEP_EVERY_S if self.announcements.sweep() else _ASK_EVERY_S
+            if not self._due.wait(pause_s if self._met else None):
                 with self._changed:
                     self._dirty.update(self._met)
 
@@ -258,12 +262,14 @@ class Bridges:
         if self._closed.is_set():
             return
         used = [one for one in current if one.is_used]
-        routed = frozenset(
-            end.name for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
-        )
+        brought = {
+            end.name: end for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
+        }
         is_switched = bool(used) is not self.is_used
-        changed = self._sides.keys() if is_switched else routed ^ self._routed
-        self.is_used, self._routed = bool(used), routed
+        changed = self._sides.keys() if is_switched else brought.keys() ^ self._brought.keys()
+        self.is_used, self._brought = bool(used), brought
         for topic in tuple(changed):
             for side in tuple(self._sides.get(topic, ())):
                 self._update(side)
+        if not used:
+            self.announcements.sweep(at_once=True)

@@ -195,11 +195,8 @@ def _action_ends(route: Route) -> tuple[RouteEnd, ...]:
 def announcement(end: EndpointToken) -> str | None:
     """Return the token by which bridges make a route to an end of ours; None: it needs none.
 
-    Of an action they expect one for all parts, which its send_goal brings. A subscription is not
-    announced: they read a topic from DDS as soon as Zenoh has a subscriber, with the QoS of the
-    publisher on DDS. Of one that was announced before that publisher is there they take the QoS
-    of the subscription, which may not match it; and where one of two announced is withdrawn they
-    read no more for the other.
+    Of an action they expect one for all parts, which its send_goal brings. Of a subscription they
+    are told by `subscription_announcement`, once they have a publisher of its topic.
     """
     if end.kind is EndpointKind.SUBSCRIPTION:
         return None
@@ -211,21 +208,40 @@ def announcement(end: EndpointToken) -> str | None:
         is_server = end.kind is EndpointKind.SERVICE
         kind = RouteKind.ACTION_SERVER if is_server else RouteKind.ACTION_CLIENT
         name, type_name = action, type_name.removesuffix("_SendGoal")
-    mangled = (bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH))
-    head = "/".join(("@", end.node.zid, _MARK, kind, *mangled))
+    head = _head(end.node.zid, kind, name, type_name)
     if end.kind in {EndpointKind.SERVICE, EndpointKind.CLIENT}:
         return head
-    return f"{head}/{_qos_text(end)}"
+    return f"{head}/{_qos_text(end.qos, end.type_hash)}"
 
 
-def _qos_text(end: EndpointToken) -> str:
+def subscription_announcement(
+    zid: str, topic: str, type_name: str, type_hash: str, qos: QoSProfile
+) -> str | None:
+    """Return the token of a session's subscriptions of a topic; None: a part of an action.
+
+    A bridge reads a topic from DDS as soon as Zenoh has a subscriber of it, but only until the last
+    session that it was told of has left. What it was told of before it has a publisher, it reads
+    with the QoS of the subscription, which that publisher may not match: so it is told of what it
+    has, and with the QoS of the publisher.
+    """
+    if _ACTION in topic:
+        return None
+    head = _head(zid, RouteKind.SUBSCRIPTION, topic, type_name)
+    return f"{head}/{_qos_text(qos, type_hash)}"
+
+
+def _head(zid: str, kind: RouteKind, name: str, type_name: str) -> str:
+    mangled = (bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH))
+    return "/".join(("@", zid, _MARK, kind, *mangled))
+
+
+def _qos_text(qos: QoSProfile, type_hash: str) -> str:
     """Write a profile, and the hash, which DDS nodes since Iron look for."""
-    qos = end.qos
     reliable = int(qos.reliability is not ReliabilityPolicy.BEST_EFFORT)
     latched = int(qos.durability is DurabilityPolicy.TRANSIENT_LOCAL)
     keep_all = qos.history is HistoryPolicy.KEEP_ALL
     depth = -1 if keep_all else min(qos.depth or DEPTH_DEFAULT, _DEPTH_MAX)
-    told = f":{_TYPE_HASH}{end.type_hash};" if end.type_hash.startswith(_HASH) else ""
+    told = f":{_TYPE_HASH}{type_hash};" if type_hash.startswith(_HASH) else ""
     return f":{reliable}:{latched}:{int(keep_all)},{depth}{told}"
 
 

@@ -7,13 +7,14 @@ import logging
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from studio.ros.tokens import EndpointKind
-from studio.ros.wire.bridges.dialect import announcement, bridge_key
+from studio.ros.wire.bridges.dialect import announcement, bridge_key, subscription_announcement
 from studio.ros.wire.zenoh import Declaration, Session, ZError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from studio.ros.tokens import EndpointToken
+    from studio.ros.wire.bridges.bridge import BridgedEnd
     from studio.ros.wire.bridges.bridges import Bridges
 
 DeclaredT = TypeVar("DeclaredT", bound=Declaration)
@@ -46,33 +47,45 @@ class BridgeSide(Generic[DeclaredT]):
     ) -> None:
         self._zenoh, self._bridges, self._declare = zenoh, bridges, declare
         self._token = announcement(token) if token else None
-        self._needs_route = token is None or token.kind is EndpointKind.SUBSCRIPTION
+        self._subscribes = token is None or token.kind is EndpointKind.SUBSCRIPTION
+        self._held: str | None = None
         self.topic = topic
         self.declared: DeclaredT | None = None
         """None while no bridge is there, or none needs it."""
         bridges.join(self)
 
-    def update(self, *, is_used: bool, is_routed: bool) -> None:
+    def update(self, *, is_used: bool, brought: BridgedEnd | None) -> None:
         """Declare what is needed now, and take back the rest; called by `Bridges` in turn.
 
         Args:
             is_used: Whether a bridge is there.
-            is_routed: Whether one brings samples of the topic.
+            brought: A publisher of the topic that comes through one; None: none does.
         """
-        is_needed = is_used and (is_routed or not self._needs_route)
+        is_needed = is_used and (brought is not None or not self._subscribes)
         try:
             if is_needed and self.declared is None:
                 self.declared = self._declare(bridge_key(self.topic))
-            if is_used and self._token is not None:
-                self._bridges.announcements.hold(self._token, self)
+            if is_needed and self._held is None:
+                self._announce(brought)
         except ZError as error:
             if not self._zenoh.is_closed():
                 _log.warning("Bridges to DDS do not get %s. %s", self.topic, error)
-        if not is_used and self._token is not None:
-            self._bridges.announcements.release(self._token, self)
-        if not is_needed:
-            declared, self.declared = self.declared, None
-            self._undeclare(declared)
+        if is_needed:
+            return
+        declared, self.declared = self.declared, None
+        self._undeclare(declared)
+        held, self._held = self._held, None
+        if held is not None:
+            self._bridges.announcements.release(held, self)
+
+    def _announce(self, brought: BridgedEnd | None) -> None:
+        token = self._token
+        if self._subscribes and brought is not None:
+            told = (brought.name, brought.type_name, brought.type_hash, brought.qos)
+            token = subscription_announcement(self._bridges.zid, *told)
+        if token is not None:
+            self._bridges.announcements.hold(token, self)
+            self._held = token
 
     def close(self) -> None:
         """Take everything back; again is harmless."""

@@ -20,6 +20,7 @@ HEAD = "@/1a/@ros2_lv"
 FIRST = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:0:0,5"
 OTHER = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:0:0,50"
 SERVER = f"{HEAD}/SS/chatter/std_srvs§srv§Empty"
+SUBSCRIPTION = f"{HEAD}/MS/chatter/std_msgs§msg§String/:1:0:0,5"
 MARKER = f"{HEAD}/MP/marker/std_msgs§msg§String/:1:0:0,5"
 
 
@@ -29,6 +30,8 @@ class Met(NamedTuple):
     announcements: Announcements
     other: WireSession
 
+    clock: list[float]
+
     def shown(self) -> set[str]:
         return set(live_tokens(self.other.zenoh, f"{HEAD}/*/**", 5.0))
 
@@ -36,7 +39,8 @@ class Met(NamedTuple):
 @pytest.fixture
 def met() -> Generator[Met]:
     with session_pair() as (one, other):
-        yield Met(Announcements(one.zenoh), other)
+        clock = [0.0]
+        yield Met(Announcements(one.zenoh, lambda: clock[0]), other, clock)
 
 
 def test_the_first_token_stands_until_the_last_end_is_gone(met: Met):
@@ -58,3 +62,26 @@ def test_kinds_of_one_name_are_apart(met: Met):
     wait_until("both are shown", lambda: met.shown() == {FIRST, SERVER})
     met.announcements.release(FIRST, "one")
     wait_until("one is left", lambda: met.shown() == {SERVER})
+
+
+def test_a_token_of_subscriptions_stands_a_second_longer(met: Met):
+    met.announcements.hold(SUBSCRIPTION, "one")
+    met.announcements.release(SUBSCRIPTION, "one")
+    assert met.announcements.sweep()
+    met.announcements.hold(SUBSCRIPTION, "next")
+    met.clock[0] = 5.0
+    assert not met.announcements.sweep()
+    wait_until("it is shown", lambda: met.shown() == {SUBSCRIPTION})
+    met.announcements.release(SUBSCRIPTION, "next")
+    met.clock[0] = 5.9
+    assert met.announcements.sweep()
+    met.clock[0] = 6.0
+    assert not met.announcements.sweep()
+    wait_until("it is gone", lambda: met.shown() == set())
+
+
+def test_where_no_bridge_is_left_no_token_stands_longer(met: Met):
+    met.announcements.hold(SUBSCRIPTION, "one")
+    met.announcements.release(SUBSCRIPTION, "one")
+    assert not met.announcements.sweep(at_once=True)
+    wait_until("it is gone", lambda: met.shown() == set())

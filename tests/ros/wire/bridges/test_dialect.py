@@ -17,6 +17,7 @@ from studio.ros.wire.bridges.dialect import (
     parse_bridge_token,
     request_number,
     route_ends,
+    subscription_announcement,
 )
 
 ZID = "808efd252658c6e9d13dc2de319edea7"
@@ -137,8 +138,13 @@ def test_what_we_announce_is_read_as_it_was_meant(name: str, qos: QoSProfile):
     assert (found.zid, found.kind) == (ZID, RouteKind.PUBLISHER)
 
 
-def test_a_subscription_is_not_announced():
+def test_a_subscription_is_announced_with_what_its_publisher_offers():
     assert end(EndpointKind.SUBSCRIPTION, "/scan", "sensor_msgs/msg/LaserScan") is None
+    qos = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+    token = subscription_announcement(ZID, "/scan", "sensor_msgs/msg/LaserScan", "", qos)
+    assert token == f"{HEAD}/MS/scan/sensor_msgs§msg§LaserScan/:0:0:0,5"
+    action = "/turn/_action/feedback"
+    assert subscription_announcement(ZID, action, "a/action/T_FeedbackMessage", "", qos) is None
 
 
 def test_a_service_is_announced_without_qos():
