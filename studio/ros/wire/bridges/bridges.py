@@ -42,7 +42,7 @@ _ASK_EVERY_S: Final = 5.0
 _SWEEP_EVERY_S: Final = 1.0
 """While tokens stand that nobody needs."""
 _REST: Final = 5
-"""So many times what the last question took is waited before the next."""
+"""So many times the processor that the last answers took is waited before the next question."""
 
 _log = logging.getLogger(__name__)
 
@@ -211,13 +211,13 @@ class Bridges:
         """Ask bridges whenever something changed, and now and then, until the end."""
         while not self._closed.wait(_SETTLE_S):
             self._due.clear()
-            began_s = time.monotonic()
+            began_s = time.thread_time()
             try:
                 self._ask()
             except Exception:  # noqa: BLE001 - what a bridge tells must not end the asking
                 if not self._zenoh.is_closed():
                     _log.exception("Bridges could not be asked")
-            if self._closed.wait(_REST * (time.monotonic() - began_s)):
+            if self._closed.wait(_REST * (time.thread_time() - began_s)):
                 return
             pause_s = _SWEEP_EVERY_S if self.announcements.sweep() else _ASK_EVERY_S
             if not self._due.wait(pause_s if self._met else None):
