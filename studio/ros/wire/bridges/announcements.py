@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import threading
+import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
@@ -23,7 +24,8 @@ class _Kept:
 
     declared: Declaration | None = None
     holders: set[Hashable] = field(default_factory=set["Hashable"])
-    ending: threading.Timer | None = None
+    ends_s: float | None = None
+    """When it is taken back if nobody holds it until then, by the monotonic clock."""
 
 
 class Announcements:
@@ -39,6 +41,8 @@ class Announcements:
         self._zenoh = zenoh
         self._lock = threading.Lock()
         self._kept: dict[tuple[EndpointKind, str], _Kept] = {}
+        self._ending: threading.Timer | None = None
+        """One for all: when a bridge goes, hundreds of subscriptions are released at once."""
 
     def hold(self, kind: EndpointKind, topic: str, holder: Hashable, token: str | None) -> None:
         """Announce an end for as long as it holds this; again is harmless.
@@ -55,9 +59,7 @@ class Announcements:
         with self._lock:
             kept = self._kept.setdefault((kind, topic), _Kept())
             kept.holders.add(holder)
-            if kept.ending is not None:
-                kept.ending.cancel()
-                kept.ending = None
+            kept.ends_s = None
             if kept.declared is None and token is not None:
                 kept.declared = declare_token(self._zenoh, token)
 
@@ -74,22 +76,34 @@ class Announcements:
             if kind is not EndpointKind.SUBSCRIPTION:
                 self._end(place)
                 return
-            kept.ending = threading.Timer(_LINGERS_S, self._end_unheld, (place, kept))
-            kept.ending.daemon = True
-            kept.ending.start()
+            kept.ends_s = time.monotonic() + _LINGERS_S
+            if self._ending is None:
+                self._end_in(_LINGERS_S)
 
     def close(self) -> None:
         """Wait for nothing any more, once the session is closed."""
         with self._lock:
-            for kept in self._kept.values():
-                if kept.ending is not None:
-                    kept.ending.cancel()
+            if self._ending is not None:
+                self._ending.cancel()
+                self._ending = None
             self._kept.clear()
 
-    def _end_unheld(self, place: tuple[EndpointKind, str], ended: _Kept) -> None:
+    def _end_in(self, seconds: float) -> None:
+        """Look again after a while; with the lock."""
+        self._ending = threading.Timer(seconds, self._end_unheld)
+        self._ending.daemon = True
+        self._ending.start()
+
+    def _end_unheld(self) -> None:
         with self._lock:
-            if self._kept.get(place) is ended and not ended.holders:
-                self._end(place)
+            self._ending = None
+            now_s = time.monotonic()
+            ends = {place: one.ends_s for place, one in self._kept.items() if one.ends_s}
+            for place, ends_s in ends.items():
+                if ends_s <= now_s:
+                    self._end(place)
+            if later := [ends_s for ends_s in ends.values() if ends_s > now_s]:
+                self._end_in(min(later) - now_s)
 
     def _end(self, place: tuple[EndpointKind, str]) -> None:
         declared = self._kept.pop(place).declared
