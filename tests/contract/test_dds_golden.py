@@ -44,12 +44,12 @@ def bridge(kind: str) -> Bridge:
     zids = [one for token in tokens if isinstance(one := parse_bridge_token(token), str)]
     routes = {t: one for t in tokens if isinstance(one := parse_bridge_token(t), Route)}
     answers = [(one["key"], json.dumps(one["value"]).encode()) for one in all_of(kind, "admin")]
-    told = read_answers(answers, set(zids))
-    zid = next(one for one in zids if one in told)
+    told = {zid: one for zid in zids if (one := read_answers(answers, zid)) is not None}
+    ((zid, news),) = told.items()
     of_bridge = {token: one for token, one in routes.items() if one.zid == zid}
-    settings = told[zid].settings
+    settings = news.settings
     assert settings is not None
-    (made,), _ = bridges_of([Met(zid, of_bridge, told[zid], asked=True)], settings.domain)
+    (made,), _ = bridges_of([Met(zid, of_bridge, news, asked=True)], settings.domain)
     return made
 
 

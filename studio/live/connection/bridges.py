@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 BRIDGES_SHOWN: Final = 20
 _NAMES_SHOWN: Final = 20
+_RULE_MAX: Final = 300
+"""Letters of a rule that are shown: every page is sent all of it again and again."""
 
 
 def bridge_views(bridges: Iterable[Bridge]) -> tuple[BridgeView, ...]:
@@ -36,15 +38,19 @@ def _view(bridge: Bridge) -> BridgeView:
         state=_state(bridge),
         twin=bridge.twin,
         allows=rules is not None and rules.allows,
-        rules=rules.texts() if rules else (),
+        rules=tuple(map(_shortened, rules.texts())) if rules else (),
         withheld=withheld[:_NAMES_SHOWN],
         withheld_count=len(withheld),
         slowed=tuple(
-            SlowedTopics(topics=topics, rate_hz=rate_hz)
+            SlowedTopics(topics=_shortened(topics), rate_hz=rate_hz)
             for topics, rate_hz in slowed[:_NAMES_SHOWN]
         ),
         localhost_only=settings is not None and settings.localhost_only,
     )
+
+
+def _shortened(rule: str) -> str:
+    return rule if len(rule) <= _RULE_MAX else f"{rule[: _RULE_MAX - 1]}…"
 
 
 def _state(bridge: Bridge) -> BridgeState:

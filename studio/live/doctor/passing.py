@@ -22,7 +22,7 @@ from studio.ros.wire.bridges.dialect import (
     announcement,
     parse_bridge_token,
 )
-from studio.ros.wire.zenoh import admin_answers, live_tokens
+from studio.ros.wire.zenoh import all_admin_answers, live_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from studio.ros.wire.session import WireSession
 
 _LOOKS: Final = 4
+_ASKS_S: Final = 10.0
+"""So long all bridges together are asked: of those that are left nothing is known."""
+_ANSWERS_MAX: Final = 50_000
+_BYTES_MAX: Final = 64 << 20
 _ON_ITS_WAY_S: Final = 0.5
 """A bridge makes a route within a second after an end was announced."""
 
@@ -55,24 +59,36 @@ def unrouted_ends(wire: WireSession, system: System) -> tuple[Unrouted, ...]:
     Bridges are asked again until a route that is on its way had its time.
     """
     missing = _wanted(wire, system)
+    end_s = time.monotonic() + _ASKS_S
     for look in range(_LOOKS):
         if not missing:
             break
         if look:
             time.sleep(_ON_ITS_WAY_S)
-        missing = _without_route(wire, missing)
+        missing = _without_route(wire, missing, end_s)
     return tuple(one for ends in missing.values() for one in ends.values())
 
 
 def _without_route(
-    wire: WireSession, wanted: Mapping[str, Mapping[tuple[RouteKind, str], Unrouted]]
+    wire: WireSession,
+    wanted: Mapping[str, Mapping[tuple[RouteKind, str], Unrouted]],
+    end_s: float,
 ) -> dict[str, dict[tuple[RouteKind, str], Unrouted]]:
     found: dict[str, dict[tuple[RouteKind, str], Unrouted]] = {}
     for bridge, ends in wanted.items():
-        answers = list(admin_answers(wire.zenoh, f"@/{bridge}/ros2/route/**", ANSWER_TIMEOUT_S))
+        left_s = end_s - time.monotonic()
+        if left_s <= 0:
+            break
+        answers, is_whole = all_admin_answers(
+            wire.zenoh,
+            f"@/{bridge}/ros2/route/**",
+            min(ANSWER_TIMEOUT_S, left_s),
+            most=_ANSWERS_MAX,
+            most_bytes=_BYTES_MAX,
+        )
         routed = read_routes(answers, wire.zid)
         left = {place: one for place, one in ends.items() if place not in routed}
-        if answers and left:  # of one that does not answer nothing is known
+        if answers and is_whole and left:  # else nothing is known of it
             found[bridge] = left
     return found
 

@@ -35,6 +35,7 @@ __all__ = [
     "TransportEvent",
     "ZError",
     "admin_answers",
+    "all_admin_answers",
     "ask",
     "close",
     "declare_publisher",
@@ -509,6 +510,38 @@ def admin_answers(session: Session, key: str, timeout_s: float) -> Iterator[tupl
     for reply in cast("Iterator[Reply]", session.get(key, _queue(), timeout=timeout_s)):
         if reply.ok is not None:
             yield str(reply.ok.key_expr), reply.ok.payload.to_bytes()
+
+
+def all_admin_answers(
+    session: Session, key: str, timeout_s: float, *, most: int, most_bytes: int
+) -> tuple[list[tuple[str, bytes]], bool]:
+    """Ask Zenoh's admin space, and take what comes as fast as it does.
+
+    Args:
+        session: That asks.
+        key: What is asked for, a key expression.
+        timeout_s: So long is waited for the last answer.
+        most: So many answers are taken,
+        most_bytes: and so many bytes of keys and values: who answers may send any amount.
+
+    Returns:
+        Keys and values, and whether they are all there are.
+    """
+    taken: list[tuple[str, bytes]] = []
+    is_whole = True
+    token = zenoh.CancellationToken()
+    replies = session.get(key, _queue(), timeout=timeout_s, cancellation_token=token)
+    for reply in cast("Iterator[Reply]", replies):
+        if reply.ok is None:  # the time is over
+            is_whole = False
+            continue
+        answered, payload = str(reply.ok.key_expr), reply.ok.payload
+        most_bytes -= len(answered) + len(payload)
+        if len(taken) >= most or most_bytes < 0:
+            cast("Any", token).cancel()
+            return taken, False
+        taken.append((answered, payload.to_bytes()))
+    return taken, is_whole
 
 
 def watch_transports(session: Session) -> Incoming[TransportEvent]:

@@ -9,24 +9,32 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Final, TypeAlias, cast
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias, cast
 
 from studio.errors import RosNameError
 from studio.ros.duration import Duration
-from studio.ros.names import check_full_name, split_type_name
+from studio.ros.names import check_full_name, check_namespace, check_node_name, split_type_name
 from studio.ros.wire.bridges.dialect import RouteKind, dds_qos, type_hash_of
+from studio.ros.wire.settings import DOMAIN_MAX
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from studio.ros.qos import QoSProfile
 
 ANSWERS_MAX: Final = 50_000
-"""Answers that are read; a robot with a hundred nodes gives some five thousand."""
+"""Answers of one bridge that are read; a robot with a hundred nodes gives some five thousand."""
+_ANSWERS_OF_ALL: Final = 320_000
+ENDS_MAX: Final = 100_000
+"""Of the nodes of one bridge."""
+_ENDS_OF_ALL: Final = 400_000
 _TEXT_MAX: Final = 2_000
 _ANSWER_BYTES_MAX: Final = 1 << 20
 _BYTES_MAX: Final = 64 << 20
+_BYTES_OF_ALL: Final = 640 << 20
 _HOST_MAX: Final = 60
+_RATE: Final = re.compile(r"\d{1,9}(\.\d{1,9})?", re.ASCII)
+_LATCHED: Final = frozenset({"TRANSIENT_LOCAL", "TRANSIENT", "PERSISTENT"})
 _INFINITE_NS: Final = 2**63 - 1
 _LISTS: Final = {
     "publishers": RouteKind.PUBLISHER,
@@ -47,6 +55,8 @@ _FACING: Final = {
 """What a session announces, by where a bridge tells of the route that it makes for it."""
 _OF_ROUTES: Final = {kind: name for name, kind in _LISTS.items()}
 
+BRIDGE_NODE: Final = "zenoh_bridge_ros2dds"
+"""The name of a bridge's own node, where it was given no other."""
 Json: TypeAlias = "dict[str, object]"
 
 
@@ -129,34 +139,64 @@ class Told:
     )
 
 
-def read_answers(answers: Iterable[tuple[str, bytes]], zids: Collection[str]) -> dict[str, Told]:
+class Bounds(NamedTuple):
+    """How much is read of one bridge at once, of what all bridges together may tell.
+
+    Attributes:
+        bytes: Of keys and values.
+        ends: Of nodes.
+    """
+
+    answers: int = ANSWERS_MAX
+    bytes: int = _BYTES_MAX
+    ends: int = ENDS_MAX
+
+    @classmethod
+    def of_each(cls, bridges: int) -> Bounds:
+        """Return those of each of so many bridges."""
+        count = max(1, bridges)
+        return cls(
+            min(ANSWERS_MAX, _ANSWERS_OF_ALL // count),
+            min(_BYTES_MAX, _BYTES_OF_ALL // count),
+            min(ENDS_MAX, _ENDS_OF_ALL // count),
+        )
+
+
+def read_answers(
+    answers: Iterable[tuple[str, bytes]], zid: str, ends_max: int = ENDS_MAX
+) -> Told | None:
     """Read the answers to `@/ZID/ros2/**`, keys and JSON.
 
     Args:
-        answers: As they come; those beyond the limits are passed over.
-        zids: The bridges that were asked.
+        answers: Those of others are passed over.
+        zid: The bridge that was asked.
+        ends_max: How many ends of nodes are read; those beyond are left out.
 
     Returns:
-        What each bridge told that answered.
+        What it told; None: it told nothing.
     """
-    found: dict[str, Told] = {}
-    read_bytes = 0
-    for count, (key, data) in enumerate(answers):
-        read_bytes += len(data)
-        if count >= ANSWERS_MAX or read_bytes > _BYTES_MAX:
-            break
-        _, _, rest = key.partition("/")
-        zid, _, rest = rest.partition("/")
-        parts = rest.split("/")[1:]
-        is_wanted = zid in zids and bool(parts) and parts[0] != "route"
+    told, is_told = Told(), False
+    nodes: dict[tuple[str, str], DdsNode] = {}
+    for key, data in answers:
+        parts = key.split("/")
+        is_wanted = parts[1:2] == [zid] and len(parts) > 3 and parts[3] != "route"
         if not is_wanted or len(data) > _ANSWER_BYTES_MAX:
             continue
         try:
             value: object = json.loads(data)
         except (ValueError, RecursionError):
             continue
-        _read_one(found.setdefault(zid, Told()), parts, value)
-    return found
+        is_told = True
+        match parts[3:]:
+            case ["node", participant, *path] if path and isinstance(value, dict):
+                node = _node(participant, "/" + "/".join(path), cast("Json", value), ends_max)
+                if node is not None:
+                    nodes.setdefault((node.participant, node.path), node)
+                    ends_max -= len(node.ends)
+            case other:
+                _read_one(told, other, value)
+    told.nodes = list(nodes.values())
+    return told if is_told else None
 
 
 def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[tuple[RouteKind, str]]:
@@ -204,10 +244,6 @@ def _read_one(told: Told, parts: list[str], value: object) -> None:
             told.version = version_number(value)
         case ["config"] if isinstance(value, dict):
             told.settings = _settings(cast("Json", value))
-        case ["node", participant, *path] if path and isinstance(value, dict):
-            node = _node(participant, "/" + "/".join(path), cast("Json", value))
-            if node is not None:
-                told.nodes.append(node)
         case ["dds", participant] if isinstance(value, dict):
             properties = _of(_of(cast("Json", value), "qos"), "properties")
             if host := _text(properties.get("__Hostname")):
@@ -221,31 +257,31 @@ def _read_one(told: Told, parts: list[str], value: object) -> None:
 def version_number(text: str) -> str:
     """Return `1.10.0` of `v1.10.0-modified`; empty if there is none."""
     number = text.removeprefix("v").partition("-")[0].partition(" ")[0]
-    is_number = bool(number) and len(number) <= 20 and number.replace(".", "").isalnum()
+    is_number = number.isascii() and len(number) <= 20 and number.replace(".", "").isalnum()
     return number if is_number else ""
 
 
 def _settings(value: Json) -> Settings | None:
     domain = value.get("domain")
-    if not isinstance(domain, int):
+    if not isinstance(domain, int) or isinstance(domain, bool) or not 0 <= domain <= DOMAIN_MAX:
         return None
-    try:
-        namespace = (
-            check_full_name(_text(value.get("namespace")) or "/")
-            if (value.get("namespace") not in {"/", "", None})
-            else "/"
-        )
-    except RosNameError:
-        namespace = "/"
     return Settings(
         domain=domain,
-        namespace=namespace,
-        node_name=_text(value.get("nodename")) or "zenoh_bridge_ros2dds",
+        namespace=_checked(check_namespace, value.get("namespace"), "/"),
+        node_name=_checked(check_node_name, value.get("nodename"), BRIDGE_NODE),
         localhost_only=value.get("ros_localhost_only") is True
         or value.get("ros_automatic_discovery_range") == "LOCALHOST",
         rules=_rules(value),
         slowed=_slowed(value.get("pub_max_frequencies")),
     )
+
+
+def _checked(check: Callable[[str], str], value: object, default: str) -> str:
+    """Return a name that follows ROS's rules, else the default."""
+    try:
+        return check(_text(value))
+    except RosNameError:
+        return default
 
 
 def _rules(value: Json) -> Rules | None:
@@ -267,12 +303,12 @@ def _slowed(value: object) -> tuple[tuple[str, float], ...]:
     found: list[tuple[str, float]] = []
     for line in lines[:100]:
         topic, _, rate = _text(line).rpartition("=")
-        if topic and re.fullmatch(r"\d+(\.\d+)?", rate):
+        if topic and _RATE.fullmatch(rate):
             found.append((topic, float(rate)))
     return tuple(found)
 
 
-def _node(participant: str, path: str, value: Json) -> DdsNode | None:
+def _node(participant: str, path: str, value: Json, ends_max: int) -> DdsNode | None:
     try:
         check_full_name(path)
     except RosNameError:
@@ -281,7 +317,7 @@ def _node(participant: str, path: str, value: Json) -> DdsNode | None:
     for word, kind in _LISTS.items():
         found = value.get(word)
         for one in cast("list[object]", found) if isinstance(found, list) else []:
-            if not isinstance(one, dict):
+            if not isinstance(one, dict) or len(ends) >= ends_max:
                 continue
             name = _text(cast("Json", one).get("name"))
             type_name = _text(cast("Json", one).get("type"))
@@ -318,8 +354,7 @@ def _profile(qos: Json, *, is_writer: bool) -> QoSProfile:
     depth = history.get("depth", 1)
     found = dds_qos(
         reliable=reliability == "RELIABLE",
-        latched=_of(qos, "durability").get("kind")
-        in {"TRANSIENT_LOCAL", "TRANSIENT", "PERSISTENT"},
+        latched=_text(_of(qos, "durability").get("kind")) in _LATCHED,
         keep_all=history.get("kind") == "KEEP_ALL",
         depth=depth if isinstance(depth, int) else 1,
     )
@@ -343,7 +378,14 @@ def _of(value: Json, name: str) -> Json:
 
 
 def _text(value: object) -> str:
-    return value if isinstance(value, str) and len(value) <= _TEXT_MAX else ""
+    """Return a text that can be shown and sent: what would steer a terminal is a mark in it."""
+    if not isinstance(value, str) or len(value) > _TEXT_MAX:
+        return ""
+    return value if value.isprintable() else "".join(map(_shown, value))
+
+
+def _shown(letter: str) -> str:
+    return letter if letter.isprintable() else "\ufffd"
 
 
 def _bytes(value: object) -> str:

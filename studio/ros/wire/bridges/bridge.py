@@ -7,7 +7,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.ros.tokens import EndpointKind, gid_of
-from studio.ros.wire.bridges.admin import DdsNode, Rules, Settings, Told
+from studio.ros.wire.bridges.admin import (
+    BRIDGE_NODE,
+    Bounds,
+    DdsNode,
+    Rules,
+    Settings,
+    Told,
+)
 from studio.ros.wire.bridges.dialect import Route, RouteKind, route_ends
 
 if TYPE_CHECKING:
@@ -15,11 +22,8 @@ if TYPE_CHECKING:
 
     from studio.ros.qos import QoSProfile
 
-_NODE_NAME: Final = "zenoh_bridge_ros2dds"
 _FAST_DDS: Final = "010f"
 """The vendor, which begins the GUID of each participant (DDSI-RTPS 2.5, 8.3.3.1 and 9.3.1.5)."""
-ENDS_MAX: Final = 100_000
-"""Of one bridge: each node may name each topic."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,12 +99,20 @@ class Met:
         routes: By their tokens.
         told: What it answered last.
         asked: Whether it was asked.
+        is_late: Whether it was slow to answer the last time.
     """
 
     zid: str
     routes: dict[str, Route] = field(default_factory=dict[str, Route])
     told: Told = field(default_factory=Told)
     asked: bool = False
+    is_late: bool = False
+
+    def hear(self, told: Told | None, *, is_whole: bool) -> None:
+        """Take what it answered; of half an answer only what is no less than what is known."""
+        self.asked = True
+        if told is not None and (is_whole or len(told.nodes) >= len(self.told.nodes)):
+            self.told = told
 
 
 class Sender(NamedTuple):
@@ -135,10 +147,11 @@ def bridges_of(met: list[Met], domain: int) -> tuple[tuple[Bridge, ...], dict[st
     Of several bridges in one DDS domain the first shows its nodes. They also see each other as a
     node with everything that they pass on, which is no node of a robot.
     """
-    own_nodes = {_NODE_NAME} | {one.told.settings.node_name for one in met if one.told.settings}
+    own_nodes = {BRIDGE_NODE} | {one.told.settings.node_name for one in met if one.told.settings}
     names = _names(met, own_nodes)
     shown: dict[tuple[str, str], str] = {}
     found: list[Bridge] = []
+    ends_max = Bounds.of_each(len(met)).ends
     doubles: dict[str, frozenset[str]] = {}
     for one in met:
         settings = one.told.settings
@@ -149,7 +162,7 @@ def bridges_of(met: list[Met], domain: int) -> tuple[tuple[Bridge, ...], dict[st
         fresh = [node for node in nodes if (node.participant, prefix) not in shown]
         for node in fresh if is_used else ():
             shown[node.participant, prefix] = names[one.zid]
-        ends, doubles[one.zid] = _ends(one, fresh, prefix)
+        ends, doubles[one.zid] = _ends(one, fresh, prefix, ends_max)
         found.append(
             Bridge(
                 zid=one.zid,
@@ -194,13 +207,13 @@ def _name(met: Met, own_nodes: set[str]) -> str:
 
 
 def _ends(
-    met: Met, fresh: list[DdsNode], prefix: str
+    met: Met, fresh: list[DdsNode], prefix: str, ends_max: int
 ) -> tuple[tuple[BridgedEnd, ...], frozenset[str]]:
     """Return the ends of nodes that no other bridge shows, and topics that only others have."""
     of_route = _nodes_by_route(fresh)
     of_all = _nodes_by_route(met.told.nodes)
     settings = met.told.settings
-    own = DdsNode("", f"/{settings.node_name if settings else _NODE_NAME}", ())
+    own = DdsNode("", f"/{settings.node_name if settings else BRIDGE_NODE}", ())
     ends: list[BridgedEnd] = []
     doubles: set[str] = set()
     for route in met.routes.values():
@@ -210,9 +223,8 @@ def _ends(
             if route.kind is RouteKind.PUBLISHER:
                 doubles.add(route.name)
             continue
-        for node in nodes or [own]:
-            if len(ends) < ENDS_MAX:
-                ends += _ends_of(met, route, node, prefix)
+        for node in (nodes or [own])[: max(0, ends_max - len(ends))]:
+            ends += _ends_of(met, route, node, prefix)
     return tuple(sorted(ends, key=lambda end: end.identity)), frozenset(doubles)
 
 

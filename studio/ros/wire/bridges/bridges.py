@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 from studio.errors import TokenError
 from studio.ros.condition import Condition
 from studio.ros.tokens import EndpointKind, gid_of
-from studio.ros.wire.bridges.admin import read_answers
+from studio.ros.wire.bridges.admin import Bounds, read_answers
 from studio.ros.wire.bridges.announcements import Announcements
 from studio.ros.wire.bridges.bridge import Bridge, BridgedEnd, Met, Sender, bridges_of, senders_of
 from studio.ros.wire.bridges.dialect import BRIDGES, TOKENS, Route, parse_bridge_token
 from studio.ros.wire.zenoh import (
     ReadingThread,
     Sample,
-    admin_answers,
+    all_admin_answers,
     live_tokens,
     token_change,
     wait_for_thread,
@@ -34,6 +34,7 @@ BRIDGES_MAX: Final = 64
 ROUTES_MAX: Final = 100_000
 """Of all sessions; of those beyond none is known."""
 ANSWER_TIMEOUT_S: Final = 3.0
+_OTHERS_MAX: Final = 1_000
 _SENDERS_MAX: Final = 100_000
 _SETTLE_S: Final = 0.15
 """A robot that starts announces its ends one by one."""
@@ -43,6 +44,7 @@ _SWEEP_EVERY_S: Final = 1.0
 """While tokens stand that nobody needs."""
 _REST: Final = 5
 """So many times the processor that the last answers took is waited before the next question."""
+_LATE_S: Final = 1.0
 
 _log = logging.getLogger(__name__)
 
@@ -59,11 +61,16 @@ class Bridges:
         self.zid = str(zenoh.info.zid())
         self._changed = Condition()
         self._met: dict[str, Met] = {}
+        self._others: dict[str, None] = {}
+        """More than can be met, in their order: one is met when another goes."""
         self._dirty: set[str] = set()
         """Bridges of which something changed since they were asked."""
         self._routes: dict[str, dict[str, Route]] = {}
         """By session and token; a bridge's may come before it shows that it is one."""
         self._route_count = 0
+        self._is_stale = False
+        """Whether one went since `current` was made."""
+        self._rests_until_s = 0.0
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
         self._brought: dict[str, BridgedEnd] = {}
@@ -124,7 +131,10 @@ class Bridges:
         alive = {token.split("/")[1] for token in live_tokens(self._zenoh, BRIDGES, timeout_s)}
         with self._changed:
             return self._changed.wait_for(
-                lambda: alive | self._met.keys() <= {one.zid for one in self._current},
+                lambda: (
+                    (alive - self._others.keys()) | self._met.keys()
+                    <= {one.zid for one in self._current}
+                ),
                 max(0.0, end_s - time.monotonic()),
             )
 
@@ -154,7 +164,9 @@ class Bridges:
         with self._changed:
             changes = [self._take_one(*token_change(sample)) for sample in samples]
         if "gone" in changes:
-            self._make_current()
+            self._is_stale = True
+            if time.monotonic() >= self._rests_until_s:  # else whoever flaps would keep us busy
+                self._make_current()
         if "new" in changes or "gone" in changes:
             self._ask_soon()
 
@@ -170,13 +182,30 @@ class Bridges:
             return self._take_route(token, found, is_alive=is_alive)
         if found == self.zid:
             return ""
-        if not is_alive:
-            return "gone" if self._met.pop(found, None) else ""
-        if found in self._met or len(self._met) >= BRIDGES_MAX:
+        return self._meet(found) if is_alive else self._lose(found)
+
+    def _meet(self, zid: str) -> Literal["new", ""]:
+        if zid in self._met:
             return ""
-        self._met[found] = Met(found, self._routes.setdefault(found, {}))
-        self._dirty.add(found)
+        if len(self._met) >= BRIDGES_MAX:
+            if len(self._others) < _OTHERS_MAX:
+                self._others[zid] = None
+            return ""
+        self._met[zid] = Met(zid, self._routes.setdefault(zid, {}))
+        self._dirty.add(zid)
         return "new"
+
+    def _lose(self, zid: str) -> Literal["gone", ""]:
+        self._others.pop(zid, None)
+        if self._met.pop(zid, None) is None:
+            return ""
+        if not self._routes[zid]:
+            del self._routes[zid]
+        if self._others:
+            first = next(iter(self._others))
+            del self._others[first]
+            self._meet(first)
+        return "gone"
 
     def _take_route(
         self, token: str, route: Route, *, is_alive: bool
@@ -225,27 +254,48 @@ class Bridges:
                     self._dirty.update(self._met)
 
     def _ask(self) -> None:
-        """Ask those of which something changed, and make values of the answers."""
+        """Ask those of which something changed, and make values of the answers.
+
+        Those that were slow before come last, and after one that is slow the rest waits for the
+        next turn, so that news of the others come soon.
+        """
         with self._changed:
-            asked = [self._met[zid] for zid in self._dirty if zid in self._met]
-            self._dirty.clear()
-        if not asked:
-            return
-        which = asked[0].zid if len(asked) == 1 else "*"
-        answers = admin_answers(self._zenoh, f"@/{which}/ros2/**", ANSWER_TIMEOUT_S)
-        told = read_answers(answers, {one.zid for one in asked})
+            self._dirty &= self._met.keys()
+            asked = sorted((self._met[zid] for zid in self._dirty), key=lambda one: one.is_late)
+            bounds = Bounds.of_each(len(self._met))
+        for one in asked:
+            if one.is_late and one is not asked[0]:
+                self._make_current()
+            with self._changed:
+                self._dirty.discard(one.zid)
+            began_s = time.monotonic()
+            self._ask_one(one, bounds)
+            one.is_late = time.monotonic() - began_s > _LATE_S
+            if one.is_late:
+                if self._dirty:
+                    self._due.set()
+                break
+        if asked or self._is_stale:
+            self._make_current()
+
+    def _ask_one(self, one: Met, bounds: Bounds) -> None:
+        answers, is_whole = all_admin_answers(
+            self._zenoh,
+            f"@/{one.zid}/ros2/**",
+            ANSWER_TIMEOUT_S,
+            most=bounds.answers,
+            most_bytes=bounds.bytes,
+        )
+        told = read_answers(answers, one.zid, bounds.ends)
         with self._changed:
-            for one in asked:
-                news = told.get(one.zid)
-                if news is not None:
-                    one.told = news
-                one.asked = True
-        self._make_current()
+            one.hear(told, is_whole=is_whole)
 
     def _make_current(self) -> None:
         """Make values of what is known, update sides, and call listeners."""
+        began_s = time.thread_time()
         with self._turn:
             with self._changed:
+                self._is_stale = False
                 asked = [one for one in self._met.values() if one.asked]
                 current, doubles = bridges_of(asked, self._domain)
                 is_same = current == self._current
@@ -257,6 +307,7 @@ class Bridges:
         if not is_same:
             for listener in listeners:
                 listener()
+        self._rests_until_s = time.monotonic() + _REST * (time.thread_time() - began_s)
 
     def _use(self, current: tuple[Bridge, ...]) -> None:
         if self._closed.is_set():

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
-from studio.ros.wire.bridges.admin import Told, read_answers, read_routes, version_number
+from studio.ros.wire.bridges.admin import Bounds, Told, read_answers, read_routes, version_number
 from studio.ros.wire.bridges.dialect import RouteKind
 
 GOLDEN = Path(__file__).parents[3] / "golden" / "dds_bridge"
@@ -24,7 +24,7 @@ def told(**answers: Any) -> Told:  # noqa: ANN401 - whatever JSON is
         (f"@/{ZID}/ros2/{key.replace('+', '/')}", json.dumps(value).encode())
         for key, value in answers.items()
     ]
-    return read_answers(pairs, {ZID}).get(ZID, Told())
+    return read_answers(pairs, ZID) or Told()
 
 
 def writer(**qos: object) -> dict[str, object]:
@@ -115,7 +115,7 @@ def test_machines_are_known_by_participant():
 
 
 def test_answers_of_a_bridge_that_was_not_asked_are_passed_over():
-    assert read_answers([(f"@/{ZID}/ros2/version", b'"v1.10.0"')], {"ff"}) == {}
+    assert read_answers([(f"@/{ZID}/ros2/version", b'"v1.10.0"')], "ff") is None
 
 
 @pytest.mark.parametrize(
@@ -124,6 +124,79 @@ def test_answers_of_a_bridge_that_was_not_asked_are_passed_over():
 )
 def test_a_version_is_its_number(text: str, number: str):
     assert version_number(text) == number
+
+
+@pytest.mark.parametrize("domain", [-1, 233, 2**70, True, "0", 0.0, None, [0]])
+def test_settings_with_a_domain_that_is_none_are_not_known(domain: object):
+    assert told(config={"domain": domain}).settings is None
+
+
+@pytest.mark.parametrize("name", ["//", "/a b", "a", "/\x1b[2J", [], {}, 3, "/" + "a" * 300])
+def test_names_that_break_the_rules_are_those_of_a_bridge_without(name: object):
+    settings = told(config={"domain": 0, "namespace": name, "nodename": name}).settings
+    assert settings is not None
+    assert settings.namespace == "/"
+    assert settings.node_name in {"a", "zenoh_bridge_ros2dds"}
+
+
+def test_texts_hold_nothing_that_steers_a_terminal_or_cannot_be_sent():
+    name = "a\n\x1b]0;x\x07\u202e\ud800b"
+    found = told(
+        **{
+            f"dds+{ROBOT}": {"qos": {"properties": {"__Hostname": name}}},
+            "config": {
+                "domain": 0,
+                "deny": {"publishers": name},
+                "pub_max_frequencies": [f"{name}=5"],
+            },
+        }
+    )
+    assert found.settings is not None
+    assert found.settings.rules is not None
+    texts = [*found.hosts.values(), *found.settings.rules.texts(), found.settings.slowed[0][0]]
+    assert len(texts) == 3
+    assert all(text.isprintable() and text.encode() for text in texts)
+
+
+@pytest.mark.parametrize("rate", ["9" * 1_500, "nan", "-1", "1e9", "", "\u0663"])
+def test_a_rate_that_is_none_is_passed_over(rate: str):
+    settings = told(config={"domain": 0, "pub_max_frequencies": [f"/scan={rate}"]}).settings
+    assert settings is not None
+    assert settings.slowed == ()
+
+
+def test_a_qos_whose_kinds_are_no_texts_is_the_default_of_dds():
+    odd: dict[str, object] = {"durability": {"kind": []}, "history": {"kind": {}, "depth": 10**30}}
+    end = told(**{f"dds+{ROBOT}+writer+1+rt+a": writer(**odd)}).dds_ends[
+        ROBOT, RouteKind.PUBLISHER, "/a"
+    ]
+    assert end.qos.durability is DurabilityPolicy.VOLATILE
+    assert end.qos.depth == 2**31 - 1
+
+
+def test_a_node_that_is_told_twice_is_one():
+    node = (f"@/{ZID}/ros2/node/{ROBOT}/x", b"{}")
+    found = read_answers([node, node], ZID)
+    assert found is not None
+    assert len(found.nodes) == 1
+
+
+def test_of_ends_beyond_the_bound_nothing_is_kept():
+    ends = [{"name": f"/t{one}", "type": "std_msgs/msg/String"} for one in range(10)]
+    answers = [
+        (f"@/{ZID}/ros2/node/{ROBOT}/n{one}", json.dumps({"publishers": ends}).encode())
+        for one in range(3)
+    ]
+    found = read_answers(answers, ZID, ends_max=15)
+    assert found is not None
+    assert [len(one.ends) for one in found.nodes] == [10, 5, 0]
+
+
+def test_many_bridges_share_the_bounds_of_all():
+    one, many = Bounds.of_each(1), Bounds.of_each(64)
+    assert one == Bounds.of_each(0) == Bounds()
+    assert 64 * many.ends <= 4 * one.ends
+    assert many.answers >= 5_000
 
 
 json_values = st.recursive(
@@ -145,12 +218,12 @@ keys = st.sampled_from(
 
 @given(keys, st.recursive(json_values, lambda inner: st.dictionaries(words, inner, max_size=4)))
 def test_no_answer_breaks_the_reader(key: str, value: object):
-    read_answers([(f"@/{ZID}/ros2/{key}", json.dumps(value).encode())], {ZID})
+    read_answers([(f"@/{ZID}/ros2/{key}", json.dumps(value).encode())], ZID)
 
 
 @given(st.binary(max_size=60))
 def test_what_is_no_json_is_passed_over(data: bytes):
-    read_answers([(f"@/{ZID}/ros2/config", data)], {ZID})
+    read_answers([(f"@/{ZID}/ros2/config", data)], ZID)
 
 
 def golden_routes(zid: str) -> frozenset[tuple[RouteKind, str]]:
