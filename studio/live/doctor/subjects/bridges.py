@@ -148,7 +148,7 @@ def _other_domain(bridge: Bridge, domain: int, system: System) -> Finding:
 
 
 def _of_used(bridge: Bridge, system: System) -> Iterator[Finding]:
-    if not bridge.nodes and not bridge.twin:
+    if not bridge.nodes and not bridge.ends and not bridge.twin:
         yield _empty(bridge)
     yield from _version(bridge, system)
     yield from _withheld(bridge, system)

@@ -5,24 +5,30 @@ from __future__ import annotations
 import contextlib
 import threading
 import time
-from dataclasses import dataclass, field
+from collections.abc import Hashable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from studio.ros.wire.bridges.dialect import RouteKind
+from studio.ros.qos import DurabilityPolicy, HistoryPolicy
+from studio.ros.wire.bridges.dialect import Route, RouteKind, parse_bridge_token
 from studio.ros.wire.zenoh import Declaration, Session, ZError, declare_token
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
+    from collections.abc import Callable
+
+    from studio.ros.qos import QoSProfile
 
 _LINGERS_S: Final = 1.0
+_MANY: Final = 2**31
 
 
 @dataclass(slots=True)
 class _Shown:
     """A token, the ends that need it, and since when none does."""
 
+    token: str
     declared: Declaration
-    holders: set[Hashable] = field(default_factory=set["Hashable"])
+    holders: set[Hashable]
     idle_since_s: float = 0.0
 
 
@@ -31,7 +37,8 @@ class Announcements:
 
     A bridge notes sessions by kind and name. With the first token that goes it ends what it has
     for the session, whatever others there are. So the token of subscriptions also outlives the
-    last of them for a second: a bridge might hear of the end after the next has begun.
+    last of them for a second: a bridge might hear of the end after the next has begun. It makes
+    a route with the QoS of the first token: of publishers, the one that offers most is shown.
     """
 
     def __init__(self, zenoh: Session, clock: Callable[[], float] = time.monotonic) -> None:
@@ -49,9 +56,13 @@ class Announcements:
         place = _place(token)
         with self._lock:
             shown = self._shown.get(place)
+            holders = set[Hashable]() if shown is None else shown.holders
+            if shown is not None and _replaces(token, shown.token):
+                self._end(place)
+                shown = None
             if shown is None:
-                shown = self._shown[place] = _Shown(declare_token(self._zenoh, token))
-            shown.holders.add(holder)
+                self._shown[place] = _Shown(token, declare_token(self._zenoh, token), holders)
+            holders.add(holder)
 
     def release(self, token: str, holder: Hashable) -> None:
         """Hold it no more; again is harmless."""
@@ -91,3 +102,20 @@ class Announcements:
 def _place(token: str) -> str:
     """Return kind and name, by which a bridge notes what a session announces."""
     return "/".join(token.split("/")[3:5])
+
+
+def _replaces(token: str, shown: str) -> bool:
+    """Whether a token is shown in the place of another of its kind and name."""
+    if token == shown:
+        return False
+    new, old = parse_bridge_token(token), parse_bridge_token(shown)
+    if not (isinstance(new, Route) and isinstance(old, Route) and new.qos and old.qos):
+        return False
+    return new.kind is RouteKind.SUBSCRIPTION or _offer(new.qos) > _offer(old.qos)
+
+
+def _offer(qos: QoSProfile) -> tuple[bool, int]:
+    """Return how many earlier messages it offers, nearly all where all are kept."""
+    if qos.durability is not DurabilityPolicy.TRANSIENT_LOCAL:
+        return False, 0
+    return True, _MANY if qos.history is HistoryPolicy.KEEP_ALL else qos.depth

@@ -73,6 +73,7 @@ class Bridges:
         self._rests_until_s = 0.0
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
+        self._unused: frozenset[str] = frozenset()
         self._brought: dict[str, BridgedEnd] = {}
         """A publisher of each topic that a bridge brings."""
         self._listeners: tuple[Callable[[], None], ...] = ()
@@ -113,10 +114,14 @@ class Bridges:
         return lambda: self._forget(listener)
 
     def sender(self, zid: str, topic: str) -> Sender | None:
-        """Return who sends a topic through a bridge; None: another bridge brings it as well.
+        """Return who sends a topic through a bridge; None: it is not to be taken.
+
+        It is not where another bridge brings it as well, and of a bridge of another domain.
 
         Where several nodes behind the bridge publish it, nobody knows which of them sent a sample.
         """
+        if zid in self._unused:
+            return None
         try:
             return self._senders[zid, topic]
         except KeyError:
@@ -128,7 +133,8 @@ class Bridges:
     def settle(self, timeout_s: float = ANSWER_TIMEOUT_S) -> bool:
         """Wait until all bridges that are alive now were asked; False when that takes too long."""
         end_s = time.monotonic() + timeout_s
-        alive = {token.split("/")[1] for token in live_tokens(self._zenoh, BRIDGES, timeout_s)}
+        tokens = live_tokens(self._zenoh, BRIDGES, timeout_s)
+        alive = {one for token in tokens if (one := _bridge_of(token))}
         with self._changed:
             return self._changed.wait_for(
                 lambda: (
@@ -301,12 +307,15 @@ class Bridges:
                 is_same = current == self._current
                 self._current = current
                 self._senders = senders_of(current, doubles)
+                self._unused = frozenset(one.zid for one in current if not one.is_used)
                 self._changed.notify_all()
                 listeners = self._listeners
-            self._use(current)
-        if not is_same:
-            for listener in listeners:
-                listener()
+            try:
+                self._use(current)
+            finally:
+                if not is_same:
+                    for listener in listeners:
+                        listener()
         self._rests_until_s = time.monotonic() + _REST * (time.thread_time() - began_s)
 
     def _use(self, current: tuple[Bridge, ...]) -> None:
@@ -317,10 +326,32 @@ class Bridges:
             end.name: end for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
         }
         is_switched = bool(used) is not self.is_used
-        changed = self._sides.keys() if is_switched else brought.keys() ^ self._brought.keys()
+        changed = self._sides.keys() if is_switched else _differing(brought, self._brought)
         self.is_used, self._brought = bool(used), brought
         for topic in tuple(changed):
             for side in tuple(self._sides.get(topic, ())):
                 self._update(side)
         if not used:
             self.announcements.sweep(at_once=True)
+
+
+def _bridge_of(token: str) -> str:
+    """Return the session of a bridge; empty for a token of anything else."""
+    try:
+        found = parse_bridge_token(token)
+    except TokenError:
+        return ""
+    return found if isinstance(found, str) else ""
+
+
+def _differing(one: dict[str, BridgedEnd], other: dict[str, BridgedEnd]) -> set[str]:
+    """Return the topics that only one has, or that they have with another type or QoS."""
+    both = one.keys() & other.keys()
+    changed = {
+        topic
+        for topic in both
+        if one[topic] is not other[topic]
+        and (one[topic].type_name, one[topic].type_hash, one[topic].qos)
+        != (other[topic].type_name, other[topic].type_hash, other[topic].qos)
+    }
+    return (one.keys() ^ other.keys()) | changed

@@ -12,6 +12,7 @@ from studio.ros.wire.zenoh import Declaration, Session, ZError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from contextlib import AbstractContextManager
 
     from studio.ros.tokens import EndpointToken
     from studio.ros.wire.bridges.bridge import BridgedEnd
@@ -35,6 +36,8 @@ class BridgeSide(Generic[DeclaredT]):
         token: The end; None: a subscriber of `topic` that is no subscription of a node.
         topic: Its full name.
         declare: Declares what takes or sends samples or requests, at a data key.
+        lock: Held by who uses what is declared, and while that changes; None: nobody uses it in
+            another thread, or it can be undeclared meanwhile.
     """
 
     def __init__(
@@ -44,10 +47,12 @@ class BridgeSide(Generic[DeclaredT]):
         token: EndpointToken | None,
         topic: str,
         declare: Callable[[str], DeclaredT],
+        lock: AbstractContextManager[object] | None = None,
     ) -> None:
         self._zenoh, self._bridges, self._declare = zenoh, bridges, declare
         self._token = announcement(token) if token else None
         self._subscribes = token is None or token.kind is EndpointKind.SUBSCRIPTION
+        self._lock = lock or contextlib.nullcontext()
         self._held: str | None = None
         self.topic = topic
         self.declared: DeclaredT | None = None
@@ -64,28 +69,29 @@ class BridgeSide(Generic[DeclaredT]):
         is_needed = is_used and (brought is not None or not self._subscribes)
         try:
             if is_needed and self.declared is None:
-                self.declared = self._declare(bridge_key(self.topic))
-            if is_needed and self._held is None:
-                self._announce(brought)
+                with self._lock:
+                    self.declared = self._declare(bridge_key(self.topic))
+            self._announce(self._wanted(brought) if is_needed else None)
         except ZError as error:
             if not self._zenoh.is_closed():
                 _log.warning("Bridges to DDS do not get %s. %s", self.topic, error)
-        if is_needed:
-            return
-        declared, self.declared = self.declared, None
-        self._undeclare(declared)
-        held, self._held = self._held, None
-        if held is not None:
-            self._bridges.announcements.release(held, self)
+        if not is_needed:
+            with self._lock:
+                declared, self.declared = self.declared, None
+            self._undeclare(declared)
 
-    def _announce(self, brought: BridgedEnd | None) -> None:
-        token = self._token
-        if self._subscribes and brought is not None:
-            told = (brought.name, brought.type_name, brought.type_hash, brought.qos)
-            token = subscription_announcement(self._bridges.zid, *told)
+    def _wanted(self, brought: BridgedEnd | None) -> str | None:
+        if not self._subscribes or brought is None:
+            return self._token
+        told = (brought.name, brought.type_name, brought.type_hash, brought.qos)
+        return subscription_announcement(self._bridges.zid, *told)
+
+    def _announce(self, token: str | None) -> None:
+        held, self._held = self._held, token
         if token is not None:
             self._bridges.announcements.hold(token, self)
-            self._held = token
+        elif held is not None:
+            self._bridges.announcements.release(held, self)
 
     def close(self) -> None:
         """Take everything back; again is harmless."""

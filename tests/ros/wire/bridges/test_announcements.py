@@ -85,3 +85,21 @@ def test_where_no_bridge_is_left_no_token_stands_longer(met: Met):
     met.announcements.release(SUBSCRIPTION, "one")
     assert not met.announcements.sweep(at_once=True)
     wait_until("it is gone", lambda: met.shown() == set())
+
+
+def test_of_publishers_the_one_that_keeps_most_is_shown(met: Met):
+    latched = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:1:0,1"
+    deeper = f"{HEAD}/MP/chatter/std_msgs§msg§String/:1:1:0,5"
+    met.announcements.hold(FIRST, "volatile")
+    met.announcements.hold(latched, "latched")
+    wait_until("the latched one is shown", lambda: met.shown() == {latched})
+    met.announcements.hold(deeper, "deeper")
+    wait_until("the deeper one is shown", lambda: met.shown() == {deeper})
+    met.announcements.hold(OTHER, "other")
+    for token, holder in ((deeper, "deeper"), (latched, "latched"), (OTHER, "other")):
+        met.announcements.release(token, holder)
+    met.announcements.hold(MARKER, "marker")
+    wait_until("what came later is shown", lambda: MARKER in met.shown())
+    assert met.shown() == {deeper, MARKER}
+    met.announcements.release(FIRST, "volatile")
+    wait_until("it is gone", lambda: met.shown() == {MARKER})
