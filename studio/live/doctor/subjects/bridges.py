@@ -11,6 +11,7 @@ from studio.protocol.displays import Mend
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.qos import DurabilityPolicy
 from studio.ros.tokens import EndpointKind
+from studio.ros.wire.bridges.admin import admin_key
 from studio.ros.wire.bridges.dialect import PROGRAM, RouteKind
 
 if TYPE_CHECKING:
@@ -118,7 +119,7 @@ def _silent(bridge: Bridge) -> Finding:
             "its domain is not known. Mostly a router on the way has access rules that keep its "
             "answers back."
         ),
-        evidence=(f"no answer to @/{bridge.zid}/ros2/**",),
+        evidence=(f"no answer to {admin_key(bridge.zid)}",),
         about=(CONNECTION,),
     )
 

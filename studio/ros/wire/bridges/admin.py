@@ -141,6 +141,11 @@ class Told:
     )
 
 
+def admin_key(zid: str, below: str = "**") -> str:
+    """Return the key expression of what a bridge tells: of all, or of what lies below a word."""
+    return f"@/{zid}/ros2/{below}"
+
+
 class Bounds(NamedTuple):
     """How much is read of one bridge at once, of what all bridges together may tell.
 

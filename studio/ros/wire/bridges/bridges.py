@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 from studio.errors import TokenError
 from studio.ros.condition import Condition
 from studio.ros.tokens import EndpointKind
-from studio.ros.wire.bridges.admin import Bounds, read_answers
+from studio.ros.wire.bridges.admin import Bounds, admin_key, read_answers
 from studio.ros.wire.bridges.announcements import Announcements
 from studio.ros.wire.bridges.bridge import (
     Bridge,
@@ -289,7 +289,7 @@ class Bridges:
     def _ask_one(self, one: Met, bounds: Bounds) -> None:
         answers, is_whole = all_admin_answers(
             self._zenoh,
-            f"@/{one.zid}/ros2/**",
+            admin_key(one.zid),
             ANSWER_TIMEOUT_S,
             most=bounds.answers,
             most_bytes=bounds.bytes,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Final
 
-from studio.ros.wire.bridges.admin import Bounds, read_routes
+from studio.ros.wire.bridges.admin import Bounds, admin_key, read_routes
 from studio.ros.wire.bridges.bridges import ANSWER_TIMEOUT_S
 from studio.ros.wire.zenoh import all_admin_answers
 
@@ -59,7 +59,7 @@ def _without_route(
             break
         answers, is_whole = all_admin_answers(
             zenoh,
-            f"@/{bridge}/ros2/route/**",
+            admin_key(bridge, "route/**"),
             min(ANSWER_TIMEOUT_S, left_s),
             most=bounds.answers,
             most_bytes=bounds.bytes,
