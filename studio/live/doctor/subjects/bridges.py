@@ -11,7 +11,8 @@ from studio.protocol.displays import Mend
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.qos import DurabilityPolicy
 from studio.ros.tokens import EndpointKind
-from studio.ros.wire.bridges.dialect import RouteKind
+from studio.ros.wire.bridges.admin import admin_key
+from studio.ros.wire.bridges.dialect import PROGRAM, RouteKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -22,9 +23,8 @@ if TYPE_CHECKING:
     from studio.ros.wire.bridges.bridge import Bridge
 
 SUBJECT: Final[SubjectName] = "bridges"
-_PROGRAM: Final = "zenoh-bridge-ros2dds"
 _CYCLONE: Final = "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp"
-_DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {_PROGRAM}"
+_DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {PROGRAM}"
 _KEEPS_LATCHED: Final = (1, 5, 1)
 """From this version on a bridge keeps transient local messages as rmw_zenoh does."""
 _OF_ROS: Final = frozenset({"/rosout", "/parameter_events"})
@@ -119,7 +119,7 @@ def _silent(bridge: Bridge) -> Finding:
             "its domain is not known. Mostly a router on the way has access rules that keep its "
             "answers back."
         ),
-        evidence=(f"no answer to @/{bridge.zid}/ros2/**",),
+        evidence=(f"no answer to {admin_key(bridge.zid)}",),
         about=(CONNECTION,),
     )
 
@@ -142,7 +142,7 @@ def _other_domain(bridge: Bridge, domain: int, system: System) -> Finding:
             f"its nodes: {nodes}" if nodes else "it found no node there",
         ),
         mend=Mend(label=f"Join domain {domain}", command=command) if 0 <= domain <= 232 else None,
-        line=f"{_PROGRAM} -d {system.domain}",
+        line=f"{PROGRAM} -d {system.domain}",
         about=(CONNECTION,),
     )
 
@@ -213,7 +213,7 @@ def _version(bridge: Bridge, system: System) -> Iterator[Finding]:
                 "Bring it up to date (1.5.1 or later)."
             ),
             evidence=evidence,
-            line=f"{_PROGRAM} --version",
+            line=f"{PROGRAM} --version",
             about=(CONNECTION, *(Concern(kind="topic", name=one) for one in latched[:3])),
         )
     elif not version or version[:2] < here[:2]:
@@ -229,7 +229,7 @@ def _version(bridge: Bridge, system: System) -> Iterator[Finding]:
             subject=SUBJECT,
             sentence=f"The {called(bridge)} {what}",
             evidence=evidence,
-            line=f"{_PROGRAM} --version",
+            line=f"{PROGRAM} --version",
             about=(CONNECTION,),
         )
 
@@ -389,7 +389,7 @@ def _shared_nodes(bridges: list[Bridge]) -> Iterator[Finding]:
                 f"{short(name)} shows it as {short(path)}"
                 for name, path in zip(names[:_BRIDGES_MAX], paths, strict=False)
             ),
-            line=f"{_PROGRAM} -n {short(names[0])} --ros-localhost-only",
+            line=f"{PROGRAM} -n {short(names[0])} --ros-localhost-only",
             about=(CONNECTION, *(Concern(kind="node", name=one) for one in paths[:3])),
         )
 

@@ -122,6 +122,11 @@ class Sender(NamedTuple):
     type_hash: str
 
 
+def sender_gid(zid: str, topic: str) -> bytes:
+    """Return the GID of samples of which nobody knows which node behind a bridge sent them."""
+    return gid_of(f"{zid}/{topic}")
+
+
 def senders_of(
     bridges: tuple[Bridge, ...], doubles: Mapping[str, frozenset[str]]
 ) -> dict[tuple[str, str], Sender | None]:
@@ -135,9 +140,9 @@ def senders_of(
                 place = (bridge.zid, end.name)
                 same = found.get(place)
                 is_first = place not in found
-                name = end.identity if is_first else f"{bridge.zid}/{end.name}"
+                gid = gid_of(end.identity) if is_first else sender_gid(*place)
                 told = end.type_hash if is_first or (same and same.type_hash) else ""
-                found[place] = Sender(gid_of(name), told)
+                found[place] = Sender(gid, told)
     return found
 
 

@@ -9,10 +9,18 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 from studio.errors import TokenError
 from studio.ros.condition import Condition
-from studio.ros.tokens import EndpointKind, gid_of
-from studio.ros.wire.bridges.admin import Bounds, read_answers
+from studio.ros.tokens import EndpointKind
+from studio.ros.wire.bridges.admin import Bounds, admin_key, read_answers
 from studio.ros.wire.bridges.announcements import Announcements
-from studio.ros.wire.bridges.bridge import Bridge, BridgedEnd, Met, Sender, bridges_of, senders_of
+from studio.ros.wire.bridges.bridge import (
+    Bridge,
+    BridgedEnd,
+    Met,
+    Sender,
+    bridges_of,
+    sender_gid,
+    senders_of,
+)
 from studio.ros.wire.bridges.dialect import BRIDGES, TOKENS, Route, parse_bridge_token
 from studio.ros.wire.zenoh import (
     ReadingThread,
@@ -125,7 +133,7 @@ class Bridges:
         try:
             return self._senders[zid, topic]
         except KeyError:
-            found = Sender(gid_of(f"{zid}/{topic}"), "")
+            found = Sender(sender_gid(zid, topic), "")
             if len(self._senders) < _SENDERS_MAX:
                 self._senders[zid, topic] = found
             return found
@@ -287,7 +295,7 @@ class Bridges:
     def _ask_one(self, one: Met, bounds: Bounds) -> None:
         answers, is_whole = all_admin_answers(
             self._zenoh,
-            f"@/{one.zid}/ros2/**",
+            admin_key(one.zid),
             ANSWER_TIMEOUT_S,
             most=bounds.answers,
             most_bytes=bounds.bytes,

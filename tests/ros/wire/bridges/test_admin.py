@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.ros.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
-from studio.ros.wire.bridges.admin import Bounds, Told, read_answers, read_routes, version_number
+from studio.ros.wire.bridges.admin import Bounds, Told, read_answers, read_routes
 from studio.ros.wire.bridges.dialect import RouteKind
 
 GOLDEN = Path(__file__).parents[3] / "golden" / "dds_bridge"
@@ -116,14 +116,6 @@ def test_machines_are_known_by_participant():
 
 def test_answers_of_a_bridge_that_was_not_asked_are_passed_over():
     assert read_answers([(f"@/{ZID}/ros2/version", b'"v1.10.0"')], "ff") is None
-
-
-@pytest.mark.parametrize(
-    ("text", "number"),
-    [("v1.10.0-modified", "1.10.0"), ("v1.2.1", "1.2.1"), ("", ""), ("v<b>", ""), ("v" * 99, "")],
-)
-def test_a_version_is_its_number(text: str, number: str):
-    assert version_number(text) == number
 
 
 @pytest.mark.parametrize("domain", [-1, 233, 2**70, True, "0", 0.0, None, [0]])

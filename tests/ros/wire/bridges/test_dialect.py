@@ -15,6 +15,7 @@ from studio.ros.wire.bridges.dialect import (
     announcement,
     bridge_key,
     parse_bridge_token,
+    place_of,
     request_number,
     route_ends,
     subscription_announcement,
@@ -167,6 +168,22 @@ def test_an_action_is_announced_once_for_all_its_parts():
         (EndpointKind.SUBSCRIPTION, "status"),
     ):
         assert end(kind, f"{base}/{part}", f"{name}_GetResult") is None
+
+
+@pytest.mark.parametrize("kind", [EndpointKind.SERVICE, EndpointKind.CLIENT])
+def test_bridges_know_an_action_by_its_send_goal(kind: EndpointKind):
+    as_action = {
+        EndpointKind.SERVICE: RouteKind.ACTION_SERVER,
+        EndpointKind.CLIENT: RouteKind.ACTION_CLIENT,
+    }
+    assert place_of(kind, "/turn/_action/send_goal") == (as_action[kind], "/turn")
+    assert place_of(kind, "/turn/_action/get_result") is None
+    assert place_of(EndpointKind.PUBLISHER, "/turn/_action/send_goal") is None
+
+
+@pytest.mark.parametrize("kind", list(EndpointKind))
+def test_bridges_know_every_other_end_by_its_own_name(kind: EndpointKind):
+    assert place_of(kind, "/a/_b") == (RouteKind(kind.value), "/a/_b")
 
 
 def test_a_key_is_the_name_without_its_first_slash():
