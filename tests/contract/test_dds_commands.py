@@ -65,7 +65,7 @@ def said(world: World, text: str, *words: str) -> None:
 
 
 def test_nodes_and_topics_are_listed_at_once_and_whole(world: World):
-    for _ in range(5):
+    for _ in range(2):
         assert run(world, "node", "list").split() == ["/arm", "/driver", "/laser", "/robot",
                                                       "/talker"]  # fmt: skip
         listed = run(world, "topic", "list", "-t").splitlines()
@@ -116,7 +116,7 @@ def test_it_is_recorded_and_played_back_to_it(world: World, tmp_path: Path, stor
     played_back(world, bag, f"/again_{storage}")
 
 
-@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+@pytest.mark.parametrize("storage", ["mcap", pytest.param("sqlite3", marks=pytest.mark.sweep)])
 def test_a_robot_without_hashes_of_types_is_recorded_and_hears_it(tmp_path: Path, storage: str):
     with classroom("humble") as world:
         bag = recorded(world, tmp_path / "bag", storage)
@@ -146,7 +146,8 @@ def recorded(world: World, bag: Path, storage: str) -> Path:
 
 
 def size(bag: Path) -> int:
-    return sum(one.stat().st_size for one in bag.glob("bag_0.*"))
+    files = [one for one in bag.iterdir() if one.suffix in {".mcap", ".db3"}]
+    return sum(one.stat().st_size for one in files)
 
 
 def whole(bag: Path) -> None:
