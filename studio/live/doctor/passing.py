@@ -1,4 +1,4 @@
-"""What bridges to DDS should pass on for the studio and do not, and who else announces to them.
+"""What bridges to DDS should pass on for the studio and do not.
 
 It imports Zenoh (through `ros`), so it is imported when somebody asks.
 """
@@ -9,20 +9,13 @@ import time
 from collections import defaultdict
 from typing import TYPE_CHECKING, Final
 
-from studio.errors import TokenError
 from studio.live.doctor.seen import Unrouted
 from studio.ros.names import is_hidden
 from studio.ros.tokens import EndpointKind, EndpointToken, parse_token
 from studio.ros.wire.bridges.admin import read_routes
 from studio.ros.wire.bridges.bridges import ANSWER_TIMEOUT_S
-from studio.ros.wire.bridges.dialect import (
-    TOKENS,
-    Route,
-    RouteKind,
-    announcement,
-    parse_bridge_token,
-)
-from studio.ros.wire.zenoh import admin_answers, live_tokens
+from studio.ros.wire.bridges.dialect import Route, RouteKind, announcement, parse_bridge_token
+from studio.ros.wire.zenoh import admin_answers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -34,19 +27,6 @@ if TYPE_CHECKING:
 _LOOKS: Final = 4
 _ON_ITS_WAY_S: Final = 0.5
 """A bridge makes a route within a second after an end was announced."""
-
-
-def announcing_sessions(wire: WireSession) -> frozenset[str]:
-    """Return the sessions that announce their ends to bridges; rmw_zenoh_cpp does not."""
-    found: set[str] = set()
-    for token in live_tokens(wire.zenoh, TOKENS, ANSWER_TIMEOUT_S):
-        try:
-            route = parse_bridge_token(token)
-        except TokenError:
-            continue
-        if isinstance(route, Route):
-            found.add(route.zid)
-    return frozenset(found)
 
 
 def unrouted_ends(wire: WireSession, system: System) -> tuple[Unrouted, ...]:

@@ -192,6 +192,15 @@ def _action_ends(route: Route) -> tuple[RouteEnd, ...]:
     )
 
 
+def route_of(kind: EndpointKind, name: str) -> tuple[RouteKind, str]:
+    """Return kind and name of the route that an end is part of: of an action all parts are one."""
+    action, of_action, _ = name.rpartition(_ACTION)
+    if not of_action:
+        return RouteKind(kind.value), name
+    is_server = kind in {EndpointKind.SERVICE, EndpointKind.PUBLISHER}
+    return (RouteKind.ACTION_SERVER if is_server else RouteKind.ACTION_CLIENT), action
+
+
 def announcement(end: EndpointToken) -> str | None:
     """Return the token by which bridges make a route to an end of ours; None: it needs none.
 
