@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 SUBJECT: Final[SubjectName] = "bridges"
 _PROGRAM: Final = "zenoh-bridge-ros2dds"
 _CYCLONE: Final = "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp"
+_LOCALHOST: Final = (
+    "ROS_LOCALHOST_ONLY=1 (Humble) or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Iron and later)"
+)
+"""What nodes need for a bridge with --ros-localhost-only, which finds no others of its machine."""
 _DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {_PROGRAM}"
 _KEEPS_LATCHED: Final = (1, 5, 1)
 """From this version on a bridge keeps transient local messages as rmw_zenoh does."""
@@ -215,7 +219,7 @@ def _empty(bridge: Bridge) -> Finding:
     is_here_only = settings is not None and settings.localhost_only
     where = (
         "It meets only nodes of its own machine (ROS_LOCALHOST_ONLY or --ros-localhost-only): "
-        "run it on the robot, or start it without."
+        f"run it on the robot, and the robot's nodes with {_LOCALHOST}, or start it without."
         if is_here_only
         else "On another machine than the robot it needs a network with multicast, and no "
         "ROS_LOCALHOST_ONLY on the robot."
@@ -432,8 +436,7 @@ def _shared_nodes(bridges: list[Bridge]) -> Iterator[Finding]:
                 f"The bridges {listed(names)} found the same nodes on DDS, so each robot is here "
                 f"under several names ({listed(paths, 3)}), and what one bridge brings the other "
                 "passes on again, without end. Start each bridge on its robot with "
-                "--ros-localhost-only, and the robot's nodes with ROS_LOCALHOST_ONLY=1 (Humble) or "
-                "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Iron and later)."
+                f"--ros-localhost-only, and the robot's nodes with {_LOCALHOST}."
             ),
             evidence=tuple(
                 f"{short(name)} shows it as {short(path)}"
