@@ -34,7 +34,11 @@ export function recipeLines(situation, router) {
     case "there":
       return [BRIDGE];
     case "many":
-      return ["studio router --listen tcp/0.0.0.0:7447", `${BRIDGE} -n /robot1 -e tcp/STUDIO:7447`];
+      // In one network each bridge would find all robots, and pass on what the others brought.
+      return [
+        "studio router --listen tcp/0.0.0.0:7447",
+        `${BRIDGE} -n /robot1 --ros-localhost-only -e tcp/STUDIO:7447`,
+      ];
     case "humble":
       return [`ROS_DISTRO=humble ${BRIDGE}`];
     case "bag":

@@ -2464,7 +2464,7 @@ export interface Misfit {
   subscriber: string;
   reasons: string[];
   heard: boolean;
-  way: "zenoh" | "bridge" | "dds";
+  way: "zenoh" | "bridge" | "dds" | "none";
 }
 
 /** Put a saved view before another; empty: at the end. */

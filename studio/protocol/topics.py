@@ -63,9 +63,10 @@ class TopicEnd(Message):
     """Empty: its node is on DDS and does not tell it, so only the name of its type is compared."""
 
 
-Way: TypeAlias = Literal["zenoh", "bridge", "dds"]
+Way: TypeAlias = Literal["zenoh", "bridge", "dds", "none"]
 """How messages go from a publisher to a subscription. `bridge`: one of them is on DDS, or each
-behind a bridge of its own; `dds`: both are, behind the same bridge."""
+behind a bridge of its own; `dds`: both are, behind the same bridge; `none`: one is on DDS, and the
+other of rmw_zenoh, which bridges do not hear of."""
 
 
 class Misfit(Message):
@@ -74,6 +75,7 @@ class Misfit(Message):
     publisher: str
     subscriber: str
     reasons: tuple[str, ...]
+    """Empty where there is no way between them."""
     heard: bool
     """The messages come all the same: by Zenoh, or by a bridge, which brings no earlier ones."""
     way: Way

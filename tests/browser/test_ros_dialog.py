@@ -95,7 +95,7 @@ def test_each_situation_of_a_robot_has_its_line(tab: StudioPage):
         choice = window.get_by_label("Your robot")
         for situation, line in (
             ("there", "zenoh-bridge-ros2dds"),
-            ("many", "zenoh-bridge-ros2dds -n /robot1 -e tcp/STUDIO:7447"),
+            ("many", "zenoh-bridge-ros2dds -n /robot1 --ros-localhost-only -e tcp/STUDIO:7447"),
             ("humble", "ROS_DISTRO=humble zenoh-bridge-ros2dds"),
             ("bag", "studio open FOLDER"),
             ("zenoh", "ros2 run rmw_zenoh_cpp rmw_zenohd"),

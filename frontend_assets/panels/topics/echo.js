@@ -237,10 +237,11 @@ function qosOf(end) {
   return words.filter(Boolean).join(" · ");
 }
 
-/** @param {{misfit: Misfit}} props what DDS does or would do, and what Zenoh does */
+/** @param {{misfit: Misfit}} props what DDS does or would do, and what Zenoh and a bridge do */
 function Apart({ misfit }) {
   const { publisher, subscriber, reasons, heard, way } = misfit;
-  const key = heard ? (way === "bridge" ? "bridge" : "dds") : way === "dds" ? "on_dds" : "all";
+  const never = way === "none" ? "none" : way === "dds" ? "on_dds" : "all";
+  const key = heard ? (way === "bridge" ? "bridge" : "dds") : never;
   return html`<p class="topics-apart"><${Icon} name="alert" size=${13} /><span>${t(
     `topics.apart.${key}`,
     { publisher, subscriber, reasons: reasons.join("; ") },

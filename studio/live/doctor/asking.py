@@ -15,7 +15,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from studio.live.doctor.passing import announcing_sessions, unrouted_ends
+from studio.live.doctor.passing import unrouted_ends
 from studio.live.doctor.seen import Answers, Ends, Here, Interface, System, short
 from studio.live.doctor.subjects.network import NAMES
 from studio.ros.graph.diagnosis import (
@@ -143,7 +143,7 @@ def ask(wire: WireSession, system: System, before: Answers | None = None) -> Ans
         silent=silent,
         lost=frozenset((known - sessions.keys() - routers.keys()) & there),
         unrouted=unrouted_ends(wire, system) if system.bridges else (),
-        announcing=announcing_sessions(wire) if system.bridges else frozenset(),
+        announcing=wire.bridges.announcing,
     )
 
 

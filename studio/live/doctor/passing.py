@@ -1,4 +1,4 @@
-"""What bridges to DDS should pass on for the studio and do not, and who else announces to them.
+"""What bridges to DDS should pass on for the studio and do not.
 
 It imports Zenoh (through `ros`), so it is imported when somebody asks.
 """
@@ -8,12 +8,9 @@ from __future__ import annotations
 from collections import defaultdict
 from typing import TYPE_CHECKING
 
-from studio.errors import TokenError
 from studio.live.doctor.seen import Unrouted
-from studio.ros.wire.bridges.bridges import ANSWER_TIMEOUT_S
-from studio.ros.wire.bridges.dialect import TOKENS, Route, parse_bridge_token, place_of
+from studio.ros.wire.bridges.dialect import place_of
 from studio.ros.wire.bridges.passing import missing_routes
-from studio.ros.wire.zenoh import live_tokens
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,19 +19,6 @@ if TYPE_CHECKING:
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.wire.bridges.dialect import Place
     from studio.ros.wire.session import WireSession
-
-
-def announcing_sessions(wire: WireSession) -> frozenset[str]:
-    """Return the sessions that announce their ends to bridges; rmw_zenoh_cpp does not."""
-    found: set[str] = set()
-    for token in live_tokens(wire.zenoh, TOKENS, ANSWER_TIMEOUT_S):
-        try:
-            route = parse_bridge_token(token)
-        except TokenError:
-            continue
-        if isinstance(route, Route):
-            found.add(route.zid)
-    return frozenset(found)
 
 
 def unrouted_ends(wire: WireSession, system: System) -> tuple[Unrouted, ...]:

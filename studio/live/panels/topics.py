@@ -97,11 +97,12 @@ def topic_ends(connection: RosConnection, command: GetTopicEnds) -> TopicEnds:
     publishers = link.graph.publishers(command.topic) if link else []
     subscribers = link.graph.subscriptions(command.topic) if link else []
     own = link.zid if link else ""
+    announcing = link.graph.announcing if link else frozenset[str]()
     return TopicEnds(
         request=command.request,
         publishers=tuple(_end(one, own) for one in publishers[:ENDS_MAX]),
         subscribers=tuple(_end(one, own) for one in subscribers[:ENDS_MAX]),
-        misfits=_misfits(publishers[:ENDS_MAX], subscribers[:ENDS_MAX]),
+        misfits=_misfits(publishers[:ENDS_MAX], subscribers[:ENDS_MAX], announcing),
     )
 
 
@@ -166,15 +167,28 @@ def _seconds(span: Duration) -> float | None:
 
 
 def _misfits(
-    publishers: Sequence[GraphEndpoint], subscribers: Sequence[GraphEndpoint]
+    publishers: Sequence[GraphEndpoint],
+    subscribers: Sequence[GraphEndpoint],
+    announcing: frozenset[str],
 ) -> tuple[Misfit, ...]:
-    pairs = ((one, other) for one in publishers for other in subscribers)
-    found = (misfit for one, other in pairs if (misfit := _misfit(one, other)))
+    """Return pairs that do not fit; those without a way last, as there may be very many."""
+    pairs: list[tuple[GraphEndpoint, GraphEndpoint, Way]] = [
+        (one, other, _way(one, other, announcing)) for one in publishers for other in subscribers
+    ]
+    pairs.sort(key=lambda pair: pair[2] == "none")
+    found = (misfit for pair in pairs if (misfit := _misfit(*pair)))
     return tuple(itertools.islice(found, MISFITS_MAX))
 
 
-def _misfit(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> Misfit | None:
-    way = _way(publisher, subscriber)
+def _misfit(publisher: GraphEndpoint, subscriber: GraphEndpoint, way: Way) -> Misfit | None:
+    if way == "none":
+        return Misfit(
+            publisher=publisher.node.path,
+            subscriber=subscriber.node.path,
+            reasons=(),
+            heard=False,
+            way=way,
+        )
     deaf = _why_deaf(publisher, subscriber, way)
     unmatched = (
         _why_late(publisher, subscriber)
@@ -192,11 +206,21 @@ def _misfit(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> Misfit | Non
     )
 
 
-def _way(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> Way:
-    """Return how messages go from one to the other."""
-    if not publisher.node.bridge and not subscriber.node.bridge:
+def _way(publisher: GraphEndpoint, subscriber: GraphEndpoint, announcing: frozenset[str]) -> Way:
+    """Return how messages go from one to the other.
+
+    Args:
+        publisher: Of a topic.
+        subscriber: Of the same.
+        announcing: Sessions that bridges to DDS hear of, of those that are not on DDS.
+    """
+    nodes = publisher.node, subscriber.node
+    on_zenoh = [one for one in nodes if not one.bridge]
+    if len(on_zenoh) == 2:
         return "zenoh"
-    return "dds" if publisher.node.zid == subscriber.node.zid else "bridge"
+    if on_zenoh:
+        return "bridge" if on_zenoh[0].zid in announcing else "none"
+    return "dds" if nodes[0].zid == nodes[1].zid else "bridge"
 
 
 def _why_late(publisher: GraphEndpoint, subscriber: GraphEndpoint) -> list[str]:

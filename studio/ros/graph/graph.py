@@ -240,6 +240,11 @@ class Graph:
         """The bridges to DDS that the session meets, also those of other domains."""
         return self._bridges
 
+    @property
+    def announcing(self) -> frozenset[str]:
+        """The sessions whose ends bridges to DDS hear of, with this one; rmw_zenoh_cpp's do not."""
+        return self._wire.bridges.announcing
+
     def _take_own(self, token: str, is_alive: bool) -> None:  # noqa: FBT001
         """Take in what the session itself shows; listeners are called when it comes by the wire."""
         with self._changed:

@@ -1,4 +1,4 @@
-"""Whether bridges to DDS have routes for the studio's ends, and who else announces to them."""
+"""Whether bridges to DDS have routes for the studio's ends, and who announces to them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.live.doctor.passing import announcing_sessions, unrouted_ends
+from studio.live.doctor.passing import unrouted_ends
 from studio.ros.client import Node
 from studio.ros.messages import message
 from studio.ros.wire.bridges import passing
@@ -76,9 +76,12 @@ def test_of_a_bridge_that_does_not_answer_nothing_is_concluded(
 
 
 def test_sessions_that_announce_to_bridges_are_known(patient: Patient, bridge: PretendBridge):
-    found = announcing_sessions(patient.context.wire)
+    def announcing() -> frozenset[str]:
+        answers = patient.seen(asks=True).answers
+        return answers.announcing if answers else frozenset()
+
     wait_until(
         "the robot's node of the studio's library announces, too",
-        lambda: patient.robot.wire.zid in announcing_sessions(patient.context.wire),
+        lambda: {patient.robot.wire.zid, patient.context.wire.zid} <= announcing(),
     )
-    assert bridge.zid in found
+    assert bridge.zid not in announcing()

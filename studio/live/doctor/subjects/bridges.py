@@ -12,7 +12,7 @@ from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.qos import DurabilityPolicy
 from studio.ros.tokens import EndpointKind
 from studio.ros.wire.bridges.admin import admin_key
-from studio.ros.wire.bridges.dialect import PROGRAM, RouteKind
+from studio.ros.wire.bridges.dialect import PROGRAM, RouteKind, route_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -24,9 +24,18 @@ if TYPE_CHECKING:
 
 SUBJECT: Final[SubjectName] = "bridges"
 _CYCLONE: Final = "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp"
+_LOCALHOST: Final = (
+    "ROS_LOCALHOST_ONLY=1 (Humble) or ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Iron and later)"
+)
+"""What nodes need for a bridge with --ros-localhost-only, which finds no others of its machine."""
 _DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {PROGRAM}"
 _KEEPS_LATCHED: Final = (1, 5, 1)
 """From this version on a bridge keeps transient local messages as rmw_zenoh does."""
+_SENT_BY: Final = {
+    EndpointKind.SUBSCRIPTION: EndpointKind.PUBLISHER,
+    EndpointKind.SERVICE: EndpointKind.CLIENT,
+}
+"""What takes messages and requests in, and by what they are sent."""
 _OF_ROS: Final = frozenset({"/rosout", "/parameter_events"})
 """Every node has these; that a list keeps them back is meant."""
 _BRIDGES_MAX: Final = 8
@@ -125,6 +134,9 @@ def _silent(bridge: Bridge) -> Finding:
 
 
 def _other_domain(bridge: Bridge, domain: int, system: System) -> Finding:
+    reached = _reached(bridge, system)
+    if reached:
+        return _two_domains(bridge, domain, system, reached)
     is_alone = not system.others and bool(bridge.nodes)
     nodes = listed(path for _, path in bridge.nodes)
     command: dict[str, bool | int | float | str] = {"type": "connect_wire", "domain": domain}
@@ -147,6 +159,47 @@ def _other_domain(bridge: Bridge, domain: int, system: System) -> Finding:
     )
 
 
+def _reached(bridge: Bridge, system: System) -> list[tuple[RouteKind, str]]:
+    """Return by what its nodes are reached from the studio's domain, too: its keys name no domain.
+
+    While no bridge is used, nothing is sent to any.
+    """
+    used = [one for one in system.bridges if one.is_used]
+    if not used:
+        return []
+    sent = {(_SENT_BY.get(end.kind, end.kind), end.name) for one in used for end in one.ends}
+    for kind, named in (
+        (EndpointKind.PUBLISHER, {name: one.senders for name, one in system.topics.items()}),
+        (EndpointKind.CLIENT, {name: one.receivers for name, one in system.services.items()}),
+    ):
+        sent |= {(kind, name) for name, ends in named.items() if any(map(system.is_own, ends))}
+    taken = {
+        route_of(end.kind, end.name)
+        for end in bridge.ends
+        if (_SENT_BY.get(end.kind), end.name) in sent and end.name not in _OF_ROS
+    }
+    return sorted(taken, key=lambda one: (one[0] is RouteKind.SERVICE, one))
+
+
+def _two_domains(
+    bridge: Bridge, domain: int, system: System, reached: list[tuple[RouteKind, str]]
+) -> Finding:
+    return Finding(
+        code="bridge-domain",
+        level="warn",
+        subject=SUBJECT,
+        sentence=(
+            f"The {called(bridge)} passes on domain {domain} of DDS, and the studio is in domain "
+            f"{system.domain}, so its nodes are not shown. Yet what is sent here to "
+            f"{listed(name for _, name in reached)} reaches them, too, because bridges do not "
+            "tell their domain in what they pass on. Give each bridge a namespace of its own (-n)."
+        ),
+        evidence=(f"it was started for domain {domain}", *_by_kind(reached)),
+        line=f"{PROGRAM} -d {domain} -n /NAME",
+        about=(CONNECTION, *_concerns(reached)),
+    )
+
+
 def _of_used(bridge: Bridge, system: System) -> Iterator[Finding]:
     if not bridge.nodes and not bridge.ends and not bridge.twin:
         yield _empty(bridge)
@@ -166,7 +219,7 @@ def _empty(bridge: Bridge) -> Finding:
     is_here_only = settings is not None and settings.localhost_only
     where = (
         "It meets only nodes of its own machine (ROS_LOCALHOST_ONLY or --ros-localhost-only): "
-        "run it on the robot, or start it without."
+        f"run it on the robot, and the robot's nodes with {_LOCALHOST}, or start it without."
         if is_here_only
         else "On another machine than the robot it needs a network with multicast, and no "
         "ROS_LOCALHOST_ONLY on the robot."
@@ -383,7 +436,7 @@ def _shared_nodes(bridges: list[Bridge]) -> Iterator[Finding]:
                 f"The bridges {listed(names)} found the same nodes on DDS, so each robot is here "
                 f"under several names ({listed(paths, 3)}), and what one bridge brings the other "
                 "passes on again, without end. Start each bridge on its robot with "
-                "--ros-localhost-only, or give each robot a ROS_DOMAIN_ID of its own."
+                f"--ros-localhost-only, and the robot's nodes with {_LOCALHOST}."
             ),
             evidence=tuple(
                 f"{short(name)} shows it as {short(path)}"

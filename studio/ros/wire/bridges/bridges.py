@@ -115,6 +115,15 @@ class Bridges:
         """Return the bridges that are there and were asked, those that came first in front."""
         return self._current
 
+    @property
+    def announcing(self) -> frozenset[str]:
+        """Return the sessions that announce their ends to bridges, with this one itself.
+
+        Those of this library do; nodes of rmw_zenoh_cpp and nodes on DDS do not meet.
+        """
+        with self._changed:
+            return frozenset(self._routes.keys() - self._met.keys()) | {self.zid}
+
     def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
         """Call a listener, which must be quick, after each change; return what ends that."""
         with self._changed:

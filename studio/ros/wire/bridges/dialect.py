@@ -219,6 +219,15 @@ def place_of(kind: EndpointKind, name: str) -> Place | None:
     return (_OF_ACTION[kind], action) if part == _SEND_GOAL and kind in _OF_ACTION else None
 
 
+def route_of(kind: EndpointKind, name: str) -> Place:
+    """Return kind and name of the route that an end is part of: of an action all parts are one."""
+    found = split_action_part(name)
+    if found is None:
+        return RouteKind(kind.value), name
+    is_server = kind in {EndpointKind.SERVICE, EndpointKind.PUBLISHER}
+    return (RouteKind.ACTION_SERVER if is_server else RouteKind.ACTION_CLIENT), found[0]
+
+
 def announcement(end: EndpointToken) -> str | None:
     """Return the token by which bridges make a route to an end of ours; None: it needs none.
 

@@ -60,6 +60,59 @@ def test_a_bridge_of_another_domain_can_be_followed_there(patient: Patient):
     assert "bridge-empty" not in found(patient, one)
 
 
+def elsewhere() -> Bridge:
+    """A bridge of domain 5 with a node that takes velocities, settings, and goals."""
+    taken = (
+        bridged_end("/cmd_vel", kind=EndpointKind.SUBSCRIPTION),
+        bridged_end("/parameter_events", kind=EndpointKind.SUBSCRIPTION),
+        bridged_end("/driver/set_parameters", kind=EndpointKind.SERVICE),
+        bridged_end("/dock/_action/send_goal", kind=EndpointKind.SERVICE),
+        bridged_end("/dock/_action/cancel_goal", kind=EndpointKind.SERVICE),
+        bridged_end("/scan"),
+    )
+    one = bridge("/driver", name="other", ends=taken, settings=started(5), is_used=False)
+    return replace(one, zid="b1b1b1")
+
+
+def test_a_robot_of_another_domain_that_hears_what_is_meant_for_this_one_is_a_warning(
+    patient: Patient,
+):
+    both = elsewhere().ends
+    domain = found(patient, bridge("/driver", ends=both), elsewhere())["bridge-domain"]
+    assert (domain.level, domain.mend) == ("warn", None)
+    assert "what is sent here to /dock, /cmd_vel, /driver/set_parameters reaches" in domain.sentence
+    assert domain.evidence == (
+        "it was started for domain 5",
+        "action servers: /dock",
+        "subscriptions: /cmd_vel",
+        "services: /driver/set_parameters",
+    )
+    assert domain.line == "zenoh-bridge-ros2dds -d 5 -n /NAME"
+    kinds = {(one.kind, one.name) for one in domain.about}
+    assert kinds >= {("topic", "/cmd_vel"), ("action", "/dock")}
+
+
+def test_it_hears_what_the_studio_publishes_only_beside_a_bridge_of_this_domain(patient: Patient):
+    patient.publisher(STRING, "/cmd_vel")
+
+    def level(*bridges: Bridge, own: str = "") -> str:
+        seen = with_bridges(patient.seen(), *bridges)
+        assert seen.system is not None
+        mine = replace(seen, system=replace(seen.system, own=frozenset({own})))
+        (one,) = (one for one in examine(mine).findings if one.code == "bridge-domain")
+        return "sent here" if "sent here to /cmd_vel reaches" in one.sentence else one.level
+
+    studio, used = patient.robot.wire.zid, bridge("/arm")
+    assert level(used, elsewhere(), own=studio) == "sent here"
+    assert level(used, elsewhere()) == "note"
+    assert level(elsewhere()) == "note"
+
+
+def test_bridges_of_two_domains_with_namespaces_do_not_share_a_name(patient: Patient):
+    mine = bridge("/driver", ends=(bridged_end("/robot1/cmd_vel"),))
+    assert found(patient, mine, elsewhere())["bridge-domain"].level == "note"
+
+
 @pytest.mark.parametrize("is_here_only", [True, False])
 def test_a_bridge_without_a_node_is_a_warning_that_says_where_it_looks(
     patient: Patient, *, is_here_only: bool
@@ -165,6 +218,7 @@ def test_a_robot_under_two_namespaces_is_found(patient: Patient):
     yours = bridge("/robot2/driver", name="/robot2", settings=started(0, "/robot2"))
     shared = found(patient, mine, replace(yours, zid="b1b1b1"))["shared-domain"]
     assert "/robot1/driver, /robot2/driver" in shared.sentence
+    assert "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST (Iron" in shared.sentence
     assert shared.line == "zenoh-bridge-ros2dds -n /robot1 --ros-localhost-only"
 
 

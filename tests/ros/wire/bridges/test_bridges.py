@@ -113,6 +113,10 @@ def test_who_announces_ends_and_shows_no_bridge_is_none(met: Met):
             wait_until("the bridge is seen", lambda: bool(met.node.graph.bridges))
             assert len(met.node.graph.bridges) == 1
             assert len(met.node.graph.publishers("/chatter")) == 1
+            assert met.node.graph.announcing == {other.zid, met.node.wire.zid}
+        other.retire(CHATTER)
+        own = frozenset({met.node.wire.zid})
+        wait_until("it announces no more", lambda: met.node.graph.announcing == own)
 
 
 def test_without_a_bridge_nothing_is_declared_for_one(met: Met):

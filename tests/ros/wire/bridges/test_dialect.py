@@ -18,6 +18,7 @@ from studio.ros.wire.bridges.dialect import (
     place_of,
     request_number,
     route_ends,
+    route_of,
     subscription_announcement,
 )
 
@@ -205,3 +206,13 @@ def test_the_number_of_a_request_is_read_in_both_orders_of_bytes():
 def test_another_attachment_is_no_request_of_a_bridge(attachment: bytes):
     with pytest.raises(AttachmentError):
         request_number(attachment)
+
+
+@pytest.mark.parametrize("letters", ["AS", "AC"])
+def test_each_part_of_an_action_is_known_by_its_one_route(letters: str):
+    parts = route_ends(route(f"{HEAD}/{letters}/fib/example_interfaces§action§Fibonacci"))
+    assert {route_of(one.kind, one.name) for one in parts} == {(RouteKind(letters), "/fib")}
+
+
+def test_an_end_that_is_no_part_of_an_action_is_a_route_itself():
+    assert route_of(EndpointKind.CLIENT, "/add") == (RouteKind.CLIENT, "/add")
