@@ -187,3 +187,28 @@ def test_a_robot_that_flaps_is_seen_as_it_is_once_it_rests(met: Met):
         wait_until("it is seen", lambda: bool(met.node.graph.publishers("/flap")))
         bridge.retire(FLAP)
         wait_until("it is gone", lambda: not met.node.graph.publishers("/flap"))
+
+
+def test_where_a_bridge_is_dead_and_still_shown_another_to_the_same_robot_counts(met: Met):
+    heard: list[str] = []
+    met.node.create_subscription(message(STRING), "/chatter", lambda one: heard.append(one.data), 9)
+    held: list[Any] = []
+    with talking_bridge(met.endpoint) as first:
+        wait_for_path(met, "/talker")
+        with talking_bridge(met.endpoint) as second:
+            wait_until(
+                "they are twins", lambda: [bool(one.twin) for one in met.bridges] == [False, True]
+            )
+            first.told.clear()
+            first.serve(f"@/{first.zid}/ros2/version", held.append)
+            first.announce(FLAP)
+
+            def is_heard() -> bool:
+                second.send("chatter", b"\0\1\0\0\3\0\0\0ok\0")
+                return bool(heard)
+
+            wait_until("the other is heard", is_heard)
+            assert [one.zid for one in met.bridges] == [second.zid, first.zid]
+            assert "/talker" in met.paths()
+    for query in held:
+        query.drop()

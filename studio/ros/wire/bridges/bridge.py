@@ -100,6 +100,7 @@ class Met:
         told: What it answered last.
         asked: Whether it was asked.
         is_late: Whether it was slow to answer the last time.
+        is_silent: Whether no answer came then: it was killed or cut off, and is still shown.
     """
 
     zid: str
@@ -107,10 +108,12 @@ class Met:
     told: Told = field(default_factory=Told)
     asked: bool = False
     is_late: bool = False
+    is_silent: bool = False
 
     def hear(self, told: Told | None, *, is_whole: bool) -> None:
         """Take what it answered; of half an answer only what is no less than what is known."""
         self.asked = True
+        self.is_silent = told is None and not is_whole
         if told is not None and (is_whole or len(told.nodes) >= len(self.told.nodes)):
             self.told = told
 

@@ -101,7 +101,10 @@ class Bridges:
 
     @property
     def current(self) -> tuple[Bridge, ...]:
-        """Return the bridges that are there and were asked, those that came first in front."""
+        """Return the bridges that are there and were asked, those that came first in front.
+
+        Whoever does not answer comes last: of two with the same nodes the other one counts.
+        """
         return self._current
 
     def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
@@ -294,6 +297,7 @@ class Bridges:
             with self._changed:
                 self._is_stale = False
                 asked = [one for one in self._met.values() if one.asked]
+                asked.sort(key=lambda one: one.is_silent)
                 current, doubles = bridges_of(asked, self._domain)
                 is_same = current == self._current
                 self._current = current
