@@ -69,6 +69,7 @@ class Bridges:
         self._is_stale = False
         """Whether one went since `current` was made."""
         self._rests_until_s = 0.0
+        self._has_failed = False
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
         self._routed: frozenset[str] = frozenset()
@@ -245,8 +246,10 @@ class Bridges:
             try:
                 self._ask()
             except Exception:  # noqa: BLE001 - what a bridge tells must not end the asking
-                if not self._zenoh.is_closed():
+                if not (self._zenoh.is_closed() or self._has_failed):
+                    self._has_failed = True  # again and again would be a flood of lines
                     _log.exception("Bridges could not be asked")
+                self._due.set()
             if self._closed.wait(_REST * (time.thread_time() - began_s)):
                 return
             if not self._due.wait(_ASK_EVERY_S if self._met else None):
@@ -269,6 +272,7 @@ class Bridges:
             with self._changed:
                 self._dirty.discard(one.zid)
             began_s = time.monotonic()
+            one.is_late = True  # also where reading what it tells fails: then the others come first
             self._ask_one(one, bounds)
             one.is_late = time.monotonic() - began_s > _LATE_S
             if one.is_late:
