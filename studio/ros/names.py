@@ -10,6 +10,7 @@ NODE_NAME_CHARACTERS_MAX = 255
 NAMESPACE_CHARACTERS_MAX = 245
 TOPIC_NAME_CHARACTERS_MAX = 247
 
+_ACTION = "/_action/"
 _PART = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
 _PACKAGE = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*", re.ASCII)
@@ -118,6 +119,17 @@ def node_path(namespace: str, node: str) -> str:
 def logger_name(path: str) -> str:
     """Name the logger of a node by its path: `/ns/talker` to `ns.talker`."""
     return path.strip("/").replace("/", ".")
+
+
+def action_part(action: str, part: str) -> str:
+    """Return the full name of a part of an action, as `/turn/_action/feedback`."""
+    return f"{action}{_ACTION}{part}"
+
+
+def split_action_part(name: str) -> tuple[str, str] | None:
+    """Return the action and the part, `/turn` and `feedback`; None: the name is none of a part."""
+    action, _, part = name.rpartition(_ACTION)
+    return (action, part) if action and part else None
 
 
 def is_hidden(name: str) -> bool:

@@ -1,9 +1,10 @@
 """A robot on DDS beside one on rmw_zenoh: delays, processor and losses of the same messages.
 
-Robot, router or bridge, and studio are processes in one network namespace. DDS is given larger
-buffers of its sockets, as ROS's manual of tuning has it for pictures, and once those that it has by
-itself, which hold less than a picture. The bridge is a build for tests, not made for speed: what it
-takes, and how much later samples come, is more than with a released one; the studio's part is not.
+Robot, router or bridge, and studio are processes in one network namespace. Nothing goes by shared
+memory, for robots are other machines. DDS is given larger buffers of its sockets, as ROS's manual
+of tuning has it for pictures, and once those that it has by itself, which hold less than a picture.
+The bridge is a build for tests, not made for speed: what it takes, and how much later samples come,
+is more than with a released one; the studio's part is not.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ WAYS: Final = {
     "dds": "DDS, the bridge is the router",
     "dds-plain": "DDS, the same, plain buffers",
 }
-_COMPARED: Final = {"studio_us": "CPU of the studio a sample", "p50_ms": "p50", "p99_ms": "p99"}
+_COMPARED: Final = {"studio_us": "CPU of the studio a sample", "p50_ms": "p50", "p95_ms": "p95"}
 _ENDPOINT: Final = "tcp/127.0.0.1:7447"
 """In a namespace of its own, where nobody else has it."""
 _MODULE: Final = "tests.benchmarks.dds_process"
@@ -85,7 +86,8 @@ def _say_load(load: str, rounds: dict[str, list[Figures]]) -> None:
             f"{sum(it['lost'] + it['came'] for it in rounds[way]):.0f}"
         )
         say(
-            f"  {'':<32}CPU: studio {middle['studio']:6.1%}, {middle['studio_us']:4.0f} us a sample   "
+            f"  {'':<32}CPU: studio {middle['studio']:6.1%}, "
+            f"{middle['studio_us']:4.0f} us a sample   "
             f"router {middle['router']:6.1%}   "
             f"bridge {middle['bridge']:6.1%}   robot {middle['robot']:6.1%}   "
             f"{middle['a_read']:.1f} samples a read"

@@ -26,8 +26,10 @@ from studio.ros.tokens import EndpointKind, EndpointToken, NodeToken
 from studio.ros.types.convert import from_dict
 from studio.ros.wire.endpoints import parse_endpoint
 from studio.ros.wire.router import start_router
+from studio.ros.wire.session import open_session
+from studio.ros.wire.settings import WireSettings
 from studio.ros.wire.zenoh import declare_token, use_few_threads
-from tests.support.wire import open_test_session, wait_until
+from tests.support.wire import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,6 +38,8 @@ if TYPE_CHECKING:
     from studio.ros.wire.session import WireSession
     from studio.ros.wire.zenoh import Declaration
 
+_FAR: Final = {"transport/shared_memory/enabled": "false"}
+"""A robot is another machine: between sessions of one, Zenoh sends pictures by shared memory."""
 _STAMP_DIGITS: Final = 20
 _NUMBER_DIGITS: Final = 10
 _STAMPED: Final = "0" * (_STAMP_DIGITS + _NUMBER_DIGITS)
@@ -308,7 +312,7 @@ def _role(name: str, endpoint: str) -> object:
     if name == "dds":
         return DdsSender(0)
     use_few_threads()
-    wire = open_test_session(endpoint)
+    wire = open_session(WireSettings(connect=(endpoint,), overrides=_FAR))
     return Receiver(wire) if name == "studio" else ZenohSender(wire)
 
 

@@ -213,3 +213,59 @@ def test_what_a_bridge_does_not_let_through_is_named(network: DdsNetwork):
         assert any("/words" in line for line in seen.rules.texts())
         assert not node.graph.publishers("/secret")
         end(robot, bridge)
+
+
+def test_what_was_kept_before_a_bridge_came_reaches_dds(network: DdsNetwork):
+    with met() as (endpoint, node):
+        qos = QoSProfile(depth=2, durability=KEPT)
+        publisher = node.create_publisher(message(STRING), "/map_name", qos)
+        for data in ("lost", "older", "newest"):
+            publisher.publish(message(STRING)(data=data))
+        robot, bridge = network.robot(), network.bridge(connect=endpoint)
+        latched = {"durability": "transient_local", "depth": 5}
+        robot.ask("subscribe", topic="/map_name", type_name=STRING, qos=latched)
+        robot.wait_heard("/map_name", data="newest")
+        heard = [one["message"]["data"] for one in robot.all_said("heard", topic="/map_name")]
+        assert heard == ["older", "newest"]
+        end(robot, bridge)
+
+
+@pytest.mark.parametrize("latched_first", [True, False])
+def test_a_latched_publisher_reaches_dds_beside_one_that_keeps_nothing(
+    network: DdsNetwork, *, latched_first: bool
+):
+    with met() as (endpoint, node):
+        robot, bridge = network.robot(), network.bridge(connect=endpoint)
+        wait_until("it is used", lambda: node.wire.bridges.is_used)
+        profiles = [QoSProfile(depth=1, durability=KEPT), QoSProfile(depth=10)]
+        made = [
+            node.create_publisher(message(STRING), "/mix", one)
+            for one in (profiles if latched_first else reversed(profiles))
+        ]
+        made[0 if latched_first else 1].publish(message(STRING)(data="kept"))
+        latched = {"durability": "transient_local", "depth": 5}
+        robot.ask("subscribe", topic="/mix", type_name=STRING, qos=latched)
+        robot.wait_heard("/mix", data="kept")
+        end(robot, bridge)
+
+
+def test_two_bridges_with_lists_share_a_robot(network: DdsNetwork):
+    with met() as (endpoint, node):
+        robot = network.robot()
+        bridges = [
+            network.bridge(connect=endpoint, config={"allow": {"publishers": [topic]}})
+            for topic in ("/chatter", "/camera")
+        ]
+        for topic in ("/chatter", "/camera", "/secret"):
+            robot.ask("publish", topic=topic, type_name=STRING, values={"data": topic}, rate_hz=20)
+        for topic in ("/chatter", "/camera"):
+            wait_until(f"{topic} is seen", lambda topic=topic: bool(node.graph.publishers(topic)))
+            assert heard_once(node, topic, QoSProfile(depth=10)) == topic
+        assert [one.path for one in node.graph.nodes()].count("/robot") == 1
+        assert not any(one.twin for one in node.graph.bridges)
+
+        def withheld() -> set[str]:
+            return {name for one in node.graph.bridges for _, name in one.withheld}
+
+        wait_until("what neither brings is named", lambda: withheld() == {"/secret"})
+        end(robot, *bridges)

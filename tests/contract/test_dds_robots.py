@@ -16,9 +16,11 @@ from studio.ros.parameter_client import ParameterClient
 from studio.ros.parameters.parameter import Parameter
 from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
+from studio.ros.wire.zenoh import admin_answers
 from tests.support.dds_bridge import Bridge, DdsNetwork, DdsRobot
 from tests.support.demos import spun
 from tests.support.node_pair import context_at
+from tests.support.pretend_bridge import PretendBridge
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
@@ -133,6 +135,48 @@ def test_a_message_that_was_kept_on_dds_comes_to_who_is_late(world: World):
         assert heard == ["kept"]
         heard.clear()
         world.node.destroy_subscription(subscription)
+
+
+def test_a_subscription_that_waits_takes_the_qos_of_the_publisher_that_comes(world: World):
+    heard: list[str] = []
+
+    def hear(one: MessageValue) -> None:
+        heard.append(one.data)
+
+    qos = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    subscription = world.node.create_subscription(message(STRING), "/later", hear, qos)
+    world.robot.ask("publish", topic="/later", type_name=STRING, values={"data": "best effort"},
+                    qos={"reliability": "best_effort", "depth": 5}, rate_hz=50)  # fmt: skip
+    wait_until("it is heard", lambda: bool(heard))
+    world.robot.ask("stop", topic="/later")
+    world.node.destroy_subscription(subscription)
+
+
+def test_a_subscription_goes_on_when_another_bridge_needs_the_topic_no_more(world: World):
+    heard: list[str] = []
+
+    def hear(one: MessageValue) -> None:
+        heard.append(one.data)
+
+    world.robot.ask("publish", topic="/left", type_name=STRING, values={"data": "l"}, rate_hz=50)
+    subscription = world.node.create_subscription(message(STRING), "/left", hear, 10)
+    wait_until("it is heard", lambda: bool(heard))
+    with PretendBridge(world.endpoint) as other:
+        rest = "MS/left/std_msgs§msg§String/:1:0:0,10"
+        other.announce(rest)
+        path = f"@/{world.bridge.zid}/ros2/route/topic/pub/left"
+
+        def serves_other() -> bool:
+            answers = admin_answers(world.node.wire.zenoh, path, 5.0)
+            return any(other.zid.encode() in data for _, data in answers)
+
+        wait_until("the bridge knows of the other", serves_other)
+        other.retire(rest)
+        wait_until("it knows of its end", lambda: not serves_other())
+    count = len(heard)
+    wait_until("ours goes on", lambda: len(heard) > count + 10)
+    world.robot.ask("stop", topic="/left")
+    world.node.destroy_subscription(subscription)
 
 
 def test_a_message_of_ours_is_heard_on_dds(world: World):
@@ -256,6 +300,28 @@ def test_who_subscribes_again_beside_a_rate_that_is_counted_hears_again(world: W
         routed(world, "/tick")
     statistics.close()
     world.robot.ask("stop", topic="/tick")
+
+
+def test_a_rate_is_counted_on_when_the_subscription_of_another_session_ends(world: World):
+    world.robot.ask("publish", topic="/tock", type_name=STRING, values={"data": "t"}, rate_hz=50)
+    wait_for_publisher(world.node, "/tock")
+    heard: list[MessageValue] = []
+    statistics = TopicStatistics(world.node.context, "/tock", 30.0)
+    wait_until("it is counted", lambda: statistics.flow().rate_hz > 20)
+    with context_at(world.endpoint) as context:
+        other = Node("other_studio", context=context)
+        subscription = other.create_subscription(message(STRING), "/tock", heard.append, 5)
+        with spun(context, other):
+            wait_until("it is heard", lambda: len(heard) > 5, 10)
+            other.destroy_subscription(subscription)
+    wait_until("the other is gone", lambda: world.node.graph.node("/other_studio") is None)
+    routed(world, "/tock")
+    heard.clear()
+    subscription = world.node.create_subscription(message(STRING), "/tock", heard.append, 5)
+    wait_until("it is heard again", lambda: len(heard) > 5, 10)
+    world.node.destroy_subscription(subscription)
+    statistics.close()
+    world.robot.ask("stop", topic="/tock")
 
 
 def test_services_are_called_both_ways(world: World):

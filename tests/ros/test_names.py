@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from studio.errors import RosNameError
 from studio.ros.names import (
+    action_part,
     as_namespace,
     check_full_name,
     check_namespace,
@@ -16,6 +17,7 @@ from studio.ros.names import (
     full_type_name,
     is_hidden,
     node_path,
+    split_action_part,
     split_type_name,
 )
 
@@ -69,6 +71,18 @@ def test_a_name_names_itself_in_the_sentence_cut_where_it_is_long():
         check_full_name("x" * 10_000)
     assert "begins" in str(caught.value) or "longer" in str(caught.value)
     assert len(str(caught.value)) < 400
+
+
+def test_a_part_of_an_action_is_named_after_both():
+    assert action_part("/turn", "feedback") == "/turn/_action/feedback"
+    assert split_action_part("/turn/_action/feedback") == ("/turn", "feedback")
+
+
+@pytest.mark.parametrize(
+    "name", ["/turn", "/turn/_hidden", "/_action/status", "/turn/_action", "/turn/_action/"]
+)
+def test_another_name_is_no_part_of_an_action(name: str):
+    assert split_action_part(name) is None
 
 
 def test_hidden_names_have_a_part_with_an_underscore_in_front():

@@ -70,6 +70,10 @@ class PretendBridge:
         session = cast("Any", self.session)
         session.put(key, cdr, timestamp=session.new_timestamp())
 
+    def copy(self, key: str, cdr: bytes) -> None:
+        """Send a sample as a node of rmw_zenoh sends it to bridges, which has sent it before."""
+        cast("Any", self.session).put(key, cdr, attachment=bytes(33))
+
     def serve(self, key: str, answer: Callable[[Any], object]) -> None:
         """Call back with each query of a key."""
         self._servers.append(cast("Any", self.session).declare_queryable(key, answer))

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from studio.importable.hints.said import is_users, place, place_of
+from studio.ros.names import split_action_part
 from studio.ros.node.base import NodeBase, was_spun
 from studio.ros.node.executors import Executor, MultiThreadedExecutor
 from studio.ros.node.service_client import Client
@@ -28,7 +29,6 @@ _AWAY_S: Final = 2.0
 _CARRY_OUT: Final[CodeType] = Executor._carry_out.__code__  # pyright: ignore[reportPrivateUsage]
 _WAIT: Final[CodeType] = Client.wait_for_service.__code__
 _CALL: Final[CodeType] = Client.call.__code__
-_ACTION: Final = "/_action/"
 
 
 @dataclass
@@ -133,7 +133,8 @@ class Stacks:
             self._say_unserved(client, place(inner) if inner is not None else "")
 
     def _say_unserved(self, client: Client, where: str) -> None:
-        name, _, part = client.endpoint.token.name.partition(_ACTION)
+        full = client.endpoint.token.name
+        name, part = split_action_part(full) or (full, "")
         kind = "action" if part else "service"
         wanted = client.srv_type.name.removesuffix("_SendGoal") if part else client.srv_type.name
         at = f" at {where}" if where else ""
@@ -151,7 +152,7 @@ def _instead(client: Client, name: str, wanted: str) -> str:
         if other == client.endpoint.token.name:
             return f", for {name} is served with another type, {types[0]}"
     for other, types in served:
-        if wanted in types and _ACTION not in other:
+        if wanted in types and not split_action_part(other):
             return f", or write {other}, which is served with that type"
     return ""
 

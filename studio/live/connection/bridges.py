@@ -56,6 +56,6 @@ def _shortened(rule: str) -> str:
 def _state(bridge: Bridge) -> BridgeState:
     if not bridge.is_used:
         return "other_domain"
-    if bridge.nodes:
+    if bridge.nodes or bridge.ends:
         return "used"
     return "twin" if bridge.twin else "empty"

@@ -17,6 +17,7 @@ from studio.protocol.connection import DomainView, Verdict, WireReport
 from studio.ros.graph.diagnosis import DistroHashes, foreign_hashes, unseen_nodes
 from studio.ros.graph.endpoints import GraphEndpoint, GraphNode
 from studio.ros.messages import types_of
+from studio.ros.names import split_action_part
 from studio.ros.profiles import NO_HASH, PROFILES
 from studio.ros.tokens import ADMIN_SPACE, EndpointKind, NodeToken, parse_token
 from studio.ros.wire.endpoints import ProbeResult, parse_endpoint, probe
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
 
 _QUERY_TIMEOUT_S: Final = 3.0
 _TOPICS: Final = {EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION}
-_OF_ACTION: Final = "/_action/"
 _LOOKS: Final = 4
 _LOOK_PAUSE_S: Final = 0.15
 _SHOWN_MAX: Final = 20
@@ -81,7 +81,7 @@ class Census:
             self.nodes[settings.domain if settings else domain] += len(bridge.nodes)
             for end in bridge.ends if bridge.is_used else ():
                 # Before Iron, DDS tells no hash of topics; of services and actions, mostly none.
-                if end.type_hash or (end.kind in _TOPICS and _OF_ACTION not in end.name):
+                if end.type_hash or (end.kind in _TOPICS and not split_action_part(end.name)):
                     node = GraphNode.behind(bridge, end.participant, end.node)
                     self._take_form(GraphEndpoint.behind(end, node))
 

@@ -8,7 +8,6 @@ It imports Zenoh (through `ros`), so it is imported when somebody asks.
 from __future__ import annotations
 
 import os
-import secrets
 import socket
 import time
 from collections import Counter
@@ -19,16 +18,14 @@ from typing import TYPE_CHECKING, Final
 from studio.live.doctor.passing import announcing_sessions, unrouted_ends
 from studio.live.doctor.seen import Answers, Ends, Here, Interface, System, short
 from studio.live.doctor.subjects.network import NAMES
-from studio.ros.attachment import GID_BYTES, packed
 from studio.ros.graph.diagnosis import (
     DistroHashes,
     nodes_by_domain,
     unseen_nodes,
     versions_by_session,
 )
-from studio.ros.tokens import DataKey, EndpointKind
-from studio.ros.wire.bridges.dialect import bridge_key
-from studio.ros.wire.zenoh import Replies, ZError, declare_querier
+from studio.ros.graph.questions import Question
+from studio.ros.tokens import EndpointKind
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,7 +34,6 @@ if TYPE_CHECKING:
     from studio.ros.graph.graph import Graph
     from studio.ros.types.library import TypeLibrary
     from studio.ros.wire.session import WireSession
-    from studio.ros.wire.zenoh import Querier
 
 ASKED_MAX: Final = 60
 """Nodes that are asked at once."""
@@ -174,7 +170,7 @@ def _silent_nodes(wire: WireSession, system: System) -> tuple[int, tuple[str, ..
         if name.endswith(_ANSWERING) and ends.senders and not system.is_own(ends.senders[0])
         if ends.senders[0].node.path not in cannot
     ][:ASKED_MAX]
-    asked = [(one.node.path, _Question(wire, one)) for one in servers]
+    asked = [(one.node.path, Question(wire, one, _NO_PARAMETERS, ANSWER_S)) for one in servers]
     end_s = time.monotonic() + ANSWER_S
     while time.monotonic() < end_s and not all(one.is_answered() for _, one in asked):
         time.sleep(_CHECK_EVERY_S)
@@ -182,34 +178,3 @@ def _silent_nodes(wire: WireSession, system: System) -> tuple[int, tuple[str, ..
     for _, one in asked:
         one.close()
     return len(asked), silent
-
-
-class _Question:
-    """A request for no parameters, which only shows whether a node answers."""
-
-    def __init__(self, wire: WireSession, server: GraphEndpoint) -> None:
-        is_bridged = bool(server.node.bridge)
-        key = DataKey(wire.domain, server.name, server.type_name, server.type_hash)
-        name = bridge_key(server.name) if is_bridged else str(key)
-        number = packed(1, time.time_ns(), secrets.token_bytes(GID_BYTES))
-        attachment = None if is_bridged else number  # bridges take their own or none
-        self._answered = False
-        self._querier: Querier = declare_querier(
-            wire.zenoh, name, ANSWER_S, is_for_bridge=is_bridged
-        )
-        self._replies = Replies(self._querier, _NO_PARAMETERS, attachment)
-
-    def is_answered(self) -> bool:
-        """Whether an answer came; asked again and again."""
-        if not self._answered:
-            try:
-                reply = self._replies.try_recv()
-            except ZError:  # the time is over
-                return False
-            self._answered = reply is not None and reply.ok is not None
-        return self._answered
-
-    def close(self) -> None:
-        """Wait no more."""
-        self._replies.cancel()
-        self._querier.undeclare()

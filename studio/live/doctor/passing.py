@@ -5,33 +5,23 @@ It imports Zenoh (through `ros`), so it is imported when somebody asks.
 
 from __future__ import annotations
 
-import time
 from collections import defaultdict
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from studio.errors import TokenError
 from studio.live.doctor.seen import Unrouted
-from studio.ros.tokens import EndpointToken, parse_token
-from studio.ros.wire.bridges.admin import read_routes
 from studio.ros.wire.bridges.bridges import ANSWER_TIMEOUT_S
-from studio.ros.wire.bridges.dialect import TOKENS, Route, announcement, parse_bridge_token
-from studio.ros.wire.zenoh import all_admin_answers, live_tokens
+from studio.ros.wire.bridges.dialect import TOKENS, Route, parse_bridge_token, place_of
+from studio.ros.wire.bridges.passing import missing_routes
+from studio.ros.wire.zenoh import live_tokens
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from studio.live.doctor.seen import Ends, System
     from studio.ros.graph.endpoints import GraphEndpoint
-    from studio.ros.wire.bridges.dialect import RouteKind
+    from studio.ros.wire.bridges.dialect import Place
     from studio.ros.wire.session import WireSession
-
-_LOOKS: Final = 4
-_ASKS_S: Final = 10.0
-"""So long all bridges together are asked: of those that are left nothing is known."""
-_ANSWERS_MAX: Final = 50_000
-_BYTES_MAX: Final = 64 << 20
-_ON_ITS_WAY_S: Final = 0.5
-"""A bridge makes a route within a second after an end was announced."""
 
 
 def announcing_sessions(wire: WireSession) -> frozenset[str]:
@@ -50,50 +40,20 @@ def announcing_sessions(wire: WireSession) -> frozenset[str]:
 def unrouted_ends(wire: WireSession, system: System) -> tuple[Unrouted, ...]:
     """Return the studio's ends that have DDS nodes on the other side, and no route to them.
 
-    Bridges are asked again until a route that is on its way had its time.
+    It takes some seconds where one is missing.
     """
-    missing = _wanted(wire, system)
-    end_s = time.monotonic() + _ASKS_S
-    for look in range(_LOOKS):
-        if not missing:
-            break
-        if look:
-            time.sleep(_ON_ITS_WAY_S)
-        missing = _without_route(wire, missing, end_s)
-    return tuple(one for ends in missing.values() for one in ends.values())
+    wanted = _wanted(wire, system)
+    missing = missing_routes(wire.zenoh, wanted)
+    return tuple(wanted[bridge][place] for bridge, places in missing.items() for place in places)
 
 
-def _without_route(
-    wire: WireSession,
-    wanted: Mapping[str, Mapping[tuple[RouteKind, str], Unrouted]],
-    end_s: float,
-) -> dict[str, dict[tuple[RouteKind, str], Unrouted]]:
-    found: dict[str, dict[tuple[RouteKind, str], Unrouted]] = {}
-    for bridge, ends in wanted.items():
-        left_s = end_s - time.monotonic()
-        if left_s <= 0:
-            break
-        answers, is_whole = all_admin_answers(
-            wire.zenoh,
-            f"@/{bridge}/ros2/route/**",
-            min(ANSWER_TIMEOUT_S, left_s),
-            most=_ANSWERS_MAX,
-            most_bytes=_BYTES_MAX,
-        )
-        routed = read_routes(answers, wire.zid)
-        left = {place: one for place, one in ends.items() if place not in routed}
-        if answers and is_whole and left:  # else nothing is known of it
-            found[bridge] = left
-    return found
-
-
-def _wanted(wire: WireSession, system: System) -> dict[str, dict[tuple[RouteKind, str], Unrouted]]:
+def _wanted(wire: WireSession, system: System) -> dict[str, dict[Place, Unrouted]]:
     """Return, by bridge, what the studio announces and DDS nodes have the other end of."""
-    found: dict[str, dict[tuple[RouteKind, str], Unrouted]] = defaultdict(dict)
+    found: dict[str, dict[Place, Unrouted]] = defaultdict(dict)
     for named in (system.topics, system.services):
         for ends in named.values():
             for own, other in _facing(ends, wire.zid):
-                place = _announced(own)
+                place = place_of(own.kind, own.name)
                 if place is not None and own.type_name == other.type_name:
                     found[other.node.zid].setdefault(place, Unrouted(own, other, *place))
     return found
@@ -107,11 +67,3 @@ def _facing(ends: Ends, zid: str) -> Iterator[tuple[GraphEndpoint, GraphEndpoint
             yield from (
                 (own, one) for one in {one.node.zid: one for one in far if one.node.bridge}.values()
             )
-
-
-def _announced(end: GraphEndpoint) -> tuple[RouteKind, str] | None:
-    """Return kind and name by which bridges know an end; None: another part of its action does."""
-    token = parse_token(end.token)
-    text = announcement(token) if isinstance(token, EndpointToken) else None
-    route = parse_bridge_token(text) if text else None
-    return (route.kind, route.name) if isinstance(route, Route) else None

@@ -29,7 +29,8 @@ from studio.ros.columns.transforms import TransformCodec
 from studio.ros.names import is_hidden
 from studio.ros.profiles import NO_HASH
 from studio.ros.qos import DurabilityPolicy
-from studio.ros.tokens import DataKey, gid_of
+from studio.ros.tokens import DataKey
+from studio.ros.wire.bridges.bridge import sender_gid
 from studio.tf.buffer import TransformBuffer
 
 if TYPE_CHECKING:
@@ -206,7 +207,7 @@ class Watching:
     def _bridge_of(self, gid: bytes) -> str:
         """Name the bridge that passed on a transform of one of several nodes on DDS."""
         for bridge in self._system.bridges if self._system else ():
-            if gid in {gid_of(f"{bridge.zid}/{topic}") for topic in (_TF, _TF_STATIC)}:
+            if gid in {sender_gid(bridge.zid, topic) for topic in (_TF, _TF_STATIC)}:
                 return f"a node behind the {called(bridge)}"
         return ""
 

@@ -10,6 +10,7 @@ from studio.live.topics.request import Request
 from studio.live.topics.source import decoder
 from studio.protocol.commands import Commands, Scope
 from studio.protocol.goals import GetGoalStatuses, GoalStatuses, GoalStatusView
+from studio.ros.names import action_part
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -93,7 +94,7 @@ class GoalStatusTopics:
 
     def _subscribe(self, action: str, now_s: float) -> _Statuses:
         request = Request(
-            f"{action}/_action/status",
+            action_part(action, "status"),
             (_TYPE,),
             newest_only=True,
             depth=1,

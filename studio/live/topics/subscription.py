@@ -350,8 +350,7 @@ class Stream:
                 self._hand_over(one)
 
     def _is_repeated(self, sample: RawSample) -> bool:
-        sequence, _, sender = sample.attachment
-        return sequence <= self._repeats_to.get(sender, -1)
+        return _place(sample) <= self._repeats_to.get(sample.attachment.gid, -1)
 
     def _deepen(self, one: Subscription, depth: int) -> None:
         self.depth = depth
@@ -388,6 +387,11 @@ class Stream:
         self._wire.hurry(wanted=any(one.at_once for one in requests))
 
 
+def _place(sample: RawSample) -> int:
+    """Return what grows from each sample of a sender to the next: DDS tells its time only."""
+    return sample.attachment.sequence or sample.attachment.source_time_ns
+
+
 class Arrivals:
     """Times at which samples came recently; samples that came together are one entry."""
 
@@ -415,7 +419,7 @@ class Cache:
     """The last samples of each sender of a latched topic.
 
     Attributes:
-        last: The number of the last sample of each sender.
+        last: The place of the last sample of each sender.
     """
 
     def __init__(self) -> None:
@@ -428,7 +432,7 @@ class Cache:
         """Keep more of them, of each sender as many as that."""
         for sample in samples:
             sender = sample.attachment.gid
-            self.last[sender] = sample.attachment.sequence
+            self.last[sender] = _place(sample)
             kept = self._kept.setdefault(sender, deque())
             kept.append(sample)
             self._count += 1

@@ -8,6 +8,7 @@ from enum import IntEnum, StrEnum
 from typing import TYPE_CHECKING
 
 from studio.errors import GoalStateError
+from studio.ros.names import action_part
 from studio.ros.qos import QoSProfile
 from studio.ros.types.classes import shown
 
@@ -167,7 +168,7 @@ class ActionNames:
     @classmethod
     def of(cls, action: str) -> ActionNames:
         """Name the parts of an action by its full name."""
-        return cls(*(f"{action}/_action/{part}" for part in cls.__dataclass_fields__))
+        return cls(*(action_part(action, part) for part in cls.__dataclass_fields__))
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,8 @@ from studio.ros.tokens import (
     tokens_of_domain,
 )
 from studio.ros.types.library import TypeLibrary
+from studio.ros.wire.bridges.dialect import PROGRAM
+from studio.ros.wire.versions import version_number
 from studio.ros.wire.zenoh import admin_answers, live_tokens
 
 if TYPE_CHECKING:
@@ -60,7 +62,8 @@ def why_nobody(endpoint: str, domain: int, nodes_by_domain: Mapping[int, int]) -
     if not others:
         return (
             f"The router at {endpoint} is there, but no node is: start one, with "
-            "RMW_IMPLEMENTATION=rmw_zenoh_cpp if it is one of ROS 2."
+            f"RMW_IMPLEMENTATION=rmw_zenoh_cpp if it is one of ROS 2, or {PROGRAM} "
+            "beside nodes that use DDS."
         )
     places = ", ".join(f"{_nodes(count)} in domain {other}" for other, count in others.items())
     return f"No node is in domain {domain}, but {places}: choose --domain {min(others)}."
@@ -237,16 +240,13 @@ def _versions(session: Session, keys: Iterable[str]) -> tuple[str, ...]:
 
 
 def _version(data: bytes) -> str:
-    """Return `1.8.0` of `v1.8.0-2687c51 built with rustc 1.95.0`; empty if there is none."""
+    """Return the number that an answer of the admin space tells; empty if there is none."""
     try:
         answer: object = json.loads(data)
     except ValueError:
         return _STRANGE
     version = cast("dict[str, object]", answer).get("version") if isinstance(answer, dict) else None
-    if not isinstance(version, str):
-        return _STRANGE
-    number = version.removeprefix("v").partition(" ")[0].partition("-")[0]
-    return number if len(number) <= 20 and number.replace(".", "").isalnum() else _STRANGE
+    return version_number(version) if isinstance(version, str) else _STRANGE
 
 
 def nodes_by_domain(

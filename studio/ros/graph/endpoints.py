@@ -230,16 +230,21 @@ class GraphTable:
         return Taken.CHANGED
 
     def set_bridged(self, bridges: Iterable[Bridge]) -> None:
-        """Replace all nodes on DDS by those that bridges show now."""
+        """Replace all nodes on DDS by those that bridges show now.
+
+        Of a node that several show the ends of all belong to that of the first.
+        """
         for entry in self._bridged.values():
             for endpoint in entry.endpoints.values():
                 self._forget(endpoint)
         self._bridged = {}
+        homes: dict[tuple[str, str], Bridge] = {}
         for bridge in bridges:
-            for participant, path in bridge.nodes:
-                self._bridged_entry(bridge, participant, path)
+            for place in bridge.nodes:
+                self._bridged_entry(homes.setdefault(place, bridge), *place)
             for end in bridge.ends:
-                entry = self._bridged_entry(bridge, end.participant, end.node)
+                place = (end.participant, end.node)
+                entry = self._bridged_entry(homes.get(place, bridge), *place)
                 endpoint = GraphEndpoint.behind(end, entry.node)
                 entry.endpoints[endpoint.token] = endpoint
                 self._remember_endpoint(endpoint)

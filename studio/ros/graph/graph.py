@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 
 from studio.ros.condition import Condition
 from studio.ros.graph.endpoints import GraphTable, Taken
-from studio.ros.names import check_full_name, is_hidden
+from studio.ros.names import action_part, check_full_name, is_hidden
 from studio.ros.tokens import EndpointKind, tokens_of_domain
 from studio.ros.wire.zenoh import ReadingThread, Sample, live_tokens, token_change, watch_tokens
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from studio.ros.wire.bridges.bridge import Bridge
     from studio.ros.wire.session import WireSession
 
-_GOAL = "/_action/send_goal"
+_GOAL = action_part("", "send_goal")
 _GOAL_TYPE = "_SendGoal"
 NamesAndTypes = list[tuple[str, list[str]]]
 """What rclpy returns for topics, services and actions: names in order, each with its types."""

@@ -20,6 +20,7 @@ from studio.ros.wire.bridges.side import BridgeSide, DeclaredT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from contextlib import AbstractContextManager
 
     from studio.ros.graph.endpoints import GraphEndpoint
     from studio.ros.graph.graph import Graph, NamesAndTypes
@@ -414,10 +415,19 @@ class Endpoint:
         self.key = str(DataKey(wire.domain, token.name, token.type_name, token.type_hash))
         self._shown: Declaration | None = None
 
-    def for_bridges(self, declare: Callable[[str], DeclaredT]) -> BridgeSide[DeclaredT]:
-        """Make the half of this end that bridges to DDS meet; it ends when this one is hidden."""
+    def for_bridges(
+        self,
+        declare: Callable[[str], DeclaredT],
+        lock: AbstractContextManager[object] | None = None,
+    ) -> BridgeSide[DeclaredT]:
+        """Make the half of this end that bridges to DDS meet; it ends when this one is hidden.
+
+        Args:
+            declare: See `BridgeSide`, also for the next.
+            lock: Held while what is declared changes.
+        """
         bridges = self.wire.bridges
-        side = BridgeSide(self.wire.zenoh, bridges, self.token, self.token.name, declare)
+        side = BridgeSide(self.wire.zenoh, bridges, self.token, self.token.name, declare, lock)
         self._side = side
         return side
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import TYPE_CHECKING
+from collections import deque
+from typing import TYPE_CHECKING, TypeAlias
 
 from studio.errors import DestroyedError
 from studio.ros.attachment import packed
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from studio.ros.wire.zenoh import Outgoing
 
 
+_Sent: TypeAlias = "tuple[bytes | bytearray, bytes]"
+"""A message as CDR, and what is attached to it."""
+
+
 class RawPublisher:
     """Publishes bytes on one topic, of a type that need not be known here; thread-safe."""
 
@@ -31,9 +36,11 @@ class RawPublisher:
         self._sequence = 0
         self._gid = endpoint.gid
         self._outgoing: Outgoing | None = _declared(endpoint, endpoint.key)
-        self._for_bridges = endpoint.for_bridges(
-            lambda key: _declared(endpoint, key, is_for_others=True)
-        )
+        qos = endpoint.token.qos
+        is_latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        self._kept = deque[_Sent](maxlen=(qos.depth or DEPTH_DEFAULT) if is_latched else 0)
+        """What a bridge that comes later gets, too."""
+        self._for_bridges = endpoint.for_bridges(self._declared_for_bridges, self._lock)
         endpoint.show()
 
     @property
@@ -61,10 +68,19 @@ class RawPublisher:
             self._sequence = number = self._sequence + 1
             attachment = packed(number, time.time_ns(), self._gid)
             outgoing.put(payload, attachment=attachment)
+            if self._kept.maxlen:
+                self._kept.append((payload, attachment))
             bridged = self._for_bridges.declared
             if bridged is not None:
                 # Nodes of rmw_zenoh know by the attachment that it came to them already.
                 bridged.put(payload, attachment=attachment)
+
+    def _declared_for_bridges(self, key: str) -> Outgoing:
+        """Declare what sends to bridges, and send what is kept; with the lock."""
+        outgoing = _declared(self.endpoint, key, is_for_others=True)
+        for payload, attachment in self._kept:
+            outgoing.put(payload, attachment=attachment)
+        return outgoing
 
     def get_subscription_count(self) -> int:
         """Count the subscriptions of the topic that have its type."""

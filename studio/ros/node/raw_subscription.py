@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from studio.errors import AttachmentError
 from studio.ros.attachment import unpack
-from studio.ros.node.samples import Gaps, RawSample, bridged_sample
+from studio.ros.node.samples import BRIDGED_RING_MIN, Gaps, RawSample, bridged_sample, sender_of
 from studio.ros.qos import DEPTH_DEFAULT, DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
 from studio.ros.wire.zenoh import declare_subscription
@@ -126,11 +126,11 @@ class RawSubscription:
         """Hand over what came; of the drain's thread."""
         samples = self._incoming.take(RING)
         if samples:
-            self._hand_over(samples, self._received)
+            self._hand_over(samples)
         count = len(samples)
         bridged = self._bridged.declared
         if bridged is not None and (samples := bridged.take(RING)):
-            self._hand_over(samples, self._received_bridged)
+            self._hand_over_bridged(samples)
             count += len(samples)
         if self._next is not None:
             self._swap()
@@ -148,9 +148,7 @@ class RawSubscription:
             swap.swapped()
             swap.is_done.set()
 
-    def _hand_over(
-        self, samples: list[Sample], read: Callable[[Sample, int], RawSample | None]
-    ) -> None:
+    def _hand_over(self, samples: list[Sample]) -> None:
         now_ns = time.time_ns()
         count = len(samples)
         if self._newest_only and count > 1:
@@ -158,7 +156,7 @@ class RawSubscription:
             samples = samples[-1:]
         else:
             size = 0
-        came = [raw for one in samples if (raw := read(one, now_ns)) is not None]
+        came = [raw for one in samples if (raw := self._received(one, now_ns)) is not None]
         if came:
             self._take(came, count, size + sum(len(one.payload) for one in came))
 
@@ -175,9 +173,19 @@ class RawSubscription:
             self._gaps.count(unpacked)
         return RawSample(sample.payload.to_bytes(), unpacked, now_ns)
 
-    def _received_bridged(self, sample: Sample, now_ns: int) -> RawSample | None:
-        bridges = self._node.wire.bridges
-        return bridged_sample(bridges, self._endpoint.token, sample, now_ns)
+    def _hand_over_bridged(self, samples: list[Sample]) -> None:
+        """Hand over what came from DDS; among it may be what comes by its own key as well."""
+        now_ns = time.time_ns()
+        passed_over: list[Sample] = []
+        bridges, token = self._node.wire.bridges, self._endpoint.token
+        if self._newest_only and len(samples) > 1:
+            samples = [one for one in samples if sender_of(bridges, token.name, one) is not None]
+            passed_over, samples = samples[:-1], samples[-1:]
+        read = (bridged_sample(bridges, token, one, now_ns) for one in samples)
+        came = [raw for raw in read if raw is not None]
+        if came:
+            size = sum(len(one.payload) for one in (*passed_over, *came))
+            self._take(came, len(passed_over) + len(came), size)
 
     def _declared(
         self, qos: QoSProfile
@@ -189,10 +197,11 @@ class RawSubscription:
         latched = qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
 
         def declared(key: str, *, is_of_others: bool = False) -> Incoming[Sample]:
+            least = BRIDGED_RING_MIN if is_of_others else 1
             return declare_subscription(
                 node.wire.zenoh,
                 key,
-                1 if depth == 1 else max(RING, depth),
+                least if depth == 1 else max(RING, depth),
                 reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
                 wanted=depth if latched else None,
                 is_of_others=is_of_others,

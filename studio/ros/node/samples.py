@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 BLINK_NS = 20_000_000
 SAMPLES_MAX = 4_096
 SENDERS_MAX = 10_000
+BRIDGED_RING_MIN = 16
+"""Of samples from bridges where the newest suffices: between them others come that do not count."""
 LATE_MAX = 256
 """So many missing samples of one sender may still come late."""
 

@@ -95,7 +95,7 @@ class Client(ServiceEnd):
         zenoh = endpoint.wire.zenoh
         self._querier: Querier | None = declare_querier(zenoh, endpoint.key, timeout_s)
         self._bridged = endpoint.for_bridges(
-            lambda key: declare_querier(zenoh, key, timeout_s, is_for_bridge=True)
+            lambda key: declare_querier(zenoh, key, timeout_s, is_for_bridge=True), self._lock
         )
         endpoint.show()
 
@@ -148,11 +148,11 @@ class Client(ServiceEnd):
         """
         payload = self._codecs[0].encode(check_kind(self._request, request))
         was_served = self.service_is_ready()
-        bridged = self._querier_for_bridge()
         future: Future[Any] = Future(executor=self._node.executor)
         with self._lock:
             if self._querier is None:
                 raise DestroyedError(f"client of {self.service_name}")
+            bridged = self._querier_for_bridge()
             self._sequence += 1
             number = self._sequence
             if bridged is None:
@@ -206,12 +206,14 @@ class Client(ServiceEnd):
         self.endpoint.hide(querier)
 
     def _querier_for_bridge(self) -> Querier | None:
-        """Return what asks through a bridge, where only a DDS node serves it; else None."""
+        """Return what asks through a bridge, where only DDS nodes serve it; with the lock."""
         bridged = self._bridged.declared
         if bridged is None:
             return None
+        name = self.srv_type.name
         servers = self.endpoint.graph().servers(self.service_name)
-        return bridged if servers and all(one.node.bridge for one in servers) else None
+        fitting = [one for one in servers if one.type_name == name]
+        return bridged if fitting and all(one.node.bridge for one in fitting) else None
 
     def _drain_call(self, number: int, call: _Call) -> int:
         # No more at once than wait: a server that replies without end must not hold the drain.

@@ -13,6 +13,7 @@ from studio.ros.attachment import unpack
 from studio.ros.cdr import codec_of
 from studio.ros.node.logger import get_logger
 from studio.ros.node.samples import (
+    BRIDGED_RING_MIN,
     Gaps,
     MessageInfo,
     RawSample,
@@ -252,7 +253,7 @@ def _declared(
     return declare_subscription(
         endpoint.wire.zenoh,
         key,
-        ring,
+        max(ring, BRIDGED_RING_MIN) if is_of_others else ring,
         reliable=qos.reliability is not ReliabilityPolicy.BEST_EFFORT,
         wanted=(qos.depth or DEPTH_DEFAULT) if latched else None,
         is_of_others=is_of_others,

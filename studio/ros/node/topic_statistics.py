@@ -183,12 +183,14 @@ class TopicStatistics:
         """Count what came; of the drain's thread."""
         if samples := self._incoming.take(self._ring):
             self._count(samples)
+        count = len(samples)
         bridged = self._bridged.declared
         if bridged is not None and (from_dds := self._of_dds(bridged.take(_BRIDGED_RING))):
             self._count_bridged(from_dds)
+            count += len(from_dds)
         if self._clock() - self._asked_s > self._kept_s:
             self.close()
-        return len(samples)
+        return count
 
     def _of_dds(self, samples: list[Sample]) -> list[Sample]:
         """Return what bridges brought, and no other way does."""

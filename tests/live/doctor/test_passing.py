@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from studio.live.doctor import passing
 from studio.live.doctor.passing import announcing_sessions, unrouted_ends
 from studio.ros.client import Node
 from studio.ros.messages import message
+from studio.ros.wire.bridges import passing
 from studio.ros.wire.bridges.dialect import RouteKind
 from tests.support.patient import STRING, Patient
 from tests.support.pretend_bridge import PretendBridge

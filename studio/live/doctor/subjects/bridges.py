@@ -11,7 +11,8 @@ from studio.protocol.displays import Mend
 from studio.protocol.doctor import Concern, Finding, Talk
 from studio.ros.qos import DurabilityPolicy
 from studio.ros.tokens import EndpointKind
-from studio.ros.wire.bridges.dialect import RouteKind
+from studio.ros.wire.bridges.admin import admin_key
+from studio.ros.wire.bridges.dialect import PROGRAM, RouteKind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -22,9 +23,8 @@ if TYPE_CHECKING:
     from studio.ros.wire.bridges.bridge import Bridge
 
 SUBJECT: Final[SubjectName] = "bridges"
-_PROGRAM: Final = "zenoh-bridge-ros2dds"
 _CYCLONE: Final = "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp"
-_DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {_PROGRAM}"
+_DEBUG: Final = f"RUST_LOG=zenoh_plugin_ros2dds=debug {PROGRAM}"
 _KEEPS_LATCHED: Final = (1, 5, 1)
 """From this version on a bridge keeps transient local messages as rmw_zenoh does."""
 _OF_ROS: Final = frozenset({"/rosout", "/parameter_events"})
@@ -119,7 +119,7 @@ def _silent(bridge: Bridge) -> Finding:
             "its domain is not known. Mostly a router on the way has access rules that keep its "
             "answers back."
         ),
-        evidence=(f"no answer to @/{bridge.zid}/ros2/**",),
+        evidence=(f"no answer to {admin_key(bridge.zid)}",),
         about=(CONNECTION,),
     )
 
@@ -142,13 +142,13 @@ def _other_domain(bridge: Bridge, domain: int, system: System) -> Finding:
             f"its nodes: {nodes}" if nodes else "it found no node there",
         ),
         mend=Mend(label=f"Join domain {domain}", command=command) if 0 <= domain <= 232 else None,
-        line=f"{_PROGRAM} -d {system.domain}",
+        line=f"{PROGRAM} -d {system.domain}",
         about=(CONNECTION,),
     )
 
 
 def _of_used(bridge: Bridge, system: System) -> Iterator[Finding]:
-    if not bridge.nodes and not bridge.twin:
+    if not bridge.nodes and not bridge.ends and not bridge.twin:
         yield _empty(bridge)
     yield from _version(bridge, system)
     yield from _withheld(bridge, system)
@@ -213,7 +213,7 @@ def _version(bridge: Bridge, system: System) -> Iterator[Finding]:
                 "Bring it up to date (1.5.1 or later)."
             ),
             evidence=evidence,
-            line=f"{_PROGRAM} --version",
+            line=f"{PROGRAM} --version",
             about=(CONNECTION, *(Concern(kind="topic", name=one) for one in latched[:3])),
         )
     elif not version or version[:2] < here[:2]:
@@ -229,7 +229,7 @@ def _version(bridge: Bridge, system: System) -> Iterator[Finding]:
             subject=SUBJECT,
             sentence=f"The {called(bridge)} {what}",
             evidence=evidence,
-            line=f"{_PROGRAM} --version",
+            line=f"{PROGRAM} --version",
             about=(CONNECTION,),
         )
 
@@ -349,12 +349,12 @@ def _twin(bridge: Bridge) -> Finding:
     settings = bridge.settings
     return Finding(
         code="two-bridges",
-        level="warn",
+        level="error",
         subject=SUBJECT,
         sentence=(
             f"The {called(bridge.twin)} and another one ({bridge.zid[:6]}) pass on the same nodes "
-            "on DDS: what they send comes twice and is counted once, what is published here "
-            "reaches them twice, and services run twice. Stop one."
+            "on DDS, and each passes on what the other brings: one message or call can go round "
+            "without end, and a service runs again and again. Stop one."
         ),
         evidence=(
             f"both are in domain {settings.domain}" if settings else "both show the same nodes",
@@ -377,18 +377,19 @@ def _shared_nodes(bridges: list[Bridge]) -> Iterator[Finding]:
     for names, paths in together.items():
         yield Finding(
             code="shared-domain",
-            level="warn",
+            level="error",
             subject=SUBJECT,
             sentence=(
                 f"The bridges {listed(names)} found the same nodes on DDS, so each robot is here "
-                f"under several names ({listed(paths, 3)}): start each bridge on its robot with "
+                f"under several names ({listed(paths, 3)}), and what one bridge brings the other "
+                "passes on again, without end. Start each bridge on its robot with "
                 "--ros-localhost-only, or give each robot a ROS_DOMAIN_ID of its own."
             ),
             evidence=tuple(
                 f"{short(name)} shows it as {short(path)}"
                 for name, path in zip(names[:_BRIDGES_MAX], paths, strict=False)
             ),
-            line=f"{_PROGRAM} -n {_namespace(bridges, names)} --ros-localhost-only",
+            line=f"{PROGRAM} -n {_namespace(bridges, names)} --ros-localhost-only",
             about=(CONNECTION, *(Concern(kind="node", name=one) for one in paths[:3])),
         )
 

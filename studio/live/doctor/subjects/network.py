@@ -8,6 +8,7 @@ from studio.errors import StudioError
 from studio.live.doctor.seen import Looked, listed, short
 from studio.live.doctor.subjects.router import CONNECTION
 from studio.protocol.doctor import Finding
+from studio.ros.wire.bridges.dialect import PROGRAM
 from studio.ros.wire.endpoints import parse_endpoint
 
 if TYPE_CHECKING:
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 
 SUBJECT: Final[SubjectName] = "network"
 _ZENOH: Final = "rmw_zenoh_cpp"
-_BRIDGE: Final = "zenoh-bridge-ros2dds"
 _OF_DDS: Final = (
     "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS", "ROS_LOCALHOST_ONLY",
     "ROS_DISCOVERY_SERVER", "FASTRTPS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI",
@@ -91,7 +91,7 @@ def _of_variables(seen: Seen) -> Iterator[Finding]:
                 + (
                     "those on DDS through the bridge that is there."
                     if is_bridged
-                    else f"those on DDS through {_BRIDGE}, which is to be started beside them."
+                    else f"those on DDS through {PROGRAM}, which is to be started beside them."
                 )
             ),
             evidence=(f"RMW_IMPLEMENTATION={short(rmw)}",),

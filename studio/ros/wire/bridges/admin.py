@@ -16,11 +16,13 @@ from studio.ros.duration import Duration
 from studio.ros.names import check_full_name, check_namespace, check_node_name, split_type_name
 from studio.ros.wire.bridges.dialect import RouteKind, dds_qos, type_hash_of
 from studio.ros.wire.settings import DOMAIN_MAX
+from studio.ros.wire.versions import version_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from studio.ros.qos import QoSProfile
+    from studio.ros.wire.bridges.dialect import Place
 
 ANSWERS_MAX: Final = 50_000
 """Answers of one bridge that are read; a robot with a hundred nodes gives some five thousand."""
@@ -139,6 +141,11 @@ class Told:
     )
 
 
+def admin_key(zid: str, below: str = "**") -> str:
+    """Return the key expression of what a bridge tells: of all, or of what lies below a word."""
+    return f"@/{zid}/ros2/{below}"
+
+
 class Bounds(NamedTuple):
     """How much is read of one bridge at once, of what all bridges together may tell.
 
@@ -179,7 +186,8 @@ def read_answers(
     nodes: dict[tuple[str, str], DdsNode] = {}
     for key, data in answers:
         parts = key.split("/")
-        if parts[1:2] != [zid] or len(parts) < 4 or len(data) > _ANSWER_BYTES_MAX:
+        is_wanted = parts[1:2] == [zid] and len(parts) > 3 and parts[3] != "route"
+        if not is_wanted or len(data) > _ANSWER_BYTES_MAX:
             continue
         try:
             value: object = json.loads(data)
@@ -198,7 +206,7 @@ def read_answers(
     return told if is_told else None
 
 
-def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[tuple[RouteKind, str]]:
+def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[Place]:
     """Read the answers to `@/BRIDGE/ros2/route/**`: what of a session it passes on now.
 
     Args:
@@ -208,7 +216,7 @@ def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[tup
     Returns:
         Kind and full name of each end, as the session announced them.
     """
-    found: set[tuple[RouteKind, str]] = set()
+    found: set[Place] = set()
     for count, (key, data) in enumerate(answers):
         parts = key.split("/")[3:]
         if count >= ANSWERS_MAX:
@@ -223,16 +231,18 @@ def read_routes(answers: Iterable[tuple[str, bytes]], zid: str) -> frozenset[tup
             continue
         if kind is None or not isinstance(value, dict):
             continue
-        if _is_passing(cast("Json", value), f"{zid}:{name}"):
+        if _is_passing(kind, cast("Json", value), f"{zid}:{name}"):
             found.add((kind, f"/{name}"))
     return frozenset(found)
 
 
-def _is_passing(route: Json, remote: str) -> bool:
-    """Whether a route serves a session, and has its end on DDS where it tells of that."""
+def _is_passing(kind: RouteKind, route: Json, remote: str) -> bool:
+    """Whether a route serves a session; of subscriptions, which are not announced, any."""
+    if kind is RouteKind.SUBSCRIPTION:
+        return route.get("dds_reader") != ""
     served = route.get("remote_routes")
     is_served = isinstance(served, list) and remote in cast("list[object]", served)
-    return is_served and route.get("is_active") is not False and route.get("dds_reader") != ""
+    return is_served and route.get("is_active") is not False
 
 
 def _read_one(told: Told, parts: list[str], value: object) -> None:
@@ -249,13 +259,6 @@ def _read_one(told: Told, parts: list[str], value: object) -> None:
             _read_end(told, participant, side, "/".join(topic), value)
         case _:
             pass
-
-
-def version_number(text: str) -> str:
-    """Return `1.10.0` of `v1.10.0-modified`; empty if there is none."""
-    number = text.removeprefix("v").partition("-")[0].partition(" ")[0]
-    is_number = number.isascii() and len(number) <= 20 and number.replace(".", "").isalnum()
-    return number if is_number else ""
 
 
 def _settings(value: Json) -> Settings | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from studio.ros.tokens import EndpointKind, gid_of
@@ -18,7 +18,7 @@ from studio.ros.wire.bridges.admin import (
 from studio.ros.wire.bridges.dialect import Route, RouteKind, route_ends
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Set
 
     from studio.ros.qos import QoSProfile
 
@@ -125,6 +125,11 @@ class Sender(NamedTuple):
     type_hash: str
 
 
+def sender_gid(zid: str, topic: str) -> bytes:
+    """Return the GID of samples of which nobody knows which node behind a bridge sent them."""
+    return gid_of(f"{zid}/{topic}")
+
+
 def senders_of(
     bridges: tuple[Bridge, ...], doubles: Mapping[str, frozenset[str]]
 ) -> dict[tuple[str, str], Sender | None]:
@@ -138,95 +143,146 @@ def senders_of(
                 place = (bridge.zid, end.name)
                 same = found.get(place)
                 is_first = place not in found
-                name = end.identity if is_first else f"{bridge.zid}/{end.name}"
+                gid = gid_of(end.identity) if is_first else sender_gid(*place)
                 told = end.type_hash if is_first or (same and same.type_hash) else ""
-                found[place] = Sender(gid_of(name), told)
+                found[place] = Sender(gid, told)
     return found
+
+
+_Way = tuple[str, str, RouteKind, str]
+"""Participant, namespace of the bridge, kind and name: what two bridges may both pass on."""
 
 
 def bridges_of(met: list[Met], domain: int) -> tuple[tuple[Bridge, ...], dict[str, frozenset[str]]]:
     """Return bridges, and by bridge the topics whose samples another one brings as well.
 
-    Of several bridges in one DDS domain the first shows its nodes. They also see each other as a
-    node with everything that they pass on, which is no node of a robot.
+    Of what several bridges pass on of one DDS node, that of the first counts. They also see each
+    other as a node with everything that they pass on, which is no node of a robot.
     """
-    own_nodes = {BRIDGE_NODE} | {one.told.settings.node_name for one in met if one.told.settings}
-    names = _names(met, own_nodes)
-    shown: dict[tuple[str, str], str] = {}
-    found: list[Bridge] = []
+    nodes = {one.zid: _robot_nodes(one, met) for one in met}
+    names = dict(_names(met, nodes))
     ends_max = Bounds.of_each(len(met)).ends
+    homes: dict[tuple[str, str], Met] = {}
+    before: set[_Way] = set()
+    found: list[Bridge] = []
     doubles: dict[str, frozenset[str]] = {}
     for one in met:
-        settings = one.told.settings
-        prefix = _prefix(settings)
+        settings, prefix, own = one.told.settings, _prefix(one), nodes[one.zid]
         is_used = settings is None or settings.domain == domain
-        nodes = _robot_nodes(one, own_nodes)
-        twins = [node for node in nodes if (node.participant, prefix) in shown]
-        fresh = [node for node in nodes if (node.participant, prefix) not in shown]
-        for node in fresh if is_used else ():
-            shown[node.participant, prefix] = names[one.zid]
-        ends, doubles[one.zid] = _ends(one, fresh, prefix, ends_max)
+        ends, doubles[one.zid] = _ends(one, own, before, ends_max)
+        first = next((homes[p] for node in own if (p := (node.participant, prefix)) in homes), None)
         found.append(
             Bridge(
                 zid=one.zid,
                 name=names[one.zid],
                 version=one.told.version,
                 settings=settings,
-                hosts=_hosts(one, nodes),
-                nodes=tuple(sorted((node.participant, prefix + node.path) for node in fresh)),
+                hosts=_hosts(one, own),
+                nodes=tuple(
+                    sorted(
+                        (node.participant, prefix + node.path)
+                        for node in own
+                        if (node.participant, prefix) not in homes
+                    )
+                ),
                 ends=ends,
-                withheld=_withheld(one, nodes, prefix),
+                withheld=_withheld(one, own, before),
                 is_used=is_used,
-                twin=shown[twins[0].participant, prefix] if twins else "",
+                twin=names[first.zid] if first and _is_twin(one, first, own, before) else "",
             )
         )
-    return tuple(found), doubles
+        if is_used:
+            before.update(_ways(one, own))
+            for node in own:
+                homes.setdefault((node.participant, prefix), one)
+    return _without_withheld_elsewhere(found, before), doubles
 
 
-def _prefix(settings: Settings | None) -> str:
+def _without_withheld_elsewhere(bridges: list[Bridge], ways: Set[_Way]) -> tuple[Bridge, ...]:
+    """Leave out of what is withheld what another bridge passes on after all."""
+    passed = {(kind, space + name) for _, space, kind, name in ways}
+    return tuple(
+        replace(one, withheld=tuple(end for end in one.withheld if end not in passed))
+        if one.is_used
+        else one
+        for one in bridges
+    )
+
+
+def _is_twin(one: Met, first: Met, own: list[DdsNode], before: Set[_Way]) -> bool:
+    """Whether it passes on what the first does; with lists they may share the work."""
+    rules = [met.told.settings.rules for met in (one, first) if met.told.settings]
+    return any(way in before for way in _ways(one, own)) or not any(rules)
+
+
+def _ways(met: Met, nodes: list[DdsNode]) -> Iterable[_Way]:
+    """Return what it passes on of nodes."""
+    of_route, prefix = _nodes_by_route(nodes), _prefix(met)
+    # A stranger may show a thousand routes of one name, with other types or QoS.
+    routed = {(route.kind, route.name.removeprefix(prefix)) for route in met.routes.values()}
+    for kind, local in routed:
+        for node in of_route.get((kind, local), ()):
+            yield node.participant, prefix, kind, local
+
+
+def _prefix(met: Met) -> str:
+    settings = met.told.settings
     return "" if settings is None else settings.namespace.rstrip("/")
 
 
-def _robot_nodes(met: Met, own_nodes: set[str]) -> list[DdsNode]:
-    return [node for node in met.told.nodes if node.path.rpartition("/")[2] not in own_nodes]
+def _robot_nodes(met: Met, all_met: list[Met]) -> list[DdsNode]:
+    """Return its nodes without those by which it sees the other bridges of its domain."""
+    settings = met.told.settings
+    bridges = {
+        f"{_prefix(one)}/{other.node_name}"
+        for one in all_met
+        if (other := one.told.settings) and settings and other.domain == settings.domain
+    }
+    return [node for node in met.told.nodes if node.path not in bridges]
 
 
 def _hosts(met: Met, nodes: Iterable[DdsNode]) -> tuple[str, ...]:
     return tuple(sorted({met.told.hosts.get(node.participant, "") for node in nodes} - {""}))
 
 
-def _names(met: list[Met], own_nodes: set[str]) -> dict[str, str]:
-    """Name bridges, each otherwise than the others."""
-    plain = {one.zid: _name(one, own_nodes) for one in met}
+def _names(met: list[Met], nodes: Mapping[str, list[DdsNode]]) -> Iterable[tuple[str, str]]:
+    """Name bridges by their sessions, each otherwise than the others."""
+    plain = {one.zid: _name(one, nodes[one.zid]) for one in met}
     often = Counter(plain.values())
-    return {zid: name if often[name] == 1 else f"{name} ({zid[:6]})" for zid, name in plain.items()}
+    for zid, name in plain.items():
+        yield zid, name if often[name] == 1 else f"{name} ({zid[:6]})"
 
 
-def _name(met: Met, own_nodes: set[str]) -> str:
-    if prefix := _prefix(met.told.settings):
-        return prefix
-    hosts = _hosts(met, _robot_nodes(met, own_nodes))
-    return hosts[0] if len(hosts) == 1 else f"bridge {met.zid[:6]}"
+def _name(met: Met, nodes: list[DdsNode]) -> str:
+    hosts = _hosts(met, nodes)
+    return _prefix(met) or (hosts[0] if len(hosts) == 1 else f"bridge {met.zid[:6]}")
 
 
 def _ends(
-    met: Met, fresh: list[DdsNode], prefix: str, ends_max: int
+    met: Met, nodes: list[DdsNode], before: Set[_Way], ends_max: int
 ) -> tuple[tuple[BridgedEnd, ...], frozenset[str]]:
-    """Return the ends of nodes that no other bridge shows, and topics that only others have."""
-    of_route = _nodes_by_route(fresh)
+    """Return the ends that no bridge before passes on, and topics that only others have."""
+    of_route, prefix = _nodes_by_route(nodes), _prefix(met)
     of_all = _nodes_by_route(met.told.nodes)
     settings = met.told.settings
     own = DdsNode("", f"/{settings.node_name if settings else BRIDGE_NODE}", ())
     ends: list[BridgedEnd] = []
     doubles: set[str] = set()
+    fresh_of: dict[tuple[RouteKind, str], list[DdsNode]] = {}
     for route in met.routes.values():
         local = route.name.removeprefix(prefix)
-        nodes = of_route.get((route.kind, local), [])
-        if not nodes and (route.kind, local) in of_all:
+        place = (route.kind, local)
+        if place not in fresh_of:
+            having = of_route.get(place, [])
+            fresh_of[place] = [
+                node for node in having if (node.participant, prefix, *place) not in before
+            ]
+        fresh = fresh_of[place]
+        if not fresh and place in of_all:
             if route.kind is RouteKind.PUBLISHER:
                 doubles.add(route.name)
             continue
-        for node in (nodes or [own])[: max(0, ends_max - len(ends))]:
+        for node in (fresh or [own])[: max(0, ends_max - len(ends))]:
             ends += _ends_of(met, route, node, prefix)
     return tuple(sorted(ends, key=lambda end: end.identity)), frozenset(doubles)
 
@@ -256,8 +312,16 @@ def _ends_of(met: Met, route: Route, node: DdsNode, prefix: str) -> Iterable[Bri
         )
 
 
-def _withheld(met: Met, nodes: list[DdsNode], prefix: str) -> tuple[tuple[RouteKind, str], ...]:
-    """Return what nodes have and no route is for."""
+def _withheld(
+    met: Met, nodes: list[DdsNode], before: Set[_Way]
+) -> tuple[tuple[RouteKind, str], ...]:
+    """Return what nodes have, no route is for, and no bridge before passes on."""
+    prefix = _prefix(met)
     routed = {(route.kind, route.name) for route in met.routes.values()}
-    all_of = {(kind, prefix + name) for node in nodes for kind, name, _ in node.ends}
+    all_of = {
+        (kind, prefix + name)
+        for node in nodes
+        for kind, name, _ in node.ends
+        if (node.participant, prefix, kind, name) not in before
+    }
     return tuple(sorted(all_of - routed))

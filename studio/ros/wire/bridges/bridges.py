@@ -9,10 +9,18 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 from studio.errors import TokenError
 from studio.ros.condition import Condition
-from studio.ros.tokens import EndpointKind, gid_of
-from studio.ros.wire.bridges.admin import Bounds, read_answers
+from studio.ros.tokens import EndpointKind
+from studio.ros.wire.bridges.admin import Bounds, admin_key, read_answers
 from studio.ros.wire.bridges.announcements import Announcements
-from studio.ros.wire.bridges.bridge import Bridge, Met, Sender, bridges_of, senders_of
+from studio.ros.wire.bridges.bridge import (
+    Bridge,
+    BridgedEnd,
+    Met,
+    Sender,
+    bridges_of,
+    sender_gid,
+    senders_of,
+)
 from studio.ros.wire.bridges.dialect import BRIDGES, TOKENS, Route, parse_bridge_token
 from studio.ros.wire.zenoh import (
     ReadingThread,
@@ -40,8 +48,10 @@ _SETTLE_S: Final = 0.15
 """A robot that starts announces its ends one by one."""
 _ASK_EVERY_S: Final = 5.0
 """Nodes that join or leave a topic which others have change no token."""
+_SWEEP_EVERY_S: Final = 1.0
+"""While tokens stand that nobody needs."""
 _REST: Final = 5
-"""So many times what the last question took of the processor is waited before the next."""
+"""So many times the processor that the last answers took is waited before the next question."""
 _LATE_S: Final = 1.0
 
 _log = logging.getLogger(__name__)
@@ -56,7 +66,7 @@ class Bridges:
 
     def __init__(self, zenoh: Session, domain: int) -> None:
         self._zenoh, self._domain = zenoh, domain
-        self._own_zid = str(zenoh.info.zid())
+        self.zid = str(zenoh.info.zid())
         self._changed = Condition()
         self._met: dict[str, Met] = {}
         self._others: dict[str, None] = {}
@@ -72,7 +82,9 @@ class Bridges:
         self._has_failed = False
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
-        self._routed: frozenset[str] = frozenset()
+        self._unused: frozenset[str] = frozenset()
+        self._brought: dict[str, BridgedEnd] = {}
+        """A publisher of each topic that a bridge brings."""
         self._listeners: tuple[Callable[[], None], ...] = ()
         self.malformed = 0
         """How many tokens were none of a bridge."""
@@ -95,7 +107,6 @@ class Bridges:
         self._closed.set()
         self._due.set()
         self._reader.close()
-        self.announcements.close()
         asking = self._asking
         if asking is not None and asking is not threading.current_thread():
             wait_for_thread(asking)
@@ -115,14 +126,18 @@ class Bridges:
         return lambda: self._forget(listener)
 
     def sender(self, zid: str, topic: str) -> Sender | None:
-        """Return who sends a topic through a bridge; None: another bridge brings it as well.
+        """Return who sends a topic through a bridge; None: it is not to be taken.
+
+        It is not where another bridge brings it as well, and of a bridge of another domain.
 
         Where several nodes behind the bridge publish it, nobody knows which of them sent a sample.
         """
+        if zid in self._unused:
+            return None
         try:
             return self._senders[zid, topic]
         except KeyError:
-            found = Sender(gid_of(f"{zid}/{topic}"), "")
+            found = Sender(sender_gid(zid, topic), "")
             if len(self._senders) < _SENDERS_MAX:
                 self._senders[zid, topic] = found
             return found
@@ -130,7 +145,8 @@ class Bridges:
     def settle(self, timeout_s: float = ANSWER_TIMEOUT_S) -> bool:
         """Wait until all bridges that are alive now were asked; False when that takes too long."""
         end_s = time.monotonic() + timeout_s
-        alive = {token.split("/")[1] for token in live_tokens(self._zenoh, BRIDGES, timeout_s)}
+        tokens = live_tokens(self._zenoh, BRIDGES, timeout_s)
+        alive = {one for token in tokens if (one := _bridge_of(token))}
         with self._changed:
             return self._changed.wait_for(
                 lambda: (
@@ -153,10 +169,10 @@ class Bridges:
             same_topic.pop(side, None)
             if not same_topic:
                 self._sides.pop(side.topic, None)
-            side.update(is_used=False, is_routed=False)
+            side.update(is_used=False, brought=None)
 
     def _update(self, side: BridgeSide[Any]) -> None:
-        side.update(is_used=self.is_used, is_routed=side.topic in self._routed)
+        side.update(is_used=self.is_used, brought=self._brought.get(side.topic))
 
     def _forget(self, listener: Callable[[], None]) -> None:
         with self._changed:
@@ -182,7 +198,7 @@ class Bridges:
             return ""
         if isinstance(found, Route):
             return self._take_route(token, found, is_alive=is_alive)
-        if found == self._own_zid:
+        if found == self.zid:
             return ""
         return self._meet(found) if is_alive else self._lose(found)
 
@@ -252,7 +268,8 @@ class Bridges:
                 self._due.set()
             if self._closed.wait(_REST * (time.thread_time() - began_s)):
                 return
-            if not self._due.wait(_ASK_EVERY_S if self._met else None):
+            pause_s = _SWEEP_EVERY_S if self.announcements.sweep() else _ASK_EVERY_S
+            if not self._due.wait(pause_s if self._met else None):
                 with self._changed:
                     self._dirty.update(self._met)
 
@@ -285,7 +302,7 @@ class Bridges:
     def _ask_one(self, one: Met, bounds: Bounds) -> None:
         answers, is_whole = all_admin_answers(
             self._zenoh,
-            f"@/{one.zid}/ros2/**",
+            admin_key(one.zid),
             ANSWER_TIMEOUT_S,
             most=bounds.answers,
             most_bytes=bounds.bytes,
@@ -306,24 +323,51 @@ class Bridges:
                 is_same = current == self._current
                 self._current = current
                 self._senders = senders_of(current, doubles)
+                self._unused = frozenset(one.zid for one in current if not one.is_used)
                 self._changed.notify_all()
                 listeners = self._listeners
-            self._use(current)
-        if not is_same:
-            for listener in listeners:
-                listener()
+            try:
+                self._use(current)
+            finally:
+                if not is_same:
+                    for listener in listeners:
+                        listener()
         self._rests_until_s = time.monotonic() + _REST * (time.thread_time() - began_s)
 
     def _use(self, current: tuple[Bridge, ...]) -> None:
         if self._closed.is_set():
             return
         used = [one for one in current if one.is_used]
-        routed = frozenset(
-            end.name for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
-        )
+        brought = {
+            end.name: end for one in used for end in one.ends if end.kind is EndpointKind.PUBLISHER
+        }
         is_switched = bool(used) is not self.is_used
-        changed = self._sides.keys() if is_switched else routed ^ self._routed
-        self.is_used, self._routed = bool(used), routed
+        changed = self._sides.keys() if is_switched else _differing(brought, self._brought)
+        self.is_used, self._brought = bool(used), brought
         for topic in tuple(changed):
             for side in tuple(self._sides.get(topic, ())):
                 self._update(side)
+        if not used:
+            self.announcements.sweep(at_once=True)
+
+
+def _bridge_of(token: str) -> str:
+    """Return the session of a bridge; empty for a token of anything else."""
+    try:
+        found = parse_bridge_token(token)
+    except TokenError:
+        return ""
+    return found if isinstance(found, str) else ""
+
+
+def _differing(one: dict[str, BridgedEnd], other: dict[str, BridgedEnd]) -> set[str]:
+    """Return the topics that only one has, or that they have with another type or QoS."""
+    both = one.keys() & other.keys()
+    changed = {
+        topic
+        for topic in both
+        if one[topic] is not other[topic]
+        and (one[topic].type_name, one[topic].type_hash, one[topic].qos)
+        != (other[topic].type_name, other[topic].type_hash, other[topic].qos)
+    }
+    return (one.keys() ^ other.keys()) | changed

@@ -9,11 +9,16 @@ import re
 import struct
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Final
+from typing import Final, TypeAlias
 
 from studio.errors import AttachmentError, RosNameError, TokenError
 from studio.ros.attachment import GID_BYTES, Attachment
-from studio.ros.names import check_full_name, split_type_name
+from studio.ros.names import (
+    action_part,
+    check_full_name,
+    split_action_part,
+    split_type_name,
+)
 from studio.ros.qos import (
     DEPTH_DEFAULT,
     DurabilityPolicy,
@@ -25,6 +30,8 @@ from studio.ros.qos import (
 )
 from studio.ros.tokens import EndpointKind, EndpointToken
 
+PROGRAM: Final = "zenoh-bridge-ros2dds"
+"""The bridge, as it is started."""
 BRIDGES: Final = "@/*/@ros2_lv"
 """The key expression of the token that every bridge shows for itself."""
 TOKENS: Final = f"{BRIDGES}/**"
@@ -35,8 +42,8 @@ _HASH: Final = "RIHS01_"
 _HASH_TEXT: Final = re.compile(r"RIHS01_[0-9a-f]{64}")
 _ZID: Final = re.compile(r"[0-9a-f]{1,32}")
 _DEPTH_MAX: Final = 2**31 - 1
-_ACTION: Final = "/_action/"
 _SEND_GOAL: Final = "send_goal"
+_OF_GOALS: Final = "_SendGoal"
 _QUERY_MARK: Final = b"rqh"
 _QUERY_BYTES: Final = 20
 
@@ -50,6 +57,14 @@ class RouteKind(StrEnum):
     CLIENT = "SC"
     ACTION_SERVER = "AS"
     ACTION_CLIENT = "AC"
+
+
+Place: TypeAlias = tuple[RouteKind, str]
+"""Kind and full name by which bridges know an end; all parts of an action have one."""
+_OF_ACTION: Final = {
+    EndpointKind.SERVICE: RouteKind.ACTION_SERVER,
+    EndpointKind.CLIENT: RouteKind.ACTION_CLIENT,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,46 +195,76 @@ def _action_ends(route: Route) -> tuple[RouteEnd, ...]:
     is_server = route.kind is RouteKind.ACTION_SERVER
     asked = EndpointKind.SERVICE if is_server else EndpointKind.CLIENT
     told = EndpointKind.PUBLISHER if is_server else EndpointKind.SUBSCRIPTION
-    services, base = qos_profile_services_default, route.name + _ACTION.rstrip("/")
+    services, status = qos_profile_services_default, qos_profile_action_status_default
     name = route.type_name
-    status = qos_profile_action_status_default
-    return (
-        RouteEnd(asked, f"{base}/send_goal", f"{name}_SendGoal", "", services),
-        RouteEnd(asked, f"{base}/cancel_goal", "action_msgs/srv/CancelGoal", "", services),
-        RouteEnd(asked, f"{base}/get_result", f"{name}_GetResult", "", services),
-        RouteEnd(told, f"{base}/feedback", f"{name}_FeedbackMessage", "", QoSProfile(depth=10)),
-        RouteEnd(told, f"{base}/status", "action_msgs/msg/GoalStatusArray", "", status),
+    parts = (
+        (asked, _SEND_GOAL, name + _OF_GOALS, services),
+        (asked, "cancel_goal", "action_msgs/srv/CancelGoal", services),
+        (asked, "get_result", f"{name}_GetResult", services),
+        (told, "feedback", f"{name}_FeedbackMessage", QoSProfile(depth=10)),
+        (told, "status", "action_msgs/msg/GoalStatusArray", status),
+    )
+    return tuple(
+        RouteEnd(kind, action_part(route.name, part), type_name, "", qos)
+        for kind, part, type_name, qos in parts
     )
 
 
-def announcement(end: EndpointToken) -> str | None:
-    """Return the token by which bridges make a route to an end of ours.
+def place_of(kind: EndpointKind, name: str) -> Place | None:
+    """Return kind and name by which bridges know an end; None: another part of its action does."""
+    found = split_action_part(name)
+    if found is None:
+        return RouteKind(kind.value), name
+    action, part = found
+    return (_OF_ACTION[kind], action) if part == _SEND_GOAL and kind in _OF_ACTION else None
 
-    Of an action they expect one for all parts, which its send_goal brings; None for the others.
+
+def announcement(end: EndpointToken) -> str | None:
+    """Return the token by which bridges make a route to an end of ours; None: it needs none.
+
+    Of an action they expect one for all parts, which its send_goal brings. Of a subscription they
+    are told by `subscription_announcement`, once they have a publisher of its topic.
     """
-    kind, name, type_name = RouteKind(end.kind.value), end.name, end.type_name
-    if _ACTION in name:
-        action, _, part = name.rpartition(_ACTION)
-        if part != _SEND_GOAL:
-            return None
-        is_server = end.kind is EndpointKind.SERVICE
-        kind = RouteKind.ACTION_SERVER if is_server else RouteKind.ACTION_CLIENT
-        name, type_name = action, type_name.removesuffix("_SendGoal")
-    mangled = (bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH))
-    head = "/".join(("@", end.node.zid, _MARK, kind, *mangled))
+    place = place_of(end.kind, end.name)
+    if place is None or end.kind is EndpointKind.SUBSCRIPTION:
+        return None
+    kind, name = place
+    is_of_action = kind in _OF_ACTION.values()
+    type_name = end.type_name.removesuffix(_OF_GOALS) if is_of_action else end.type_name
+    head = _head(end.node.zid, kind, name, type_name)
     if end.kind in {EndpointKind.SERVICE, EndpointKind.CLIENT}:
         return head
-    return f"{head}/{_qos_text(end)}"
+    return f"{head}/{_qos_text(end.qos, end.type_hash)}"
 
 
-def _qos_text(end: EndpointToken) -> str:
+def subscription_announcement(
+    zid: str, topic: str, type_name: str, type_hash: str, qos: QoSProfile
+) -> str | None:
+    """Return the token of a session's subscriptions of a topic; None: a part of an action.
+
+    A bridge reads a topic from DDS as soon as Zenoh has a subscriber of it, but only until the last
+    session that it was told of has left. What it was told of before it has a publisher, it reads
+    with the QoS of the subscription, which that publisher may not match: so it is told of what it
+    has, and with the QoS of the publisher.
+    """
+    if place_of(EndpointKind.SUBSCRIPTION, topic) is None:
+        return None
+    head = _head(zid, RouteKind.SUBSCRIPTION, topic, type_name)
+    return f"{head}/{_qos_text(qos, type_hash)}"
+
+
+def _head(zid: str, kind: RouteKind, name: str, type_name: str) -> str:
+    mangled = (bridge_key(name).replace("/", _SLASH), type_name.replace("/", _SLASH))
+    return "/".join(("@", zid, _MARK, kind, *mangled))
+
+
+def _qos_text(qos: QoSProfile, type_hash: str) -> str:
     """Write a profile, and the hash, which DDS nodes since Iron look for."""
-    qos = end.qos
     reliable = int(qos.reliability is not ReliabilityPolicy.BEST_EFFORT)
     latched = int(qos.durability is DurabilityPolicy.TRANSIENT_LOCAL)
     keep_all = qos.history is HistoryPolicy.KEEP_ALL
     depth = -1 if keep_all else min(qos.depth or DEPTH_DEFAULT, _DEPTH_MAX)
-    told = f":{_TYPE_HASH}{end.type_hash};" if end.type_hash.startswith(_HASH) else ""
+    told = f":{_TYPE_HASH}{type_hash};" if type_hash.startswith(_HASH) else ""
     return f":{reliable}:{latched}:{int(keep_all)},{depth}{told}"
 
 

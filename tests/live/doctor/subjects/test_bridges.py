@@ -151,10 +151,11 @@ def test_an_old_bridge_is_a_warning_where_something_is_sent_only_once(patient: P
     assert (old.level, "(/map)" in old.sentence) == ("warn", True)
 
 
-def test_two_bridges_to_one_robot_are_a_warning(patient: Patient):
+def test_two_bridges_to_one_robot_are_an_error(patient: Patient):
     twin = replace(bridge(twin="robot"), zid="b1b1b1")
     codes = found(patient, bridge("/driver"), twin)
-    assert "services run twice" in codes["two-bridges"].sentence
+    assert codes["two-bridges"].level == "error"
+    assert "can go round without end" in codes["two-bridges"].sentence
     assert "bridge-empty" not in codes
     assert "shared-domain" not in codes
 

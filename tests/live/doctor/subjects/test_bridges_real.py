@@ -133,6 +133,17 @@ def test_a_bridge_of_another_domain_is_said_and_its_nodes_are_not_there(
     assert "/old/old_robot" not in paths(patient)
 
 
+def test_a_second_bridge_to_the_same_robot_is_an_error(
+    behind: tuple[Patient, DdsRobot], network: DdsNetwork
+):
+    patient, _ = behind
+    second = network.bridge(connect=patient.endpoint)
+    found = patient.until("two-bridges")
+    second.kill()
+    assert found.level == "error"
+    wait_until("it is gone", lambda: "two-bridges" not in patient.codes(""))
+
+
 def test_a_robot_that_is_gone_leaves_an_empty_bridge(behind: tuple[Patient, DdsRobot]):
     patient, robot = behind
     robot.ask("remove_node", node="/dds_robot")

@@ -14,11 +14,13 @@ from studio.ros.node.raw_subscription import RawSubscription
 from studio.ros.profiles import NO_HASH
 from studio.ros.qos import QoSProfile
 from studio.ros.tokens import EndpointKind, gid_of
+from studio.ros.wire.bridges import bridges
+from studio.ros.wire.bridges.bridges import BRIDGES_MAX
 from studio.ros.wire.bridges.dialect import BRIDGES
 from studio.ros.wire.zenoh import declare_token, live_tokens
 from tests.support.demos import spun
 from tests.support.node_pair import context_at
-from tests.support.pretend_bridge import PARTICIPANT, PretendBridge, talking_bridge
+from tests.support.pretend_bridge import CONFIG, PARTICIPANT, PretendBridge, talking_bridge
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
@@ -185,7 +187,10 @@ def test_tokens_that_are_none_are_counted_and_the_rest_goes_on(met: Met):
         assert "wrong" in str(met.node.graph.malformed[1])
 
 
-def test_a_node_that_joins_a_topic_that_others_have_is_found(met: Met):
+def test_a_node_that_joins_a_topic_that_others_have_is_found(
+    met: Met, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(bridges, "_ASK_EVERY_S", 0.2)  # no token tells of it
     with talking_bridge(met.endpoint) as bridge:
         wait_until("the first is seen", lambda: bool(met.node.graph.publishers("/chatter")))
         bridge.node("/late", publishers=[("/chatter", STRING)])
@@ -257,8 +262,7 @@ def test_a_session_that_invents_bridges_without_end_is_bounded(met: Met):
     with PretendBridge(met.endpoint) as bridge, talking_bridge(met.endpoint):
         wait_until("the real one is seen", lambda: bool(met.node.graph.publishers("/chatter")))
         kept = [declare_token(bridge.session, f"@/{one:032x}/@ros2_lv") for one in range(1, 200)]
-        assert met.node.graph.settle(5) in {True, False}
-        assert len(met.node.graph.bridges) <= 64
+        wait_until("as many as can be are met", lambda: len(met.node.graph.bridges) == BRIDGES_MAX)
         assert met.node.graph.publishers("/chatter")
         for one in kept:
             one.undeclare()
@@ -283,3 +287,78 @@ def test_nodes_on_fast_dds_are_told_by_their_participant(met: Met):
             "it is told",
             lambda: [one.fast_dds_nodes for one in met.node.graph.bridges] == [("/fast",)],
         )
+
+
+def test_samples_of_a_bridge_of_another_domain_are_not_taken(met: Met):
+    with talking_bridge(met.endpoint) as own, talking_bridge(met.endpoint, domain=5) as other:
+        heard = hear(met.node)
+        wait_until("both are met", lambda: len(met.node.graph.bridges) == 2)
+        wait_for_route(met.node, own, heard)
+        other.send("chatter", text("from domain 5"))
+        own.send("chatter", text("from ours"))
+        wait_until("ours is heard", lambda: "from ours" in heard)
+        assert heard == ["from ours"]
+
+
+def test_a_node_named_like_a_bridge_of_another_domain_is_a_node(met: Met):
+    with talking_bridge(met.endpoint), PretendBridge(met.endpoint) as other:
+        other.told["config"] = {**CONFIG, "domain": 7, "nodename": "talker"}
+        other.show()
+        wait_until("both are met", lambda: len(met.node.graph.bridges) == 2)
+        wait_until("it is a node", lambda: met.node.graph.node("/talker") is not None)
+
+
+def test_a_token_that_is_none_keeps_nobody_waiting(met: Met):
+    key, zenoh = "@/Strange/@ros2_lv", met.node.wire.zenoh
+    with PretendBridge(met.endpoint) as strange:
+        kept = declare_token(strange.session, key)
+        wait_until("the router has it", lambda: bool(list(live_tokens(zenoh, key, 5.0))))
+        assert met.node.graph.settle(30)
+        kept.undeclare()
+
+
+def test_a_service_is_called_where_its_type_is_served(met: Met):
+    empty, trigger = service("std_srvs/srv/Empty"), service("std_srvs/srv/Trigger")
+    answer = bytes(codec_of(empty.Response).encode(empty.Response()))
+
+    def same(_request: MessageValue, response: MessageValue) -> MessageValue:
+        return response
+
+    with PretendBridge(met.endpoint) as bridge:
+        bridge.node("/driver", service_servers=[("/reset", empty.name)])
+        bridge.serve("reset", lambda query: query.reply("reset", answer))
+        bridge.announce("SS/reset/std_srvs§srv§Empty").show()
+        server = met.node.create_service(trigger, "/reset", same)
+        client = met.node.create_client(empty, "/reset")
+        assert client.wait_for_service(30)
+        client.call(empty.Request(), timeout_sec=30)
+        met.node.destroy_service(server)
+
+
+def test_of_samples_that_come_another_way_as_well_none_counts(met: Met):
+    taken: list[tuple[str, int]] = []
+    decode = codec_of(message(STRING)).decode
+
+    def take(samples: list[RawSample], count: int, _size: int) -> None:
+        taken.append((decode(samples[-1].payload).data, count))
+
+    with talking_bridge(met.endpoint) as bridge:
+        subscription = RawSubscription(
+            met.node, "/chatter", STRING, None, QoSProfile(depth=5), take
+        )
+        subscription.read(newest_only=True)
+
+        def is_heard() -> bool:
+            bridge.send("chatter", text("?"))
+            return bool(taken)
+
+        wait_until("the bridge is heard", is_heard)
+        bridge.send("chatter", text("begin"))
+        wait_until("all before came", lambda: taken[-1][0] == "begin")
+        taken.clear()
+        for number in range(20):
+            bridge.send("chatter", text(str(number)))
+            bridge.copy("chatter", text("copy"))
+        wait_until("the last is heard", lambda: bool(taken) and taken[-1][0] == "19")
+        assert sum(count for _, count in taken) == 20
+        assert "copy" not in {data for data, _ in taken}

@@ -15,8 +15,10 @@ from studio.ros.wire.bridges.dialect import (
     announcement,
     bridge_key,
     parse_bridge_token,
+    place_of,
     request_number,
     route_ends,
+    subscription_announcement,
 )
 
 ZID = "808efd252658c6e9d13dc2de319edea7"
@@ -127,14 +129,23 @@ profiles = st.builds(
 )
 
 
-@given(names, profiles, st.sampled_from([EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION]))
-def test_what_we_announce_is_read_as_it_was_meant(name: str, qos: QoSProfile, kind: EndpointKind):
-    token = end(kind, name, "std_msgs/msg/String", qos)
+@given(names, profiles)
+def test_what_we_announce_is_read_as_it_was_meant(name: str, qos: QoSProfile):
+    token = end(EndpointKind.PUBLISHER, name, "std_msgs/msg/String", qos)
     assert token is not None
     found = route(token)
     assert (found.name, found.type_name, found.type_hash) == (name, "std_msgs/msg/String", HASH)
     assert found.qos == qos
-    assert (found.zid, found.kind.value) == (ZID, kind.value)
+    assert (found.zid, found.kind) == (ZID, RouteKind.PUBLISHER)
+
+
+def test_a_subscription_is_announced_with_what_its_publisher_offers():
+    assert end(EndpointKind.SUBSCRIPTION, "/scan", "sensor_msgs/msg/LaserScan") is None
+    qos = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+    token = subscription_announcement(ZID, "/scan", "sensor_msgs/msg/LaserScan", "", qos)
+    assert token == f"{HEAD}/MS/scan/sensor_msgs§msg§LaserScan/:0:0:0,5"
+    action = "/turn/_action/feedback"
+    assert subscription_announcement(ZID, action, "a/action/T_FeedbackMessage", "", qos) is None
 
 
 def test_a_service_is_announced_without_qos():
@@ -157,6 +168,22 @@ def test_an_action_is_announced_once_for_all_its_parts():
         (EndpointKind.SUBSCRIPTION, "status"),
     ):
         assert end(kind, f"{base}/{part}", f"{name}_GetResult") is None
+
+
+@pytest.mark.parametrize("kind", [EndpointKind.SERVICE, EndpointKind.CLIENT])
+def test_bridges_know_an_action_by_its_send_goal(kind: EndpointKind):
+    as_action = {
+        EndpointKind.SERVICE: RouteKind.ACTION_SERVER,
+        EndpointKind.CLIENT: RouteKind.ACTION_CLIENT,
+    }
+    assert place_of(kind, "/turn/_action/send_goal") == (as_action[kind], "/turn")
+    assert place_of(kind, "/turn/_action/get_result") is None
+    assert place_of(EndpointKind.PUBLISHER, "/turn/_action/send_goal") is None
+
+
+@pytest.mark.parametrize("kind", list(EndpointKind))
+def test_bridges_know_every_other_end_by_its_own_name(kind: EndpointKind):
+    assert place_of(kind, "/a/_b") == (RouteKind(kind.value), "/a/_b")
 
 
 def test_a_key_is_the_name_without_its_first_slash():
