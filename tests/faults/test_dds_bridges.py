@@ -11,6 +11,8 @@ import pytest
 
 from studio.ros.messages import message
 from studio.ros.node.node import Node
+from studio.ros.wire.bridges import bridges
+from studio.ros.wire.bridges.admin import Told, read_answers
 from studio.ros.wire.bridges.bridges import BRIDGES_MAX
 from studio.ros.wire.zenoh import declare_token, live_tokens
 from tests.support.demos import spun
@@ -91,9 +93,36 @@ def test_what_a_broken_bridge_tells_keeps_no_other_from_being_read(
     assert not caplog.records
 
 
-def test_a_bridge_that_answers_and_never_ends_holds_up_nobody_and_keeps_its_nodes(
-    met: Met, broken: PretendBridge
+def test_a_bridge_on_which_the_reader_fails_is_one_line_and_keeps_no_other_from_being_read(
+    met: Met,
+    broken: PretendBridge,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
 ):
+    tried: list[str] = []
+
+    def failing(answers: list[tuple[str, bytes]], zid: str, ends_max: int) -> Told | None:
+        tried.append(zid)
+        if zid == broken.zid:
+            raise ZeroDivisionError
+        return read_answers(answers, zid, ends_max)
+
+    monkeypatch.setattr(bridges, "read_answers", failing)
+    broken.announce(FLAP)
+    wait_until("it fails", lambda: broken.zid in tried)
+    with talking_bridge(met.endpoint):
+        wait_for_path(met, "/talker")
+        broken.retire(FLAP)
+        broken.announce(FLAP)
+        wait_until("it fails again", lambda: tried.count(broken.zid) > 1)
+    assert "/odd" in met.paths()
+    assert len([one for one in caplog.records if one.levelno >= logging.WARNING]) == 1
+
+
+def test_a_bridge_that_answers_and_never_ends_holds_up_nobody_and_keeps_its_nodes(
+    met: Met, broken: PretendBridge, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(bridges, "ANSWER_TIMEOUT_S", 1.2)
     held: list[Any] = []
     broken.serve(f"@/{broken.zid}/ros2/version", held.append)
     broken.told = {"version": "v1.10.0"}
@@ -167,10 +196,10 @@ def test_a_bridge_that_goes_takes_no_thread_for_each_subscription(met: Met):
     before = threading.active_count()
     for one in range(100):
         met.node.create_subscription(message(STRING), f"/s{one}", lambda _: None, 10)
-    bridges = met.node.wire.bridges
+    seen = met.node.wire.bridges
     with talking_bridge(met.endpoint):
-        wait_until("it is used", lambda: bridges.is_used)
-    wait_until("it is gone", lambda: not bridges.is_used)
+        wait_until("it is used", lambda: seen.is_used)
+    wait_until("it is gone", lambda: not seen.is_used)
     assert threading.active_count() < before + 20
 
 
@@ -187,3 +216,31 @@ def test_a_robot_that_flaps_is_seen_as_it_is_once_it_rests(met: Met):
         wait_until("it is seen", lambda: bool(met.node.graph.publishers("/flap")))
         bridge.retire(FLAP)
         wait_until("it is gone", lambda: not met.node.graph.publishers("/flap"))
+
+
+def test_where_a_bridge_is_dead_and_still_shown_another_to_the_same_robot_counts(
+    met: Met, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(bridges, "ANSWER_TIMEOUT_S", 1.2)
+    heard: list[str] = []
+    met.node.create_subscription(message(STRING), "/chatter", lambda one: heard.append(one.data), 9)
+    held: list[Any] = []
+    with talking_bridge(met.endpoint) as first:
+        wait_for_path(met, "/talker")
+        with talking_bridge(met.endpoint) as second:
+            wait_until(
+                "they are twins", lambda: [bool(one.twin) for one in met.bridges] == [False, True]
+            )
+            first.told.clear()
+            first.serve(f"@/{first.zid}/ros2/version", held.append)
+            first.announce(FLAP)
+
+            def is_heard() -> bool:
+                second.send("chatter", b"\0\1\0\0\3\0\0\0ok\0")
+                return bool(heard)
+
+            wait_until("the other is heard", is_heard)
+            assert [one.zid for one in met.bridges] == [second.zid, first.zid]
+            assert "/talker" in met.paths()
+    for query in held:
+        query.drop()

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 BRIDGES_SHOWN: Final = 20
 _NAMES_SHOWN: Final = 20
-_RULE_MAX: Final = 300
+_RULE_MAX: Final = 200
 """Letters of a rule that are shown: every page is sent all of it again and again."""
 
 

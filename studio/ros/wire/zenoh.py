@@ -271,7 +271,7 @@ class Replies:
     ) -> None:
         """Send the request."""
         self._token = zenoh.CancellationToken()
-        self._handler = querier.get(
+        self._handler: zenoh.Handler[Reply] | None = querier.get(
             zenoh.handlers.FifoChannel(REPLIES_WAITING_MAX),
             payload=payload,
             attachment=attachment,
@@ -282,12 +282,17 @@ class Replies:
         """Take the oldest reply, None when there is none.
 
         Raises:
-            ZError: The last reply was taken, or the time is over.
+            ZError: The last reply was taken, the time is over, or the request was given up.
         """
-        return self._handler.try_recv()
+        handler = self._handler
+        if handler is None:
+            raise ZError("the request was given up")
+        return handler.try_recv()
 
     def cancel(self) -> None:
-        """Give the request up."""
+        """Give the request up; again is harmless."""
+        # Zenoh waits here for its thread, which waits for room where replies come without end.
+        self._handler = None
         cast("Any", self._token).cancel()  # whose return is not typed
 
 
@@ -529,17 +534,14 @@ def all_admin_answers(
     """
     taken: list[tuple[str, bytes]] = []
     is_whole = True
-    token = zenoh.CancellationToken()
-    replies = session.get(key, _queue(), timeout=timeout_s, cancellation_token=token)
-    for reply in cast("Iterator[Reply]", replies):
+    for reply in cast("Iterator[Reply]", session.get(key, _queue(), timeout=timeout_s)):
         if reply.ok is None:  # the time is over
             is_whole = False
             continue
         answered, payload = str(reply.ok.key_expr), reply.ok.payload
         most_bytes -= len(answered) + len(payload)
         if len(taken) >= most or most_bytes < 0:
-            cast("Any", token).cancel()
-            return taken, False
+            return taken, False  # Zenoh passes over what comes yet
         taken.append((answered, payload.to_bytes()))
     return taken, is_whole
 

@@ -6,7 +6,7 @@ import json
 import socket
 from contextlib import contextmanager
 from queue import Queue
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
@@ -15,6 +15,7 @@ from studio.errors import NotAdmittedError, RouterNotStartedError
 from studio.ros.messages import message
 from studio.ros.node.context import Context
 from studio.ros.node.node import Node
+from studio.ros.wire.bridges.dialect import TOKENS
 from studio.ros.wire.certificates import new_secret
 from studio.ros.wire.credentials import Credentials
 from studio.ros.wire.endpoints import parse_endpoint
@@ -22,7 +23,7 @@ from studio.ros.wire.guarded import DomainUser, start_guarded_router
 from studio.ros.wire.router import start_router
 from studio.ros.wire.session import RouterWatch, open_session, open_wire
 from studio.ros.wire.settings import WireSettings
-from studio.ros.wire.zenoh import declare_token, live_tokens
+from studio.ros.wire.zenoh import admin_answers, declare_token, live_tokens
 from tests.support.node_pair import context_at, spin_until
 from tests.support.wire import PATIENCE_S, free_endpoint, wait_until
 
@@ -149,6 +150,40 @@ def test_a_token_in_another_domain_is_shown_to_nobody():
         )
         assert not any(live_tokens(seen, f"@ros2_lv/{ADA}/*/9/9/**", PATIENCE_S))
         assert len(kept) == 2
+
+
+def test_a_student_cannot_pass_for_a_bridge_to_dds():
+    """Neither by showing and telling what one does, nor by sending where one sends."""
+    with (
+        guarded() as endpoint,
+        node(endpoint, BOB, "bob") as bob,
+        node(endpoint, BOB, "looks", POOL.studio) as looks,
+    ):
+        got = heard(looks)
+        zenoh, zid = cast("Any", bob.context.wire.zenoh), bob.context.wire.zid
+        asked: list[object] = []
+        answers = zenoh.declare_queryable(f"@/{zid}/ros2/**", asked.append)
+        kept = [
+            declare_token(zenoh, f"@/{one}/@ros2_lv{route}")
+            for one in (zid, "0badc0de")
+            for route in ("", "/MP/chatter/std_msgs§msg§String/:1::0,10")
+        ]
+        wait_until("the studio sees Bob", lambda: "/bob" in paths(looks))
+        seen = looks.context.wire.zenoh
+        assert not any(live_tokens(seen, TOKENS, PATIENCE_S))
+        assert not list(admin_answers(seen, f"@/{zid}/ros2/**", PATIENCE_S))
+        assert looks.context.graph.settle(PATIENCE_S)
+        zenoh.put("chatter", b"\0\1\0\0\3\0\0\0no\0")
+        out = bob.create_publisher(message(STRING), "/chatter", 10)
+
+        def told() -> bool:
+            out.publish(message(STRING)(data="rmw"))
+            return not got.empty()
+
+        spin_until(told, looks)
+        assert looks.context.graph.bridges == ()
+        assert (asked, set(got.queue), len(kept)) == ([], {"rmw"}, 4)
+        answers.undeclare()
 
 
 def test_without_a_certificate_or_with_one_of_another_pool_nobody_joins():

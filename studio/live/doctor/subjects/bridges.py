@@ -442,9 +442,15 @@ def _shared_nodes(bridges: list[Bridge]) -> Iterator[Finding]:
                 f"{short(name)} shows it as {short(path)}"
                 for name, path in zip(names[:_BRIDGES_MAX], paths, strict=False)
             ),
-            line=f"{PROGRAM} -n {short(names[0])} --ros-localhost-only",
+            line=f"{PROGRAM} -n {_namespace(bridges, names)} --ros-localhost-only",
             about=(CONNECTION, *(Concern(kind="node", name=one) for one in paths[:3])),
         )
+
+
+def _namespace(bridges: list[Bridge], names: tuple[str, ...]) -> str:
+    """Return a namespace of bridges; their names may be those of machines, which hold anything."""
+    found = (one.settings.namespace for one in bridges if one.name in names and one.settings)
+    return next((one for one in found if one != "/"), "/ROBOT")
 
 
 def _is_still(one: Unrouted, system: System) -> bool:

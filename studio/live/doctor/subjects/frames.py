@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections import Counter, defaultdict
 from typing import TYPE_CHECKING, Final
 
@@ -95,7 +96,7 @@ def _missing(heard: Heard, links: frozenset[str]) -> Iterator[Finding]:
             ),
             line=(
                 "ros2 run tf2_ros static_transform_publisher --frame-id base_link "
-                f"--child-frame-id {short(frame)}"
+                f"--child-frame-id {shlex.quote(short(frame))}"
             ),
             about=(*about, Concern(kind="frame", name=frame)),
             talk=Talk(

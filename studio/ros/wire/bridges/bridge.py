@@ -18,7 +18,7 @@ from studio.ros.wire.bridges.admin import (
 from studio.ros.wire.bridges.dialect import Route, RouteKind, route_ends
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Set
 
     from studio.ros.qos import QoSProfile
 
@@ -100,6 +100,7 @@ class Met:
         told: What it answered last.
         asked: Whether it was asked.
         is_late: Whether it was slow to answer the last time.
+        is_silent: Whether no answer came then: it was killed or cut off, and is still shown.
     """
 
     zid: str
@@ -107,10 +108,12 @@ class Met:
     told: Told = field(default_factory=Told)
     asked: bool = False
     is_late: bool = False
+    is_silent: bool = False
 
     def hear(self, told: Told | None, *, is_whole: bool) -> None:
         """Take what it answered; of half an answer only what is no less than what is known."""
         self.asked = True
+        self.is_silent = told is None and not is_whole
         if told is not None and (is_whole or len(told.nodes) >= len(self.told.nodes)):
             self.told = told
 
@@ -160,13 +163,12 @@ def bridges_of(met: list[Met], domain: int) -> tuple[tuple[Bridge, ...], dict[st
     names = dict(_names(met, nodes))
     ends_max = Bounds.of_each(len(met)).ends
     homes: dict[tuple[str, str], Met] = {}
-    ways: dict[_Way, None] = {}
+    before: set[_Way] = set()
     found: list[Bridge] = []
     doubles: dict[str, frozenset[str]] = {}
     for one in met:
         settings, prefix, own = one.told.settings, _prefix(one), nodes[one.zid]
         is_used = settings is None or settings.domain == domain
-        before = frozenset(ways)
         ends, doubles[one.zid] = _ends(one, own, before, ends_max)
         first = next((homes[p] for node in own if (p := (node.participant, prefix)) in homes), None)
         found.append(
@@ -190,15 +192,13 @@ def bridges_of(met: list[Met], domain: int) -> tuple[tuple[Bridge, ...], dict[st
             )
         )
         if is_used:
-            ways |= dict.fromkeys(_ways(one, own))
+            before.update(_ways(one, own))
             for node in own:
                 homes.setdefault((node.participant, prefix), one)
-    return _without_withheld_elsewhere(found, ways), doubles
+    return _without_withheld_elsewhere(found, before), doubles
 
 
-def _without_withheld_elsewhere(
-    bridges: list[Bridge], ways: Mapping[_Way, None]
-) -> tuple[Bridge, ...]:
+def _without_withheld_elsewhere(bridges: list[Bridge], ways: Set[_Way]) -> tuple[Bridge, ...]:
     """Leave out of what is withheld what another bridge passes on after all."""
     passed = {(kind, space + name) for _, space, kind, name in ways}
     return tuple(
@@ -209,7 +209,7 @@ def _without_withheld_elsewhere(
     )
 
 
-def _is_twin(one: Met, first: Met, own: list[DdsNode], before: frozenset[_Way]) -> bool:
+def _is_twin(one: Met, first: Met, own: list[DdsNode], before: Set[_Way]) -> bool:
     """Whether it passes on what the first does; with lists they may share the work."""
     rules = [met.told.settings.rules for met in (one, first) if met.told.settings]
     return any(way in before for way in _ways(one, own)) or not any(rules)
@@ -218,10 +218,11 @@ def _is_twin(one: Met, first: Met, own: list[DdsNode], before: frozenset[_Way]) 
 def _ways(met: Met, nodes: list[DdsNode]) -> Iterable[_Way]:
     """Return what it passes on of nodes."""
     of_route, prefix = _nodes_by_route(nodes), _prefix(met)
-    for route in met.routes.values():
-        local = route.name.removeprefix(prefix)
-        for node in of_route.get((route.kind, local), ()):
-            yield node.participant, prefix, route.kind, local
+    # A stranger may show a thousand routes of one name, with other types or QoS.
+    routed = {(route.kind, route.name.removeprefix(prefix)) for route in met.routes.values()}
+    for kind, local in routed:
+        for node in of_route.get((kind, local), ()):
+            yield node.participant, prefix, kind, local
 
 
 def _prefix(met: Met) -> str:
@@ -258,7 +259,7 @@ def _name(met: Met, nodes: list[DdsNode]) -> str:
 
 
 def _ends(
-    met: Met, nodes: list[DdsNode], before: frozenset[_Way], ends_max: int
+    met: Met, nodes: list[DdsNode], before: Set[_Way], ends_max: int
 ) -> tuple[tuple[BridgedEnd, ...], frozenset[str]]:
     """Return the ends that no bridge before passes on, and topics that only others have."""
     of_route, prefix = _nodes_by_route(nodes), _prefix(met)
@@ -267,13 +268,17 @@ def _ends(
     own = DdsNode("", f"/{settings.node_name if settings else BRIDGE_NODE}", ())
     ends: list[BridgedEnd] = []
     doubles: set[str] = set()
+    fresh_of: dict[tuple[RouteKind, str], list[DdsNode]] = {}
     for route in met.routes.values():
         local = route.name.removeprefix(prefix)
-        having = of_route.get((route.kind, local), [])
-        fresh = [
-            node for node in having if (node.participant, prefix, route.kind, local) not in before
-        ]
-        if not fresh and (route.kind, local) in of_all:
+        place = (route.kind, local)
+        if place not in fresh_of:
+            having = of_route.get(place, [])
+            fresh_of[place] = [
+                node for node in having if (node.participant, prefix, *place) not in before
+            ]
+        fresh = fresh_of[place]
+        if not fresh and place in of_all:
             if route.kind is RouteKind.PUBLISHER:
                 doubles.add(route.name)
             continue
@@ -308,7 +313,7 @@ def _ends_of(met: Met, route: Route, node: DdsNode, prefix: str) -> Iterable[Bri
 
 
 def _withheld(
-    met: Met, nodes: list[DdsNode], before: frozenset[_Way]
+    met: Met, nodes: list[DdsNode], before: Set[_Way]
 ) -> tuple[tuple[RouteKind, str], ...]:
     """Return what nodes have, no route is for, and no bridge before passes on."""
     prefix = _prefix(met)

@@ -79,6 +79,7 @@ class Bridges:
         self._is_stale = False
         """Whether one went since `current` was made."""
         self._rests_until_s = 0.0
+        self._has_failed = False
         self._current: tuple[Bridge, ...] = ()
         self._senders: dict[tuple[str, str], Sender | None] = {}
         self._unused: frozenset[str] = frozenset()
@@ -112,7 +113,10 @@ class Bridges:
 
     @property
     def current(self) -> tuple[Bridge, ...]:
-        """Return the bridges that are there and were asked, those that came first in front."""
+        """Return the bridges that are there and were asked, those that came first in front.
+
+        Whoever does not answer comes last: of two with the same nodes the other one counts.
+        """
         return self._current
 
     @property
@@ -267,8 +271,10 @@ class Bridges:
             try:
                 self._ask()
             except Exception:  # noqa: BLE001 - what a bridge tells must not end the asking
-                if not self._zenoh.is_closed():
+                if not (self._zenoh.is_closed() or self._has_failed):
+                    self._has_failed = True  # again and again would be a flood of lines
                     _log.exception("Bridges could not be asked")
+                self._due.set()
             if self._closed.wait(_REST * (time.thread_time() - began_s)):
                 return
             pause_s = _SWEEP_EVERY_S if self.announcements.sweep() else _ASK_EVERY_S
@@ -292,6 +298,7 @@ class Bridges:
             with self._changed:
                 self._dirty.discard(one.zid)
             began_s = time.monotonic()
+            one.is_late = True  # also where reading what it tells fails: then the others come first
             self._ask_one(one, bounds)
             one.is_late = time.monotonic() - began_s > _LATE_S
             if one.is_late:
@@ -320,6 +327,7 @@ class Bridges:
             with self._changed:
                 self._is_stale = False
                 asked = [one for one in self._met.values() if one.asked]
+                asked.sort(key=lambda one: one.is_silent)
                 current, doubles = bridges_of(asked, self._domain)
                 is_same = current == self._current
                 self._current = current

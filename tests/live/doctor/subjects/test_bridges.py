@@ -222,6 +222,13 @@ def test_a_robot_under_two_namespaces_is_found(patient: Patient):
     assert shared.line == "zenoh-bridge-ros2dds -n /robot1 --ros-localhost-only"
 
 
+def test_a_line_to_type_holds_nothing_that_a_machine_is_named(patient: Patient):
+    mine = bridge("/driver", name="$(reboot)", settings=started(0, "/"))
+    yours = bridge("/robot2/driver", name="/robot2", settings=started(0, "/robot2"))
+    shared = found(patient, mine, replace(yours, zid="b1b1b1"))["shared-domain"]
+    assert shared.line == "zenoh-bridge-ros2dds -n /robot2 --ros-localhost-only"
+
+
 def test_nodes_on_fast_dds_bring_topics_only(patient: Patient):
     fast = bridge("/driver", participant="010f44b0ab51eec401000000000001c1")
     one = found(patient, fast)["fast-dds"]

@@ -34,6 +34,17 @@ def test_a_frame_that_headers_name_and_no_transform_is_missing(patient: Patient)
     assert "frame-missing" not in {one.code for one in examine(with_link).findings}
 
 
+def test_a_line_to_type_takes_a_frame_as_one_word(patient: Patient):
+    out = patient.publisher(SCAN, "/scan_of_evil")
+    patient.later_s = 2.0
+
+    def send() -> None:
+        out.publish(stamped(SCAN, "x; $(reboot)", time.time_ns()))
+
+    found = patient.until("frame-missing", "x; $(reboot)", do=send)
+    assert found.line.endswith("--child-frame-id 'x; $(reboot)'")
+
+
 def test_data_without_any_frame_is_a_warning_where_it_is_drawn(patient: Patient):
     scan = patient.publisher(SCAN, "/scan_of_no_frame")
     joints = patient.publisher("sensor_msgs/msg/JointState", "/joints_of_no_frame")
