@@ -63,15 +63,18 @@ def _unmatched(
 
 
 def _way(publisher: GraphEndpoint, subscription: GraphEndpoint, announcing: frozenset[str]) -> str:
-    """Return the code of profiles that do not match on their way; empty: there is no way at all."""
+    """Return the code of profiles that do not match on their way; empty: nothing comes of it.
+
+    There may be no way at all, and of what we subscribe to bridges are told with the profile of
+    the publisher on DDS.
+    """
     zids = publisher.node.zid, subscription.node.zid
     on_dds = [bool(one.node.bridge) for one in (publisher, subscription)]
     if not any(on_dds):
         return "qos"
     if all(on_dds):
         return "qos-on-dds" if zids[0] == zids[1] else "qos-through-bridge"
-    on_zenoh = zids[0] if on_dds[1] else zids[1]
-    return "qos-through-bridge" if on_zenoh in announcing else ""
+    return "qos-through-bridge" if on_dds[1] and zids[0] in announcing else ""
 
 
 _WAYS: Final[dict[str, tuple[Level, str]]] = {

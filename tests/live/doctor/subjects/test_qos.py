@@ -83,18 +83,21 @@ def test_profiles_that_match_are_well(patient: Patient):
 
 
 @pytest.mark.parametrize(
-    ("way", "code"), [("dds", "qos-on-dds"), ("announced", "qos-through-bridge"), ("zenoh", "")]
+    ("way", "code"),
+    [("dds", "qos-on-dds"), ("announces", "qos-through-bridge"), ("announced", ""), ("zenoh", "")],
 )
 def test_what_becomes_of_profiles_on_dds_goes_by_the_way(patient: Patient, way: str, code: str):
     offered = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
     out = graph_end(bridged_end("/on_dds", qos=offered))
     into = graph_end(bridged_end("/on_dds", "/listener", kind=EndpointKind.SUBSCRIPTION))
-    if way != "dds":
+    if way == "announces":
+        out = replace(out, node=replace(out.node, zid="c0c0c0", bridge=""))
+    elif way != "dds":
         into = replace(into, node=replace(into.node, zid="c0c0c0", bridge=""))
     seen = patient.seen()
     assert seen.system is not None
     system = replace(seen.system, topics={"/on_dds": Ends((out,), (into,))})
-    announcing = frozenset({"c0c0c0"}) if way == "announced" else frozenset[str]()
+    announcing = frozenset({"c0c0c0"}) if way != "zenoh" else frozenset[str]()
     answers = Answers({}, None, {}, {}, 0, (), announcing=announcing)
     found = [one.code for one in findings(replace(seen, system=system, answers=answers))]
     assert found == ([code] if code else [])
