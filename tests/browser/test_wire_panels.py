@@ -69,7 +69,7 @@ def look_around(window: Locator, alone: str, humble: str) -> None:
     for place, said, remedy in (
         (free_endpoint(), "No router answers at", "ros2 run rmw_zenoh_cpp rmw_zenohd"),
         (alone, "is running, but there are no nodes", "export RMW_IMPLEMENTATION=rmw_zenoh_cpp"),
-        (humble, "neither side receives the other's", "Switch to humble"),
+        (humble, "neither side can read the other's", "Switch to humble"),
     ):
         address.fill(place)
         domain.fill("0")
