@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.network
 ADD = "example_interfaces/srv/AddTwoInts"
 FIBONACCI = "example_interfaces/action/Fibonacci"
+STORAGES = ["mcap", pytest.param("sqlite3", marks=pytest.mark.sweep)]
 RECORDED = ("/chatter", "/odom", "/scan", "/robot_description")
 
 
@@ -109,14 +110,14 @@ def test_it_is_called_led_and_given_goals_and_parameters(world: World):
     assert run(world, "lifecycle", "get", "/arm") == "inactive [2]\n"
 
 
-@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+@pytest.mark.parametrize("storage", STORAGES)
 def test_it_is_recorded_and_played_back_to_it(world: World, tmp_path: Path, storage: str):
     bag = recorded(world, tmp_path / "bag", storage)
     whole(bag)
     played_back(world, bag, f"/again_{storage}")
 
 
-@pytest.mark.parametrize("storage", ["mcap", pytest.param("sqlite3", marks=pytest.mark.sweep)])
+@pytest.mark.parametrize("storage", STORAGES)
 def test_a_robot_without_hashes_of_types_is_recorded_and_hears_it(tmp_path: Path, storage: str):
     with classroom("humble") as world:
         bag = recorded(world, tmp_path / "bag", storage)

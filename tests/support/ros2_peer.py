@@ -124,7 +124,8 @@ def real_node(
 
     `line` is typed in its terminal before it is started, and may set variables of ROS.
     It stays until it is ended, unless the options give `--seconds`. It does not wait for a router:
-    `wait_said("ready")` tells that it is made.
+    `wait_said("ready")` tells that it is made. The end of the block kills it, as rclpy takes
+    seconds to end; who wants to see it leave calls `end`.
     """
     options = options if "--seconds" in options else (*options, "--seconds", "0")
     words = ("python3", str(ros2_peer() / "peer.py"), role, *options)
@@ -132,7 +133,7 @@ def real_node(
     try:
         yield node
     finally:
-        node.end()
+        node.kill()
 
 
 class RealNodes(RealNode):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -62,8 +64,7 @@ def test_all_but_what_is_excluded_in_the_storage_of_humble(endpoint: str, tmp_pa
              "--compression-format", "zstd", "--custom-data", "who=me", "where=here")  # fmt: skip
     with started(endpoint, "bag", "record", *words, "-o", str(bag)) as recording:
         recording.wait_for("Subscribed to topic '/chatter'")
-        wait_until("it has some", lambda: grows(bag))
-        wait_until("it has more", lambda: (bag / "bag_0.db3").stat().st_size > 60_000)
+        wait_until("it has more than five", lambda: _rows(bag / "bag_0.db3") > 5)
         recording.stop()
     found = counts(bag)
     assert found.keys() == {"/chatter", "/events/write_split", "/parameter_events"}
@@ -113,6 +114,11 @@ def test_little_is_said_where_only_errors_are_wanted(endpoint: str, tmp_path: Pa
         wait_until("it has some", lambda: grows(bag))
         assert recording.stop() == 0
         assert recording.printed == ""
+
+
+def _rows(database: Path) -> int:
+    with closing(sqlite3.connect(f"file:{database}?mode=ro", uri=True)) as reader:
+        return reader.execute("SELECT count(*) FROM messages").fetchone()[0]
 
 
 def _size(bag: Path) -> int:
