@@ -18,7 +18,7 @@ from studio.ros.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from studio.ros.tokens import EndpointKind
 from studio.ros.wire.zenoh import admin_answers
 from tests.support.dds_bridge import Bridge, DdsNetwork, DdsRobot
-from tests.support.demos import spun
+from tests.support.demos import node_at, spun
 from tests.support.node_pair import context_at
 from tests.support.pretend_bridge import PretendBridge
 from tests.support.wire import running_router, wait_until
@@ -54,9 +54,7 @@ def world() -> Generator[World]:
         network = stack.enter_context(DdsNetwork())
         bridge = network.bridge(connect=endpoint)
         robot = network.robot()
-        context = stack.enter_context(context_at(endpoint))
-        node = Node("studio_node", context=context)
-        stack.enter_context(spun(context, node))
+        node = stack.enter_context(node_at(endpoint, "studio_node"))
         yield World(network, bridge, robot, endpoint, node)
 
 
@@ -116,6 +114,26 @@ def test_a_message_from_dds_comes_once_with_its_publisher(world: World):
     wait_until("the last is heard", lambda: heard[-1][0] == "last")
     assert sum(data == "last" for data, _ in heard[count:]) == 1
     assert subscription.losses.lost == subscription.losses.refused == 0
+    world.node.destroy_subscription(subscription)
+
+
+@pytest.mark.parametrize(
+    ("kind", "shape"),
+    [
+        ("Image", {"height": 1080, "width": 1920, "step": 5760, "encoding": "rgb8"}),
+        ("PointCloud2", {"height": 1, "width": 60_000, "point_step": 16, "row_step": 960_000}),
+    ],
+)
+def test_images_and_clouds_of_dds_come_whole(world: World, kind: str, shape: dict[str, object]):
+    type_name, topic = f"sensor_msgs/msg/{kind}", f"/whole_{kind.lower()}"
+    size = 1080 * 5760 if kind == "Image" else 960_000
+    heard: list[MessageValue] = []
+    subscription = world.node.create_subscription(message(type_name), topic, heard.append, 10)
+    world.robot.ask("publish", topic=topic, type_name=type_name, values=shape,
+                    filled={"data": size}, rate_hz=5)  # fmt: skip
+    wait_until("one came", lambda: bool(heard))
+    world.robot.ask("stop", topic=topic)
+    assert (heard[0].width, len(heard[0].data)) == (shape["width"], size)
     world.node.destroy_subscription(subscription)
 
 

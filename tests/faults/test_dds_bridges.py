@@ -10,19 +10,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pytest
 
 from studio.ros.messages import message
-from studio.ros.node.node import Node
 from studio.ros.wire.bridges import bridges
 from studio.ros.wire.bridges.admin import Told, read_answers
 from studio.ros.wire.bridges.bridges import BRIDGES_MAX
 from studio.ros.wire.zenoh import declare_token, live_tokens
-from tests.support.demos import spun
-from tests.support.node_pair import context_at
+from tests.support.demos import node_at
 from tests.support.pretend_bridge import PretendBridge, talking_bridge
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from studio.ros.node.node import Node
     from studio.ros.wire.bridges.bridge import Bridge
 
 pytestmark = pytest.mark.network
@@ -51,9 +50,7 @@ class Met(NamedTuple):
 def met() -> Generator[Met]:
     with ExitStack() as stack:
         endpoint = stack.enter_context(running_router())
-        context = stack.enter_context(context_at(endpoint))
-        node = Node("studio_node", context=context)
-        stack.enter_context(spun(context, node))
+        node = stack.enter_context(node_at(endpoint, "studio_node"))
         yield Met(endpoint, node)
 
 

@@ -10,16 +10,15 @@ import pytest
 from studio.errors import CallRefusedError, CdrError, NoAnswerError, NotServedError
 from studio.ros.cdr import codec_of
 from studio.ros.messages import message, service
-from studio.ros.node.node import Node
 from studio.ros.wire.zenoh import REPLIES_WAITING_MAX
-from tests.support.demos import spun
-from tests.support.node_pair import context_at
+from tests.support.demos import node_at
 from tests.support.pretend_bridge import PretendBridge, talking_bridge
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
+    from studio.ros.node.node import Node
     from studio.ros.node.service_client import Client
 
 pytestmark = pytest.mark.network
@@ -52,9 +51,7 @@ def endpoint() -> Generator[str]:
 @pytest.fixture
 def met(endpoint: str) -> Generator[Met]:
     with ExitStack() as stack:
-        context = stack.enter_context(context_at(endpoint))
-        node = Node("studio_node", context=context)
-        stack.enter_context(spun(context, node))
+        node = stack.enter_context(node_at(endpoint, "studio_node"))
         bridge = stack.enter_context(talking_bridge(endpoint))
         wait_until("it is seen", lambda: bool(node.graph.publishers("/chatter")))
         yield Met(node, bridge)

@@ -9,7 +9,6 @@ import pytest
 
 from studio.ros.cdr import codec_of
 from studio.ros.messages import message, service
-from studio.ros.node.node import Node
 from studio.ros.node.raw_subscription import RawSubscription
 from studio.ros.profiles import NO_HASH
 from studio.ros.qos import QoSProfile
@@ -18,14 +17,14 @@ from studio.ros.wire.bridges import bridges
 from studio.ros.wire.bridges.bridges import BRIDGES_MAX
 from studio.ros.wire.bridges.dialect import BRIDGES
 from studio.ros.wire.zenoh import declare_token, live_tokens
-from tests.support.demos import spun
-from tests.support.node_pair import context_at
+from tests.support.demos import node_at
 from tests.support.pretend_bridge import CONFIG, PARTICIPANT, PretendBridge, talking_bridge
 from tests.support.wire import running_router, wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from studio.ros.node.node import Node
     from studio.ros.node.samples import RawSample
     from studio.ros.types.classes import MessageValue
 
@@ -47,9 +46,7 @@ class Met(NamedTuple):
 def met() -> Generator[Met]:
     with ExitStack() as stack:
         endpoint = stack.enter_context(running_router())
-        context = stack.enter_context(context_at(endpoint))
-        node = Node("studio_node", context=context)
-        stack.enter_context(spun(context, node))
+        node = stack.enter_context(node_at(endpoint, "studio_node"))
         yield Met(endpoint, node)
 
 
