@@ -153,7 +153,7 @@ def _other_domain(bridge: Bridge, domain: int, system: System) -> Finding:
             f"it was started for domain {domain}",
             f"its nodes: {nodes}" if nodes else "it found no node there",
         ),
-        mend=Mend(label=f"Join domain {domain}", command=command) if 0 <= domain <= 232 else None,
+        mend=Mend(label=f"Join domain {domain}", command=command),
         line=f"{PROGRAM} -d {system.domain}",
         about=(CONNECTION,),
     )

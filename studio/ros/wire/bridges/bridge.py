@@ -299,7 +299,7 @@ def _ends_of(met: Met, route: Route, node: DdsNode, prefix: str) -> Iterable[Bri
     for end in route_ends(route):
         local = end.name.removeprefix(prefix)
         dds = met.told.dds_ends.get((node.participant, RouteKind(end.kind.value), local))
-        is_topic = end.kind.value in {"MP", "MS"}
+        is_topic = end.kind in {EndpointKind.PUBLISHER, EndpointKind.SUBSCRIPTION}
         yield BridgedEnd(
             identity=f"{met.zid}/{node.participant}{node.path}/{end.kind}{end.name}",
             kind=end.kind,
