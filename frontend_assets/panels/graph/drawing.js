@@ -18,6 +18,8 @@ const STEP = 1.25;
 const WHEEL = 0.0016;
 /** Of more arrows only those of what is chosen say what they carry. */
 const SAID_MAX = 40;
+/** Of what stands below a box. */
+const MARK_LETTER_PX = 6.4;
 /** Of most frames, until it is seen. */
 const RATIO = 1.5;
 
@@ -53,11 +55,14 @@ export function GraphDrawing({ drawn, asked, rates, chosen, onFocus }) {
 function layOutDrawn({ boxes, arrows }, ratio) {
   const sized = boxes.map((box) => ({
     id: box.id,
-    width: boxWidth(box),
+    width: Math.max(boxWidth(box), [...markOf(box)].length * MARK_LETTER_PX),
     height: BOX_HEIGHT_PX,
   }));
   return layOut(sized, arrows, ratio);
 }
+
+/** @param {Box} box @returns {string} what stands below a node on DDS, beside the next one's */
+const markOf = ({ bridge }) => (bridge ? ddsMark(bridge) : "");
 
 /** @typedef {(change: (view: View) => View) => void} Move by a hand */
 
@@ -166,7 +171,7 @@ function BoxShape({ box, at, rates, chosen, onFocus }) {
   const width = boxWidth(box);
   const isChosen = chosen.value === box.id;
   const rate = box.kind === "topic" ? rateWords(rates.get(box.name)) : "";
-  const below = box.bridge ? ddsMark(box.bridge) : rate;
+  const below = markOf(box) || rate;
   const behind = box.bridge ? t("ros.behind", { name: box.bridge }) : "";
   const choose = () => {
     chosen.value = isChosen ? "" : box.id;
