@@ -11,6 +11,7 @@ import math
 import sys
 import threading
 import time
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -101,7 +102,7 @@ LOADS: Final = {
 }
 
 
-class Sender:
+class Sender(ABC):
     """Sends one load after the other, each at its rate."""
 
     def __init__(self) -> None:
@@ -124,9 +125,9 @@ class Sender:
         self._thread.join()
         return self._sent
 
+    @abstractmethod
     def publisher(self, load: Load) -> Callable[[bytearray], object]:
         """Make what sends CDR on the load's topic."""
-        raise NotImplementedError
 
     def _run(self, load: Load, publish: Callable[[bytearray], object]) -> None:
         cdr, begin_s = load.cdr(), time.monotonic()
